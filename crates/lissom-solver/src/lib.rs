@@ -1,1 +1,46 @@
-//! Placeholder.
+//! Sparse direct solvers for families of matrices that share one structurally symmetric pattern: symbolic
+//! analysis once, many factorisations into preallocated memory, solves without allocation.
+//!
+//! The matrices they are made for are saddle-point matrices `[A + p BᵀB, Bᵀ; B, 0]` whose first block is
+//! definite: eliminated in an order that keeps every multiplier behind the coordinates its equations act on,
+//! they need no pivoting, and all of the elimination is known before the first number is. The solvers know
+//! nothing of mechanics or of time.
+//!
+//! ```
+//! use std::sync::Arc;
+//! use lissom_solver::{Group, Pattern, Structure, kind};
+//!
+//! // Two coordinates, the second without stiffness of its own, and a multiplier that acts on both.
+//! let pattern = Arc::new(Pattern::from_cliques(3, [&[0, 1, 2][..]]));
+//! let groups = vec![
+//!     Group { unknowns: vec![0, 1], hosts: vec![] },
+//!     Group { unknowns: vec![2], hosts: vec![0] },
+//! ];
+//! let structure = Structure::new(pattern, groups).unwrap();
+//! let mut solver = (kind("skyline").unwrap().real)(&structure);
+//! solver.factor(&[4.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 0.0]).unwrap();
+//! let mut unknowns = [4.0, -1.0, 0.0];
+//! solver.solve(&mut unknowns);
+//! assert_eq!(unknowns, [1.0, 1.0, 1.0]);
+//! ```
+
+mod condition;
+mod dense;
+mod entries;
+mod ordering;
+mod pattern;
+mod report;
+mod scalar;
+mod skyline;
+mod solver;
+mod structure;
+
+pub use condition::condition_estimate;
+pub use dense::Dense;
+pub use ordering::{minimum_degree_order, profile_order};
+pub use pattern::Pattern;
+pub use report::{FactorError, FactorReport, TINY_PIVOT};
+pub use scalar::Scalar;
+pub use skyline::Skyline;
+pub use solver::{KINDS, LinearSolver, SolverKind, kind};
+pub use structure::{Group, Structure, StructureError};

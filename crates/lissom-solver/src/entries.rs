@@ -1,0 +1,36 @@
+//! First look at the values of a matrix: are they numbers, and how large is the largest.
+
+use crate::pattern::Pattern;
+use crate::report::FactorError;
+use crate::scalar::Scalar;
+
+/// Largest magnitude among the values.
+///
+/// # Errors
+/// [`FactorError::NotFinite`] with the column of the first value that is not finite.
+pub(crate) fn largest_entry<S: Scalar>(pattern: &Pattern, values: &[S]) -> Result<f64, FactorError> {
+    const LANES: usize = 8;
+    let mut largest = [0.0_f64; LANES];
+    // Zero times a finite number is zero, and anything else is not.
+    let mut probe = [0.0_f64; LANES];
+    let chunks = values.chunks_exact(LANES);
+    let rest = chunks.remainder();
+    for chunk in chunks {
+        for lane in 0..LANES {
+            let magnitude = chunk[lane].magnitude();
+            probe[lane] += magnitude * 0.0;
+            largest[lane] = if magnitude > largest[lane] { magnitude } else { largest[lane] };
+        }
+    }
+    for (lane, value) in rest.iter().enumerate() {
+        let magnitude = value.magnitude();
+        probe[lane] += magnitude * 0.0;
+        largest[lane] = largest[lane].max(magnitude);
+    }
+    if probe.iter().all(|&probe| probe == 0.0) {
+        return Ok(largest.iter().fold(0.0, |largest, &lane| largest.max(lane)));
+    }
+    let entry = values.iter().position(|value| !value.magnitude().is_finite()).unwrap_or(0);
+    let unknown = pattern.column_starts().partition_point(|&start| start <= entry) - 1;
+    Err(FactorError::NotFinite { unknown })
+}

@@ -1,0 +1,186 @@
+//! Structurally symmetric sparse patterns in compressed columns. Knows positions, never values.
+
+use crate::scalar::Scalar;
+
+/// Positions of the entries of a structurally symmetric matrix: compressed columns, rows sorted, the whole
+/// diagonal present. Values are kept elsewhere, one per entry, in the order of [`Pattern::row_indices`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Pattern {
+    size: usize,
+    column_starts: Vec<usize>,
+    row_indices: Vec<usize>,
+}
+
+impl Pattern {
+    /// The pattern in which every clique couples all of its unknowns with one another.
+    ///
+    /// # Panics
+    /// If a clique names an unknown that is not below `size`.
+    pub fn from_cliques<'a>(size: usize, cliques: impl IntoIterator<Item = &'a [usize]>) -> Pattern {
+        let mut members = Vec::new();
+        let mut starts = vec![0];
+        for clique in cliques {
+            members.extend_from_slice(clique);
+            starts.push(members.len());
+        }
+        assert!(members.iter().all(|&unknown| unknown < size), "a clique names an unknown beyond the size");
+        let clique_of = |position: usize| starts.partition_point(|&start| start <= position) - 1;
+        let mut memberships: Vec<Vec<usize>> = vec![Vec::new(); size];
+        let mut clique = 0;
+        for (position, &unknown) in members.iter().enumerate() {
+            if position >= starts[clique + 1] {
+                clique = clique_of(position);
+            }
+            if memberships[unknown].last() != Some(&clique) {
+                memberships[unknown].push(clique);
+            }
+        }
+
+        let mut column_starts = Vec::with_capacity(size + 1);
+        column_starts.push(0);
+        let mut row_indices: Vec<usize> = Vec::new();
+        let mut seen = vec![usize::MAX; size];
+        for column in 0..size {
+            let begin = row_indices.len();
+            let cliques = &memberships[column];
+            // The coordinates of one node sit in the same cliques: their columns are copies of one another.
+            if column > 0 && !cliques.is_empty() && *cliques == memberships[column - 1] {
+                row_indices.extend_from_within(column_starts[column - 1]..begin);
+            } else {
+                seen[column] = column;
+                row_indices.push(column);
+                for &clique in cliques {
+                    for &row in &members[starts[clique]..starts[clique + 1]] {
+                        if seen[row] != column {
+                            seen[row] = column;
+                            row_indices.push(row);
+                        }
+                    }
+                }
+                row_indices[begin..].sort_unstable();
+            }
+            column_starts.push(row_indices.len());
+        }
+        Pattern { size, column_starts, row_indices }
+    }
+
+    /// The smallest structurally symmetric pattern with a full diagonal that holds the given `(row, column)`
+    /// positions. Repetitions are welcome.
+    ///
+    /// # Panics
+    /// If a position is not below `size`.
+    pub fn from_entries(size: usize, entries: impl IntoIterator<Item = (usize, usize)>) -> Pattern {
+        let mut columns: Vec<Vec<usize>> = (0..size).map(|unknown| vec![unknown]).collect();
+        for (row, column) in entries {
+            assert!(row < size && column < size, "an entry lies beyond the size");
+            columns[column].push(row);
+            columns[row].push(column);
+        }
+        let mut column_starts = Vec::with_capacity(size + 1);
+        column_starts.push(0);
+        let mut row_indices = Vec::new();
+        for mut rows in columns {
+            rows.sort_unstable();
+            rows.dedup();
+            row_indices.append(&mut rows);
+            column_starts.push(row_indices.len());
+        }
+        Pattern { size, column_starts, row_indices }
+    }
+
+    /// Number of rows and of columns.
+    #[inline]
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// Number of stored entries, zeros of a particular matrix included.
+    #[inline]
+    pub fn entries(&self) -> usize {
+        self.row_indices.len()
+    }
+
+    /// The rows of the entries of a column, ascending.
+    #[inline]
+    pub fn column(&self, column: usize) -> &[usize] {
+        &self.row_indices[self.column_starts[column]..self.column_starts[column + 1]]
+    }
+
+    /// Where each column begins among the values; `size + 1` numbers.
+    #[inline]
+    pub fn column_starts(&self) -> &[usize] {
+        &self.column_starts
+    }
+
+    /// The row of every entry, column after column.
+    #[inline]
+    pub fn row_indices(&self) -> &[usize] {
+        &self.row_indices
+    }
+
+    /// Index into the values of the entry at `(row, column)`, if it is in the pattern.
+    pub fn position(&self, row: usize, column: usize) -> Option<usize> {
+        if column >= self.size {
+            return None;
+        }
+        self.column(column).binary_search(&row).ok().map(|offset| self.column_starts[column] + offset)
+    }
+
+    /// `product = A x` for the matrix with these values.
+    ///
+    /// # Panics
+    /// If a slice has the wrong length.
+    pub fn multiply<S: Scalar>(&self, values: &[S], vector: &[S], product: &mut [S]) {
+        assert!(values.len() == self.entries() && vector.len() == self.size && product.len() == self.size);
+        product.fill(S::zero());
+        for (column, &factor) in vector.iter().enumerate() {
+            let range = self.column_starts[column]..self.column_starts[column + 1];
+            for (&row, &value) in self.row_indices[range.clone()].iter().zip(&values[range]) {
+                product[row] += value * factor;
+            }
+        }
+    }
+
+    /// `product = Aᵀ x` for the matrix with these values.
+    ///
+    /// # Panics
+    /// If a slice has the wrong length.
+    pub fn multiply_transposed<S: Scalar>(&self, values: &[S], vector: &[S], product: &mut [S]) {
+        assert!(values.len() == self.entries() && vector.len() == self.size && product.len() == self.size);
+        for (column, result) in product.iter_mut().enumerate() {
+            let range = self.column_starts[column]..self.column_starts[column + 1];
+            let mut sum = S::zero();
+            for (&row, &value) in self.row_indices[range.clone()].iter().zip(&values[range]) {
+                sum += value * vector[row];
+            }
+            *result = sum;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cliques_and_entries_agree() {
+        let cliques: [&[usize]; 3] = [&[0, 1, 4], &[4, 2], &[4, 1]];
+        let by_cliques = Pattern::from_cliques(6, cliques);
+        let pairs = cliques.iter().flat_map(|clique| {
+            clique.iter().flat_map(move |&row| clique.iter().map(move |&column| (row, column)))
+        });
+        assert_eq!(by_cliques, Pattern::from_entries(6, pairs));
+        assert_eq!(by_cliques.column(4), [0, 1, 2, 4]);
+        assert_eq!(by_cliques.column(3), [3]);
+        assert_eq!(by_cliques.position(1, 4), Some(by_cliques.column_starts()[4] + 1));
+        assert_eq!(by_cliques.position(0, 2), None);
+        assert_eq!(by_cliques.position(0, 9), None);
+    }
+
+    #[test]
+    fn empty_cliques_between_others_change_nothing() {
+        let with: [&[usize]; 4] = [&[], &[0, 1], &[], &[1, 2]];
+        let without: [&[usize]; 2] = [&[0, 1], &[1, 2]];
+        assert_eq!(Pattern::from_cliques(3, with), Pattern::from_cliques(3, without));
+    }
+}

@@ -1,0 +1,108 @@
+//! What a factorisation tells about itself, and why it may refuse. Knows unknowns by number only.
+
+/// A pivot is refused when elimination has cancelled it down to this fraction of the terms it is the sum of:
+/// `|pivot| ≤ TINY_PIVOT (|a_ii| + Σ |l_ik u_ki|)`.
+///
+/// About 45 units of round-off: what is left then is noise. The comparison is with the terms of the pivot's own
+/// diagonal, so it does not change when rows and columns are scaled: in an unscaled index-3 matrix a
+/// good pivot may be 1e-27 of the largest one.
+pub const TINY_PIVOT: f64 = 1e-14;
+
+/// Monitor of a factorisation that went through.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FactorReport {
+    /// Smallest magnitude of a pivot.
+    pub smallest_pivot: f64,
+    /// The unknown of that pivot.
+    pub smallest_pivot_unknown: usize,
+    /// Largest magnitude of a pivot.
+    pub largest_diagonal: f64,
+    /// Largest `|u_ij|` over largest `|a_ij|`.
+    pub growth: f64,
+    /// Smallest ratio of a pivot to the sum of the magnitudes of the terms it is made of: 1 where nothing
+    /// cancels, near the round-off unit for a redundant constraint. It does not change when rows and columns are scaled. Solvers
+    /// that pivot report the ratio of the smallest to the largest pivot here.
+    pub worst_cancellation: f64,
+    /// The unknown of that pivot.
+    pub worst_cancellation_unknown: usize,
+}
+
+impl FactorReport {
+    /// Smallest over largest pivot.
+    pub fn relative_pivot(&self) -> f64 {
+        self.smallest_pivot / self.largest_diagonal
+    }
+}
+
+/// Why a factorisation stopped. The factors are then not to be used.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum FactorError {
+    /// A pivot is zero, or round-off: the matrix is singular, or this unknown needs pivoting.
+    #[error("the pivot of unknown {unknown} vanishes: {pivot:e} is left of terms that sum up to {largest:e}")]
+    ZeroPivot {
+        /// The unknown.
+        unknown: usize,
+        /// Magnitude of the pivot.
+        pivot: f64,
+        /// Sum of the magnitudes of the terms the pivot is made of.
+        largest: f64,
+    },
+    /// An entry, or a number on the way, is infinite or not a number.
+    #[error("a number in the equations of unknown {unknown} is infinite or not a number")]
+    NotFinite {
+        /// The unknown: column of the entry, or of the pivot.
+        unknown: usize,
+    },
+}
+
+/// Collects the report while pivots come in.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Monitor {
+    smallest: (f64, usize),
+    largest: f64,
+    cancellation: (f64, usize),
+}
+
+impl Monitor {
+    pub(crate) fn new() -> Monitor {
+        Monitor { smallest: (f64::INFINITY, 0), largest: 0.0, cancellation: (f64::INFINITY, 0) }
+    }
+
+    /// Takes note of a pivot, or refuses it; `terms` is the sum of the magnitudes it was made of.
+    #[inline]
+    pub(crate) fn pivot(&mut self, unknown: usize, pivot: f64, terms: f64) -> Result<(), FactorError> {
+        // Infinite terms with a finite pivot cannot be; a pivot that is not a number fails both comparisons.
+        if pivot > TINY_PIVOT * terms && pivot < f64::INFINITY {
+            if pivot < self.smallest.0 {
+                self.smallest = (pivot, unknown);
+            }
+            self.largest = self.largest.max(pivot);
+            if pivot < self.cancellation.0 * terms {
+                self.cancellation = (pivot / terms, unknown);
+            }
+            return Ok(());
+        }
+        Err(refusal(unknown, pivot, terms))
+    }
+
+    pub(crate) fn report(&self, largest_upper: f64, largest_entry: f64) -> FactorReport {
+        let growth = if largest_entry > 0.0 { largest_upper / largest_entry } else { 0.0 };
+        FactorReport {
+            smallest_pivot: self.smallest.0,
+            smallest_pivot_unknown: self.smallest.1,
+            largest_diagonal: self.largest,
+            growth,
+            worst_cancellation: self.cancellation.0,
+            worst_cancellation_unknown: self.cancellation.1,
+        }
+    }
+}
+
+#[cold]
+fn refusal(unknown: usize, pivot: f64, terms: f64) -> FactorError {
+    if pivot.is_finite() && terms.is_finite() {
+        FactorError::ZeroPivot { unknown, pivot, largest: terms }
+    } else {
+        FactorError::NotFinite { unknown }
+    }
+}

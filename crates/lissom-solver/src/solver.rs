@@ -1,0 +1,74 @@
+//! The interface every solver meets and the table of the kinds there are. Knows no algorithm.
+
+use num_complex::Complex64;
+
+use crate::report::{FactorError, FactorReport};
+use crate::scalar::Scalar;
+use crate::structure::Structure;
+use crate::{dense, skyline};
+
+/// Factors matrices of one structure, again and again, and solves with the last one factored.
+pub trait LinearSolver<S: Scalar>: Send {
+    /// Name of its kind.
+    fn name(&self) -> &'static str;
+
+    /// Factors the matrix with the given values, in the order of the pattern. Without allocation where the
+    /// solver does not pivot.
+    ///
+    /// # Errors
+    /// If a pivot vanishes or a number is not finite. The solver must then not be used to solve until a later
+    /// factorisation goes through.
+    ///
+    /// # Panics
+    /// If there are not as many values as entries in the pattern.
+    fn factor(&mut self, values: &[S]) -> Result<FactorReport, FactorError>;
+
+    /// Solves `A x = b` in place, without allocation.
+    ///
+    /// # Panics
+    /// If the right-hand side has the wrong length.
+    fn solve(&mut self, right_hand_side: &mut [S]);
+
+    /// Solves `Aᵀ x = b` in place, without allocation. Transposed, not conjugated.
+    ///
+    /// # Panics
+    /// If the right-hand side has the wrong length.
+    fn solve_transposed(&mut self, right_hand_side: &mut [S]);
+
+    /// Count of stored numbers in L and U.
+    fn factor_entries(&self) -> usize;
+}
+
+/// A kind of solver: one line in [`KINDS`].
+pub struct SolverKind {
+    /// Name, as written in input files.
+    pub name: &'static str,
+    /// One line for manuals.
+    pub summary: &'static str,
+    /// Symbolic analysis for real matrices.
+    pub real: fn(&Structure) -> Box<dyn LinearSolver<f64>>,
+    /// Symbolic analysis for complex matrices.
+    pub complex: fn(&Structure) -> Box<dyn LinearSolver<Complex64>>,
+}
+
+/// Every kind of solver, the default first. The constructors panic on a structure that
+/// [`Structure::check`] refuses.
+pub static KINDS: &[SolverKind] = &[
+    SolverKind {
+        name: skyline::NAME,
+        summary: "profile storage without pivoting: short, readable, good for chains",
+        real: |structure| Box::new(skyline::Skyline::<f64>::new(structure)),
+        complex: |structure| Box::new(skyline::Skyline::<Complex64>::new(structure)),
+    },
+    SolverKind {
+        name: dense::NAME,
+        summary: "dense matrix with partial pivoting: reference for small sizes",
+        real: |structure| Box::new(dense::Dense::<f64>::new(structure)),
+        complex: |structure| Box::new(dense::Dense::<Complex64>::new(structure)),
+    },
+];
+
+/// The kind of that name.
+pub fn kind(name: &str) -> Option<&'static SolverKind> {
+    KINDS.iter().find(|kind| kind.name == name)
+}

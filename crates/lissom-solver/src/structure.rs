@@ -1,0 +1,162 @@
+//! What a solver is told before it sees numbers: the pattern, and which unknowns are eliminated together and
+//! after which others. Knows nothing of what the unknowns mean.
+
+use std::sync::Arc;
+
+use crate::pattern::Pattern;
+
+/// A set of unknowns that is eliminated together, in the order given: the coordinates of a node, or the
+/// multipliers of one joint.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Group {
+    /// The unknowns, in their order of elimination.
+    pub unknowns: Vec<usize>,
+    /// The groups whose coordinates the equations of this group act on. Without pivoting it must be
+    /// eliminated after all of them, and comes right after the last. Empty for coordinates.
+    pub hosts: Vec<usize>,
+}
+
+/// Pattern and groups of a family of matrices. The groups partition the unknowns.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Structure {
+    /// Where entries may be.
+    pub pattern: Arc<Pattern>,
+    /// What is eliminated together.
+    pub groups: Vec<Group>,
+}
+
+/// What is wrong with a [`Structure`].
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum StructureError {
+    /// A group names an unknown that does not exist.
+    #[error("group {group} names unknown {unknown}, but there are only {size}")]
+    UnknownOutOfRange {
+        /// The group.
+        group: usize,
+        /// The unknown.
+        unknown: usize,
+        /// Number of unknowns.
+        size: usize,
+    },
+    /// An unknown is in no group.
+    #[error("unknown {unknown} is in no group")]
+    Ungrouped {
+        /// The unknown.
+        unknown: usize,
+    },
+    /// An unknown is in more than one group, or twice in one.
+    #[error("unknown {unknown} appears again in group {group}")]
+    Repeated {
+        /// The unknown.
+        unknown: usize,
+        /// The group of its second appearance.
+        group: usize,
+    },
+    /// A group names a host that does not exist.
+    #[error("group {group} names host group {host}, but there are only {groups}")]
+    HostOutOfRange {
+        /// The group.
+        group: usize,
+        /// The host.
+        host: usize,
+        /// Number of groups.
+        groups: usize,
+    },
+    /// Hosts form a cycle.
+    #[error("group {group} is, by way of its hosts, to be eliminated after itself")]
+    CyclicHosts {
+        /// A group on the cycle or behind it.
+        group: usize,
+    },
+}
+
+impl Structure {
+    /// Pattern and groups, checked.
+    ///
+    /// # Errors
+    /// If the groups do not partition the unknowns or their hosts cannot be eliminated first.
+    pub fn new(pattern: Arc<Pattern>, groups: Vec<Group>) -> Result<Structure, StructureError> {
+        let structure = Structure { pattern, groups };
+        structure.check()?;
+        Ok(structure)
+    }
+
+    /// The structure in which every unknown is a group of its own, without hosts.
+    pub fn ungrouped(pattern: Arc<Pattern>) -> Structure {
+        let groups =
+            (0..pattern.size()).map(|unknown| Group { unknowns: vec![unknown], hosts: vec![] }).collect();
+        Structure { pattern, groups }
+    }
+
+    /// Whether the groups partition the unknowns and their hosts can be eliminated first.
+    ///
+    /// # Errors
+    /// The first fault found.
+    pub fn check(&self) -> Result<(), StructureError> {
+        let size = self.pattern.size();
+        let mut seen = vec![false; size];
+        for (group, Group { unknowns, hosts }) in self.groups.iter().enumerate() {
+            for &unknown in unknowns {
+                if unknown >= size {
+                    return Err(StructureError::UnknownOutOfRange { group, unknown, size });
+                }
+                if std::mem::replace(&mut seen[unknown], true) {
+                    return Err(StructureError::Repeated { unknown, group });
+                }
+            }
+            if let Some(&host) = hosts.iter().find(|&&host| host >= self.groups.len()) {
+                return Err(StructureError::HostOutOfRange { group, host, groups: self.groups.len() });
+            }
+        }
+        if let Some(unknown) = seen.iter().position(|&seen| !seen) {
+            return Err(StructureError::Ungrouped { unknown });
+        }
+        let order = crate::ordering::in_host_order(&self.groups, 0..self.groups.len());
+        let mut placed = vec![false; self.groups.len()];
+        for group in order {
+            placed[group] = true;
+        }
+        match placed.iter().position(|&placed| !placed) {
+            Some(group) => Err(StructureError::CyclicHosts { group }),
+            None => Ok(()),
+        }
+    }
+
+    /// The unknowns in the order of elimination, for an order of the groups.
+    pub(crate) fn unknowns_in_order(&self, order: &[usize]) -> Vec<usize> {
+        order.iter().flat_map(|&group| self.groups[group].unknowns.iter().copied()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn group(unknowns: &[usize], hosts: &[usize]) -> Group {
+        Group { unknowns: unknowns.to_vec(), hosts: hosts.to_vec() }
+    }
+
+    #[test]
+    fn faults_are_named() {
+        let check = |groups: Vec<Group>| {
+            Structure::new(Arc::new(Pattern::from_entries(3, [])), groups).map(|_| ()).unwrap_err()
+        };
+        assert_eq!(check(vec![group(&[0, 1], &[])]), StructureError::Ungrouped { unknown: 2 });
+        assert_eq!(
+            check(vec![group(&[0, 1], &[]), group(&[1, 2], &[])]),
+            StructureError::Repeated { unknown: 1, group: 1 }
+        );
+        assert_eq!(
+            check(vec![group(&[0, 3], &[])]),
+            StructureError::UnknownOutOfRange { group: 0, unknown: 3, size: 3 }
+        );
+        assert_eq!(
+            check(vec![group(&[0, 1], &[]), group(&[2], &[7])]),
+            StructureError::HostOutOfRange { group: 1, host: 7, groups: 2 }
+        );
+        assert_eq!(
+            check(vec![group(&[0], &[]), group(&[1], &[2]), group(&[2], &[0, 1])]),
+            StructureError::CyclicHosts { group: 1 }
+        );
+    }
+}
