@@ -1,0 +1,250 @@
+//! The scalar coefficients of the exponential and its tangent as functions of `q = θ²`, with derivatives by `q`.
+//! Knows scalars only, no vectors.
+//!
+//! Legend: `S_k(q) = Σ_j (-q)ʲ/(2j + k)!`, so `S_0 = cos θ`, `S_1 = sin θ/θ`, `b = S_2 = (1 - cos θ)/θ²`,
+//! `c = S_3 = (θ - sin θ)/θ³` (Stumpff's functions), `e = (1 - (θ/2) cot(θ/2))/θ²`.
+
+/// Below this `q` a short series reaches full accuracy.
+const TINY: f64 = 1.0 / 16.0;
+/// Below this `q` the series of medium length does.
+const SMALL: f64 = 1.0;
+const TINY_TERMS: usize = 7;
+const SMALL_TERMS: usize = 10;
+const TERMS: usize = 20;
+
+/// Up to this `q` the series is at least as accurate as the closed form, when `ORDERS - 1` derivatives are
+/// asked for: each derivative costs the closed form about a digit more near zero.
+const SERIES_UP_TO: [f64; 5] = [0.0, 2.0, 5.0, 12.0, 18.0];
+
+/// Series of the derivatives: `SERIES[j][m][k]` is the coefficient of `qʲ` in the `m`-th derivative of `S_(k+2)`.
+const SERIES: [[[f64; 2]; 4]; TERMS] = {
+    let mut table = [[[0.0; 2]; 4]; TERMS];
+    let mut j = 0;
+    while j < TERMS {
+        let mut m = 0;
+        while m < 4 {
+            let sign = if (j + m) % 2 == 0 { 1.0 } else { -1.0 };
+            let weight = sign * falling_product(j + m, m);
+            table[j][m] = [weight / factorial(2 * (j + m) + 2), weight / factorial(2 * (j + m) + 3)];
+            m += 1;
+        }
+        j += 1;
+    }
+    table
+};
+
+/// Series of `cos` and `sin(x)/x` by `x²`.
+const CIRCULAR: [[f64; 2]; SMALL_TERMS] = {
+    let mut table = [[0.0; 2]; SMALL_TERMS];
+    let mut j = 0;
+    while j < SMALL_TERMS {
+        let sign = if j % 2 == 0 { 1.0 } else { -1.0 };
+        table[j] = [sign / factorial(2 * j), sign / factorial(2 * j + 1)];
+        j += 1;
+    }
+    table
+};
+
+const fn factorial(n: usize) -> f64 {
+    falling_product(n, n)
+}
+
+/// `n (n - 1) …` of `count` factors.
+const fn falling_product(n: usize, count: usize) -> f64 {
+    let mut product = 1.0;
+    let mut i = 0;
+    while i < count {
+        product *= (n - i) as f64;
+        i += 1;
+    }
+    product
+}
+
+/// Cosine of the half angle, and sine of the half angle divided by the whole angle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct HalfAngle {
+    pub(crate) cosine: f64,
+    pub(crate) sine_by_angle: f64,
+}
+
+impl HalfAngle {
+    /// From the square of the whole angle.
+    #[inline]
+    pub(crate) fn from_square(q: f64) -> Self {
+        let quarter = 0.25 * q;
+        if q < TINY {
+            let [cosine, sine] = horner(&CIRCULAR[..TINY_TERMS - 1], quarter);
+            Self { cosine, sine_by_angle: 0.5 * sine }
+        } else if q < SMALL {
+            let [cosine, sine] = horner(&CIRCULAR, quarter);
+            Self { cosine, sine_by_angle: 0.5 * sine }
+        } else {
+            let angle = q.sqrt();
+            let (sine, cosine) = (0.5 * angle).sin_cos();
+            Self { cosine, sine_by_angle: sine / angle }
+        }
+    }
+}
+
+/// `[b, c]` and their derivatives by `q` up to order `ORDERS - 1` (at most 3).
+#[inline]
+pub(crate) fn exponential_coefficients<const ORDERS: usize>(q: f64) -> [[f64; 2]; ORDERS] {
+    if q < TINY {
+        series(&SERIES[..TINY_TERMS], q)
+    } else if q < SMALL {
+        series(&SERIES[..SMALL_TERMS], q)
+    } else if q < SERIES_UP_TO[ORDERS] {
+        series(&SERIES, q)
+    } else {
+        closed_form(q, HalfAngle::from_square(q))
+    }
+}
+
+/// `[b, c]`, where the half angle is known already.
+#[inline]
+pub(crate) fn exponential_values(q: f64, half: HalfAngle) -> [f64; 2] {
+    if q < SMALL {
+        let [values] = exponential_coefficients::<1>(q);
+        values
+    } else {
+        let [values] = closed_form::<1>(q, half);
+        values
+    }
+}
+
+#[inline]
+fn horner(table: &[[f64; 2]], x: f64) -> [f64; 2] {
+    let mut sum = [0.0; 2];
+    for row in table.iter().rev() {
+        sum = [sum[0] * x + row[0], sum[1] * x + row[1]];
+    }
+    sum
+}
+
+#[inline]
+fn series<const ORDERS: usize>(table: &[[[f64; 2]; 4]], q: f64) -> [[f64; 2]; ORDERS] {
+    let mut sum = [[0.0; 2]; ORDERS];
+    for row in table.iter().rev() {
+        for m in 0..ORDERS {
+            sum[m] = [sum[m][0] * q + row[m][0], sum[m][1] * q + row[m][1]];
+        }
+    }
+    sum
+}
+
+/// Upward recursion `S_(k+2) = (1/k! - S_k)/q`, then `dS_k/dq = (k S_(k+2) - S_(k+1))/2` once per order.
+#[inline]
+fn closed_form<const ORDERS: usize>(q: f64, half: HalfAngle) -> [[f64; 2]; ORDERS] {
+    const INVERSE_FACTORIAL: [f64; 8] =
+        [1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0];
+    let inverse = 1.0 / q;
+    let mut s = [0.0; 10];
+    s[2] = 2.0 * half.sine_by_angle * half.sine_by_angle;
+    s[3] = (1.0 - 2.0 * half.sine_by_angle * half.cosine) * inverse;
+    for k in 4..2 * ORDERS + 2 {
+        s[k] = (INVERSE_FACTORIAL[k - 2] - s[k - 2]) * inverse;
+    }
+    let mut result = [[0.0; 2]; ORDERS];
+    result[0] = [s[2], s[3]];
+    for m in 1..ORDERS {
+        for k in 2..2 * (ORDERS - m) + 2 {
+            s[k] = 0.5 * (k as f64 * s[k + 2] - s[k + 1]);
+        }
+        result[m] = [s[2], s[3]];
+    }
+    result
+}
+
+/// The first poles `4π²n²` of `e`.
+const POLES: [f64; 3] = [39.478_417_604_357_43, 157.913_670_417_429_73, 355.305_758_439_216_9];
+/// Beyond this `q` (past the first pole) the closed form of `e` is used.
+const POLES_UP_TO: f64 = 60.0;
+/// `2 Σ_(n≥4) (4π²n²)^-(k+1)`: the series of `e` without its first three poles.
+const REMAINDER: [f64; 20] = [
+    1.437_863_891_007_568_4e-2,
+    9.595_555_480_779_425e-6,
+    1.125_714_338_300_260_9e-8,
+    1.538_897_956_518_107_3e-11,
+    2.247_318_965_080_410_4e-14,
+    3.394_356_459_763_464e-17,
+    5.223_754_698_482_221_5e-20,
+    8.127_414_828_310_521e-23,
+    1.272_843_048_024_265_6e-25,
+    2.001_458_998_678_854_4e-28,
+    3.155_044_680_287_923e-31,
+    4.981_335_263_797_585e-34,
+    7.872_558_284_510_73e-37,
+    1.244_968_366_250_882_4e-39,
+    1.969_580_735_610_114e-42,
+    3.116_731_900_957_955_5e-45,
+    4.932_821_196_232_198_6e-48,
+    7.807_934_479_359_275e-51,
+    1.235_963_388_287_838_3e-53,
+    1.956_560_904_780_354_5e-56,
+];
+const REMAINDER_TERMS: usize = 16;
+const SMALL_REMAINDER_TERMS: usize = 6;
+
+/// `REMAINDER_SERIES[j][m]` is the coefficient of `qʲ` in the `m`-th derivative of the remainder.
+const REMAINDER_SERIES: [[f64; 4]; REMAINDER_TERMS] = {
+    let mut table = [[0.0; 4]; REMAINDER_TERMS];
+    let mut j = 0;
+    while j < REMAINDER_TERMS {
+        let mut m = 0;
+        while m < 4 {
+            table[j][m] = falling_product(j + m, m) * REMAINDER[j + m];
+            m += 1;
+        }
+        j += 1;
+    }
+    table
+};
+
+/// `e` and its derivatives by `q` up to order `ORDERS - 1` (at most 3).
+///
+/// From Euler's expansion of the cotangent, `e = 2 Σ_n 1/(4π²n² - q)`: every term is positive below the first pole,
+/// so neither `e` nor a derivative of it loses a digit, whatever the angle. At the pole itself (a whole turn, where
+/// the tangent has no inverse) the distance to it is replaced by its rounding error, so that values stay finite.
+#[inline]
+pub(crate) fn inverse_coefficients<const ORDERS: usize>(q: f64) -> [f64; ORDERS] {
+    if q > POLES_UP_TO {
+        return inverse_closed_form(q);
+    }
+    let terms = if q < SMALL { SMALL_REMAINDER_TERMS } else { REMAINDER_TERMS };
+    let mut sum = [0.0; ORDERS];
+    for row in REMAINDER_SERIES[..terms].iter().rev() {
+        for m in 0..ORDERS {
+            sum[m] = sum[m] * q + row[m];
+        }
+    }
+    for pole in POLES {
+        let mut distance = pole - q;
+        if distance == 0.0 {
+            distance = pole * f64::EPSILON;
+        }
+        let inverse = 1.0 / distance;
+        let mut term = 2.0 * inverse;
+        for m in 0..ORDERS {
+            sum[m] += term;
+            term *= inverse * (m + 1) as f64;
+        }
+    }
+    sum
+}
+
+/// With `γ = (θ/2) cot(θ/2)`: `2 q γ' = γ - γ² - q/4`, differentiated twice more, and `e = (1 - γ)/q`.
+#[cold]
+fn inverse_closed_form<const ORDERS: usize>(q: f64) -> [f64; ORDERS] {
+    let half = HalfAngle::from_square(q);
+    let mut gamma = [0.0; 4];
+    gamma[0] = 0.5 * half.cosine / half.sine_by_angle;
+    gamma[1] = (gamma[0] - gamma[0] * gamma[0] - 0.25 * q) / (2.0 * q);
+    gamma[2] = (-gamma[1] - 2.0 * gamma[0] * gamma[1] - 0.25) / (2.0 * q);
+    gamma[3] = (-3.0 * gamma[2] - 2.0 * gamma[1] * gamma[1] - 2.0 * gamma[0] * gamma[2]) / (2.0 * q);
+    let mut result = [0.0; ORDERS];
+    result[0] = (1.0 - gamma[0]) / q;
+    for m in 1..ORDERS {
+        result[m] = (-gamma[m] - m as f64 * result[m - 1]) / q;
+    }
+    result
+}
