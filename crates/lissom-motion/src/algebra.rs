@@ -36,7 +36,7 @@ pub fn rotation_part(v: &Vector6) -> Vector3 {
 
 /// The matrix `ad_V = [[θ̃, ũ], [0, θ̃]]` of the twist `V = (u; θ)`.
 pub fn lie_bracket_matrix(v: &Vector6) -> Matrix6 {
-    DualMatrix::skew(DualVector::from_twist(v)).from_twist_to_twist()
+    DualMatrix::skew(DualVector::from_twist(v)).to_twist_matrix()
 }
 
 /// The Lie bracket of two twists, `ad_V W = (θ_v × u_w + u_v × θ_w; θ_v × θ_w)`.
@@ -53,5 +53,5 @@ pub fn coadjoint_times(v: &Vector6, w: &Vector6) -> Vector6 {
 
 /// The matrix `X(W) = [[0, ñ], [ñ, m̃]]` of the wrench `w = (n; m)` with `ad_Vᵀ W = X(W) V`.
 pub fn coadjoint_matrix(w: &Vector6) -> Matrix6 {
-    DualMatrix::skew(DualVector::from_wrench(w)).from_twist_to_wrench()
+    DualMatrix::skew(DualVector::from_wrench(w)).to_wrench_matrix()
 }

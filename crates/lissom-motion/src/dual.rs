@@ -94,9 +94,9 @@ impl DualMatrix {
         }
     }
 
-    /// The 6 x 6 matrix `[[dual block of translations]]` between twists: `[[A, B], [0, A]]` of `A + ε B`.
+    /// The 6 x 6 matrix from twists to twists: `[[A, B], [0, A]]` of `A + ε B`.
     #[inline]
-    pub(crate) fn from_twist_to_twist(self) -> Matrix6 {
+    pub(crate) fn to_twist_matrix(self) -> Matrix6 {
         let mut matrix = Matrix6::zeros();
         matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&self.real);
         matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&self.dual);
@@ -106,7 +106,7 @@ impl DualMatrix {
 
     /// The 6 x 6 matrix from twists to wrenches: `[[0, A], [A, B]]` of `A + ε B`.
     #[inline]
-    pub(crate) fn from_twist_to_wrench(self) -> Matrix6 {
+    pub(crate) fn to_wrench_matrix(self) -> Matrix6 {
         let mut matrix = Matrix6::zeros();
         matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&self.real);
         matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&self.real);

@@ -19,6 +19,9 @@ mod motion;
 mod operator;
 mod rotation;
 mod tangent;
+#[cfg(test)]
+#[path = "../tests/exactness/wide.rs"]
+mod wide;
 
 pub use algebra::{
     axial, coadjoint_matrix, coadjoint_times, lie_bracket, lie_bracket_matrix, rotation_part, screw, skew,

@@ -59,7 +59,7 @@ impl ScrewTangent {
 
     /// The 6 x 6 matrix `T`.
     pub fn matrix(&self) -> Matrix6 {
-        operator::matrix(self.d, self.value).from_twist_to_twist()
+        operator::matrix(self.d, self.value).to_twist_matrix()
     }
 
     /// `T a` of a twist `a`.
@@ -76,7 +76,7 @@ impl ScrewTangent {
 
     /// `∂(T a)/∂d`.
     pub fn derivative(&self, a: &Vector6) -> Matrix6 {
-        operator::derivative(self.d, self.value, self.slope, DualVector::from_twist(a)).from_twist_to_twist()
+        operator::derivative(self.d, self.value, self.slope, DualVector::from_twist(a)).to_twist_matrix()
     }
 
     /// `(∂(T a)/∂d)ᵀ w`, the gradient of the power `wᵀ T a` by `d`, without the matrix.
@@ -89,7 +89,7 @@ impl ScrewTangent {
     /// `∂(Tᵀ w)/∂d`, symmetric in no general sense.
     pub fn transpose_derivative(&self, w: &Vector6) -> Matrix6 {
         let (value, slope) = (self.value.transposed(), self.slope.transposed());
-        operator::derivative(self.d, value, slope, DualVector::from_wrench(w)).from_twist_to_wrench()
+        operator::derivative(self.d, value, slope, DualVector::from_wrench(w)).to_wrench_matrix()
     }
 
     /// `Ṫ a = (∂(T a)/∂d) ḋ`.
@@ -119,13 +119,13 @@ pub fn rotation_inverse_tangent(theta: &Vector3) -> Matrix3 {
 /// `T(d)` of SE(3): `vee(exp(d)⁻¹ δexp(d)) = T(d) δd`.
 pub fn tangent(d: &Vector6) -> Matrix6 {
     let d = DualVector::from_twist(d);
-    operator::matrix(d, tangent_value(d)).from_twist_to_twist()
+    operator::matrix(d, tangent_value(d)).to_twist_matrix()
 }
 
 /// `T(d)⁻¹`, `|θ| < 2π`.
 pub fn inverse_tangent(d: &Vector6) -> Matrix6 {
     let d = DualVector::from_twist(d);
-    operator::matrix(d, inverse_value(d)).from_twist_to_twist()
+    operator::matrix(d, inverse_value(d)).to_twist_matrix()
 }
 
 /// `T(d) a` of a twist `a`.
@@ -176,7 +176,7 @@ pub fn tangent_transpose_derivative(d: &Vector6, w: &Vector6) -> Matrix6 {
 pub fn tangent_hessian(d: &Vector6, a: &Vector6, w: &Vector6) -> Matrix6 {
     let d = DualVector::from_twist(d);
     let pairs = tangent_pairs::<4, 3>(d.dot(d));
-    operator::hessian(d, pairs, DualVector::from_twist(a), DualVector::from_wrench(w)).from_twist_to_wrench()
+    operator::hessian(d, pairs, DualVector::from_twist(a), DualVector::from_wrench(w)).to_wrench_matrix()
 }
 
 /// `Ṫ a = (∂(T(d) a)/∂d) ḋ`.
@@ -205,5 +205,5 @@ pub fn inverse_tangent_transpose_derivative(d: &Vector6, w: &Vector6) -> Matrix6
 pub fn inverse_tangent_hessian(d: &Vector6, a: &Vector6, w: &Vector6) -> Matrix6 {
     let d = DualVector::from_twist(d);
     let pairs = inverse_pairs::<4, 3>(d.dot(d));
-    operator::hessian(d, pairs, DualVector::from_twist(a), DualVector::from_wrench(w)).from_twist_to_wrench()
+    operator::hessian(d, pairs, DualVector::from_twist(a), DualVector::from_wrench(w)).to_wrench_matrix()
 }
