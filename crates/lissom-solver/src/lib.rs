@@ -17,7 +17,7 @@
 //!     Group { unknowns: vec![2], hosts: vec![0] },
 //! ];
 //! let structure = Structure::new(pattern, groups).unwrap();
-//! let mut solver = (kind("skyline").unwrap().real)(&structure);
+//! let mut solver = (kind("sparse").unwrap().real)(&structure);
 //! solver.factor(&[4.0, -1.0, 1.0, -1.0, 1.0, -1.0, 1.0, -1.0, 0.0]).unwrap();
 //! let mut unknowns = [4.0, -1.0, 0.0];
 //! solver.solve(&mut unknowns);
@@ -27,9 +27,12 @@
 mod condition;
 mod dense;
 mod entries;
+mod multifrontal;
 mod ordering;
 mod pattern;
 mod report;
+#[cfg(feature = "samples")]
+pub mod samples;
 mod scalar;
 mod skyline;
 mod solver;
@@ -37,6 +40,7 @@ mod structure;
 
 pub use condition::condition_estimate;
 pub use dense::Dense;
+pub use multifrontal::Multifrontal;
 pub use ordering::{minimum_degree_order, profile_order};
 pub use pattern::Pattern;
 pub use report::{FactorError, FactorReport, TINY_PIVOT};

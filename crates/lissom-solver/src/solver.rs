@@ -5,7 +5,7 @@ use num_complex::Complex64;
 use crate::report::{FactorError, FactorReport};
 use crate::scalar::Scalar;
 use crate::structure::Structure;
-use crate::{dense, skyline};
+use crate::{dense, multifrontal, skyline};
 
 /// Factors matrices of one structure, again and again, and solves with the last one factored.
 pub trait LinearSolver<S: Scalar>: Send {
@@ -54,6 +54,12 @@ pub struct SolverKind {
 /// Every kind of solver, the default first. The constructors panic on a structure that
 /// [`Structure::check`] refuses.
 pub static KINDS: &[SolverKind] = &[
+    SolverKind {
+        name: multifrontal::NAME,
+        summary: "multifrontal without pivoting: the default, fast for chains, trees and grids alike",
+        real: |structure| Box::new(multifrontal::Multifrontal::<f64>::new(structure)),
+        complex: |structure| Box::new(multifrontal::Multifrontal::<Complex64>::new(structure)),
+    },
     SolverKind {
         name: skyline::NAME,
         summary: "profile storage without pivoting: short, readable, good for chains",

@@ -1,0 +1,164 @@
+//! Multifrontal LU without pivoting, the default solver: everything but the numbers is settled once, in the
+//! symbolic analysis. Knows groups and patterns, nothing of what they stand for.
+//!
+//! The order of elimination comes from [`crate::minimum_degree_order`]; groups are gathered into dense fronts
+//! (Duff & Reid 1983, ACM Trans. Math. Softw. 9, 302), each of which hands what is left to its parent in the
+//! elimination tree. Vector instructions are chosen once for every call, by the processor at hand.
+
+mod elimination_tree;
+mod factorisation;
+mod fronts;
+mod kernels;
+mod square;
+mod supernodes;
+mod triangular;
+
+use std::sync::Arc;
+
+use factorisation::Numeric;
+use fronts::Symbolic;
+
+use crate::entries::largest_entry;
+use crate::pattern::Pattern;
+use crate::report::{FactorError, FactorReport, Monitor};
+use crate::scalar::Scalar;
+use crate::solver::LinearSolver;
+use crate::structure::Structure;
+
+pub(crate) const NAME: &str = "sparse";
+
+/// Multifrontal solver without pivoting.
+pub struct Multifrontal<S> {
+    pattern: Arc<Pattern>,
+    processor: pulp::Arch,
+    symbolic: Symbolic,
+    numeric: Numeric<S>,
+    vector: Vec<S>,
+    front_vector: Vec<S>,
+}
+
+impl<S: Scalar> Multifrontal<S> {
+    /// Symbolic analysis.
+    ///
+    /// # Panics
+    /// If [`Structure::check`] refuses the structure.
+    pub fn new(structure: &Structure) -> Self {
+        let symbolic = Symbolic::new(structure);
+        let pattern = Arc::clone(&structure.pattern);
+        let on_diagonal = |&unknown: &u32| {
+            let unknown = unknown as usize;
+            pattern.position(unknown, unknown).expect("the diagonal is in the pattern") as u32
+        };
+        let diagonal = symbolic.unknowns.iter().map(on_diagonal).collect();
+        Multifrontal {
+            processor: pulp::Arch::new(),
+            numeric: Numeric::new(&symbolic, diagonal),
+            vector: vec![S::zero(); symbolic.unknowns.len()],
+            front_vector: vec![S::zero(); fronts::padded(symbolic.largest_boundary)],
+            symbolic,
+            pattern,
+        }
+    }
+
+    fn triangular(&mut self, right_hand_side: &mut [S], transposed: bool) {
+        assert_eq!(right_hand_side.len(), self.vector.len(), "one number for each unknown");
+        self.processor.dispatch(Solve {
+            symbolic: &self.symbolic,
+            factors: &self.numeric.factors,
+            right_hand_side,
+            vector: &mut self.vector,
+            front_vector: &mut self.front_vector,
+            transposed,
+        });
+    }
+}
+
+impl<S: Scalar> LinearSolver<S> for Multifrontal<S> {
+    fn name(&self) -> &'static str {
+        NAME
+    }
+
+    fn factor(&mut self, values: &[S]) -> Result<FactorReport, FactorError> {
+        assert_eq!(values.len(), self.pattern.entries(), "one value for each entry of the pattern");
+        let largest = largest_entry(&self.pattern, values)?;
+        let work = Factor { symbolic: &self.symbolic, numeric: &mut self.numeric, values };
+        let (monitor, largest_upper) = self.processor.dispatch(work)?;
+        Ok(monitor.report(largest_upper, largest))
+    }
+
+    fn solve(&mut self, right_hand_side: &mut [S]) {
+        self.triangular(right_hand_side, false);
+    }
+
+    fn solve_transposed(&mut self, right_hand_side: &mut [S]) {
+        self.triangular(right_hand_side, true);
+    }
+
+    fn factor_entries(&self) -> usize {
+        self.symbolic.factor_entries
+    }
+}
+
+struct Factor<'a, S> {
+    symbolic: &'a Symbolic,
+    numeric: &'a mut Numeric<S>,
+    values: &'a [S],
+}
+
+impl<S: Scalar> pulp::WithSimd for Factor<'_, S> {
+    type Output = Result<(Monitor, f64), FactorError>;
+
+    #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) -> Self::Output {
+        // Two vectors of rows; with four lanes or more the processor multiplies and adds in one instruction.
+        match V::F64_LANES {
+            8 => self.numeric.factor::<true, 16>(self.symbolic, self.values),
+            4 => self.numeric.factor::<true, 8>(self.symbolic, self.values),
+            _ => self.numeric.factor::<false, 4>(self.symbolic, self.values),
+        }
+    }
+}
+
+struct Solve<'a, S> {
+    symbolic: &'a Symbolic,
+    factors: &'a [S],
+    right_hand_side: &'a mut [S],
+    vector: &'a mut [S],
+    front_vector: &'a mut [S],
+    transposed: bool,
+}
+
+impl<S: Scalar> Solve<'_, S> {
+    #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+    #[inline(always)]
+    fn run<const FUSED: bool>(self) {
+        let unknowns = &self.symbolic.unknowns;
+        for (value, &unknown) in self.vector.iter_mut().zip(unknowns) {
+            *value = self.right_hand_side[unknown as usize];
+        }
+        if self.transposed {
+            triangular::solve_transposed::<S, FUSED>(
+                self.symbolic,
+                self.factors,
+                self.vector,
+                self.front_vector,
+            );
+        } else {
+            triangular::solve::<S, FUSED>(self.symbolic, self.factors, self.vector, self.front_vector);
+        }
+        for (&value, &unknown) in self.vector.iter().zip(unknowns) {
+            self.right_hand_side[unknown as usize] = value;
+        }
+    }
+}
+
+impl<S: Scalar> pulp::WithSimd for Solve<'_, S> {
+    type Output = ();
+
+    #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) {
+        if V::F64_LANES >= 4 { self.run::<true>() } else { self.run::<false>() }
+    }
+}
