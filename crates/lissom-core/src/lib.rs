@@ -1,1 +1,13 @@
-//! Placeholder.
+//! Flexible multibody dynamics in index-3 form: elements and joints in SI that know no time step,
+//! schemes for unit steps, and one place, `scaling`, where they meet.
+//!
+//! This crate opens no file, prints nothing and reads no clock.
+
+pub mod analysis;
+pub mod elements;
+pub mod joints;
+pub mod newton;
+pub mod registry;
+pub mod scaling;
+pub mod schemes;
+pub mod system;

@@ -1,0 +1,250 @@
+//! The equations of one step as Newton's method sees them.
+
+use lissom_motion::Vector6;
+use lissom_solver::{FactorError, FactorReport};
+
+use super::factorization::Factorization;
+use crate::joints::attached::Increments;
+use crate::newton::{Correction, Equations};
+use crate::scaling::{Representative, Scaled, StageIncrements, UnitStart};
+use crate::schemes::Scheme;
+use crate::system::{Kinematics, LOCKED, Layout, Linearization, Point, State, System};
+
+/// Corrections of rotations larger than this are cut short [rad].
+const LARGEST_ROTATION: f64 = 1.0;
+
+/// Everything a step needs besides system and state, allocated once.
+pub(crate) struct Workspace {
+    pub(crate) unit: UnitStart,
+    /// Increments since the start of the step, by stage and coordinate row.
+    pub(crate) increments: Vec<Vec<f64>>,
+    /// The same as node increments, and as changes of the algebraic coordinates.
+    pub(crate) node_increments: Vec<Vec<Vector6>>,
+    pub(crate) coordinate_increments: Vec<Vec<f64>>,
+    /// Multipliers by stage [N, N m].
+    pub(crate) multipliers: Vec<Vec<f64>>,
+    pub(crate) motions: Vec<Kinematics>,
+    /// Residuals, then corrections, by stage.
+    pub(crate) residuals: Vec<Vec<f64>>,
+    pub(crate) linearization: Linearization,
+    pub(crate) factorization: Factorization,
+    /// Scaled size of one unit of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
+    pub(crate) sizes: Vec<f64>,
+    /// Row with the largest residual correction of the last iteration.
+    pub(crate) worst: usize,
+    pub(crate) report: Option<FactorReport>,
+}
+
+impl Workspace {
+    pub(crate) fn new(
+        system: &System,
+        state: &State,
+        scheme: &Scheme,
+        representative: &Representative,
+        solver: &lissom_solver::SolverKind,
+    ) -> Self {
+        let layout = system.layout();
+        let stages = scheme.stages.len();
+        let count = layout.coordinate_count();
+        let mut sizes = vec![1.0; count];
+        for rows in &layout.node_rows {
+            for &row in rows[..3].iter().filter(|&&row| row != LOCKED) {
+                sizes[row as usize] = 1.0 / representative.length;
+            }
+        }
+        Self {
+            unit: UnitStart::new(count),
+            increments: vec![vec![0.0; count]; stages],
+            node_increments: vec![vec![Vector6::zeros(); state.kinematics.nodes.len()]; stages],
+            coordinate_increments: vec![vec![0.0; state.kinematics.coordinates.len()]; stages],
+            multipliers: vec![state.multipliers.clone(); stages],
+            motions: vec![state.kinematics.clone(); stages],
+            residuals: vec![vec![0.0; layout.size()]; stages],
+            linearization: Linearization::new(system),
+            factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
+            sizes,
+            worst: 0,
+            report: None,
+        }
+    }
+}
+
+/// One step from `start`.
+pub(crate) struct StepEquations<'a> {
+    pub(crate) system: &'a System,
+    pub(crate) scheme: &'a Scheme,
+    pub(crate) scaled: Scaled,
+    pub(crate) start: &'a State,
+    pub(crate) work: &'a mut Workspace,
+}
+
+impl StepEquations<'_> {
+    /// First guess from the scheme.
+    pub(crate) fn predict(&mut self) {
+        for (i, stage) in self.scheme.stages.iter().enumerate() {
+            let mut guess = std::mem::take(&mut self.work.increments[i]);
+            for (row, value) in guess.iter_mut().enumerate() {
+                *value = self.work.unit.combine(&stage.prediction, &[], row);
+            }
+            self.work.increments[i] = guess;
+            self.work.multipliers[i].copy_from_slice(&self.start.multipliers);
+        }
+        self.update_motions();
+    }
+
+    /// Motions at all stages from the increments.
+    pub(crate) fn update_motions(&mut self) {
+        let layout = self.system.layout();
+        for (i, stage) in self.scheme.stages.iter().enumerate() {
+            let increments = StageIncrements { all: &self.work.increments, stage: i };
+            self.scaled.stage_motion(
+                layout,
+                stage,
+                self.scheme.rate_of,
+                self.start,
+                &self.work.unit,
+                &increments,
+                &mut self.work.motions[i],
+            );
+            spread(
+                layout,
+                &self.work.increments[i],
+                &mut self.work.node_increments[i],
+                &mut self.work.coordinate_increments[i],
+            );
+        }
+    }
+
+    fn point<'b>(&'b self, stage: usize) -> Point<'b> {
+        let work = &*self.work;
+        Point {
+            at: &work.motions[stage],
+            increments: Increments {
+                start: &self.start.kinematics,
+                nodes: &work.node_increments[stage],
+                coordinates: &work.coordinate_increments[stage],
+            },
+            multipliers: &work.multipliers[stage],
+            violations: &self.start.violations,
+            augmentation: self.scaled.augmentation(),
+        }
+    }
+
+    /// Violations at the last stage, from the final increments.
+    pub(crate) fn final_violations(&self, out: &mut [f64]) {
+        self.system.stage_violations(&self.point(self.scheme.stages.len() - 1), out);
+    }
+
+    /// Residuals of all stages, in SI.
+    pub(crate) fn evaluate(&mut self) {
+        for stage in 0..self.scheme.stages.len() {
+            let mut residual = std::mem::take(&mut self.work.residuals[stage]);
+            self.system.residual(&self.point(stage), &mut residual);
+            self.work.residuals[stage] = residual;
+        }
+    }
+
+    fn add_corrections(&mut self) -> Correction {
+        let count = self.system.layout().coordinate_count();
+        let (mut size, mut reference) = (0.0_f64, 0.0_f64);
+        let mut finite = true;
+        for (i, stage) in self.scheme.stages.iter().enumerate() {
+            let work = &*self.work;
+            let rate = if self.scheme.dynamic { stage.abscissa } else { 0.0 };
+            for row in 0..count {
+                let correction = work.sizes[row] * work.residuals[i][row].abs();
+                finite &= correction.is_finite();
+                if correction > size {
+                    size = correction;
+                }
+                // What the step has to find out: how far it departs from going straight on.
+                let departure = work.increments[i][row] - rate * work.unit.rate[row];
+                reference = reference.max(work.sizes[row] * departure.abs());
+            }
+        }
+        if !finite {
+            return Correction { size: f64::NAN, reference };
+        }
+        let cut = if size > LARGEST_ROTATION { LARGEST_ROTATION / size } else { 1.0 };
+        let factor = self.scaled.multiplier_factor();
+        for stage in 0..self.scheme.stages.len() {
+            let work = &mut *self.work;
+            let (motion, constraints) = work.residuals[stage].split_at(count);
+            for (value, correction) in work.increments[stage].iter_mut().zip(motion) {
+                *value -= cut * correction;
+            }
+            for (value, correction) in work.multipliers[stage].iter_mut().zip(constraints) {
+                *value -= cut * factor * correction;
+            }
+        }
+        Correction { size, reference }
+    }
+
+    /// Name of the unknown with the largest entry in the last corrections, or the first that is not
+    /// finite.
+    pub(crate) fn worst_unknown(&self) -> String {
+        let layout = self.system.layout();
+        let corrections = self.work.residuals.iter().flat_map(|residual| {
+            residual[..layout.coordinate_count()]
+                .iter()
+                .enumerate()
+                .map(|(row, value)| (row, self.work.sizes[row] * value.abs()))
+        });
+        let mut worst = (0, -1.0);
+        for (row, size) in corrections {
+            if !size.is_finite() {
+                return layout.name_of(row);
+            }
+            if size > worst.1 {
+                worst = (row, size);
+            }
+        }
+        layout.name_of(worst.0)
+    }
+}
+
+impl Equations for StepEquations<'_> {
+    fn correct(&mut self) -> Correction {
+        self.evaluate();
+        let layout = self.system.layout();
+        for residual in &mut self.work.residuals {
+            self.scaled.scale_residual(layout, residual);
+        }
+        self.work.factorization.solve(&self.scheme.coupling, &mut self.work.residuals);
+        let correction = self.add_corrections();
+        self.update_motions();
+        correction
+    }
+
+    fn renew_tangent(&mut self) -> Result<(), FactorError> {
+        let last = self.scheme.stages.len() - 1;
+        // One tangent serves both stages of a pair, so it is taken without their increments.
+        let charts = last == 0;
+        let mut linearization =
+            std::mem::replace(&mut self.work.linearization, Linearization::empty());
+        self.system.linearize(&self.point(last), charts, &mut linearization);
+        self.work.linearization = linearization;
+        let work = &mut *self.work;
+        let report = work.factorization.factor(&self.scaled, &self.scheme.coupling, &work.linearization)?;
+        work.report = Some(report);
+        Ok(())
+    }
+
+    fn restart(&mut self) {
+        self.predict();
+    }
+}
+
+/// Increments by row as node increments and coordinate changes.
+fn spread(layout: &Layout, increments: &[f64], nodes: &mut [Vector6], coordinates: &mut [f64]) {
+    for (rows, psi) in layout.node_rows.iter().zip(nodes) {
+        for (k, &row) in rows.iter().enumerate() {
+            if row != LOCKED {
+                psi[k] = increments[row as usize];
+            }
+        }
+    }
+    for (&row, change) in layout.coordinate_rows.iter().zip(coordinates) {
+        *change = increments[row as usize];
+    }
+}

@@ -1,0 +1,78 @@
+//! The factored tangent: real for schemes of one stage, complex for coupled pairs.
+
+use lissom_solver::{FactorError, FactorReport, LinearSolver, SolverKind, Structure};
+use num_complex::Complex64;
+
+use crate::scaling::Scaled;
+use crate::schemes::Coupling;
+use crate::system::Linearization;
+
+/// A solver with the values it factors.
+pub(crate) enum Factorization {
+    Single { solver: Box<dyn LinearSolver<f64>>, values: Vec<f64> },
+    Pair { solver: Box<dyn LinearSolver<Complex64>>, values: Vec<Complex64>, right_hand_side: Vec<Complex64> },
+}
+
+impl Factorization {
+    pub(crate) fn new(kind: &SolverKind, structure: &Structure, coupling: &Coupling) -> Self {
+        let entries = structure.pattern.entries();
+        let size = structure.pattern.size();
+        match coupling {
+            Coupling::Single(_) => {
+                Self::Single { solver: (kind.real)(structure), values: vec![0.0; entries] }
+            }
+            Coupling::Pair { .. } => Self::Pair {
+                solver: (kind.complex)(structure),
+                values: vec![Complex64::default(); entries],
+                right_hand_side: vec![Complex64::default(); size],
+            },
+        }
+    }
+
+    /// Stored numbers of the factors.
+    pub(crate) fn entries(&self) -> usize {
+        match self {
+            Self::Single { solver, .. } => solver.factor_entries(),
+            Self::Pair { solver, .. } => solver.factor_entries(),
+        }
+    }
+
+    pub(crate) fn factor(
+        &mut self,
+        scaled: &Scaled,
+        coupling: &Coupling,
+        linearization: &Linearization,
+    ) -> Result<FactorReport, FactorError> {
+        match (self, coupling) {
+            (Self::Single { solver, values }, Coupling::Single(weights)) => {
+                scaled.tangent(linearization, *weights, values);
+                solver.factor(values)
+            }
+            (Self::Pair { solver, values, .. }, Coupling::Pair { weights, .. }) => {
+                scaled.complex_tangent(linearization, *weights, values);
+                solver.factor(values)
+            }
+            _ => unreachable!("a factorisation is made for its scheme's coupling"),
+        }
+    }
+
+    /// Solves for the corrections of all stages: residuals in, corrections out.
+    pub(crate) fn solve(&mut self, coupling: &Coupling, stages: &mut [Vec<f64>]) {
+        match (self, coupling) {
+            (Self::Single { solver, .. }, Coupling::Single(_)) => solver.solve(&mut stages[0]),
+            (Self::Pair { solver, right_hand_side, .. }, Coupling::Pair { left, right, .. }) => {
+                let (first, second) = stages.split_at_mut(1);
+                let (first, second) = (&mut first[0], &mut second[0]);
+                for (value, (a, b)) in right_hand_side.iter_mut().zip(first.iter().zip(second.iter())) {
+                    *value = left[0] * a + left[1] * b;
+                }
+                solver.solve(right_hand_side);
+                for (value, (a, b)) in right_hand_side.iter().zip(first.iter_mut().zip(second.iter_mut())) {
+                    *a = (right[0] * value).re;
+                    *b = (right[1] * value).re;
+                }
+            }
+            _ => unreachable!("a factorisation is made for its scheme's coupling"),
+        }
+    }
+}

@@ -1,0 +1,297 @@
+//! Consistent initial values: velocities that satisfy the constraints' first derivative, accelerations
+//! and multipliers that satisfy equilibrium and their second.
+//!
+//!     [M Bᵀ; B 0] [Δv; ·] = [0; -(B v + ∂c/∂t)],      [M Bᵀ; B 0] [v̇; λ] = [-f; -(Ḃ v + ∂²c/∂t²)]
+//!
+//! solved in scaled and augmented form, like a step.
+
+use lissom_motion::{Motion, Vector6};
+use lissom_solver::{FactorError, LinearSolver, SolverKind};
+
+use super::step_error::pivot_hint;
+use crate::joints::attached::Increments;
+use crate::scaling::Representative;
+use crate::system::{Kinematics, LOCKED, Layout, Linearization, Point, State, System};
+
+/// Initial values that do not exist.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum InitialError {
+    /// A pivot vanished.
+    #[error("initial accelerations: elimination stops at a pivot of {pivot:.1e} for the {unknown}; {hint}")]
+    ZeroPivot {
+        /// The pivot.
+        pivot: f64,
+        /// Name of the unknown.
+        unknown: String,
+        /// What to try.
+        hint: &'static str,
+    },
+    /// A number is not finite.
+    #[error("initial accelerations are not finite, first for the {unknown}")]
+    NotFinite {
+        /// Name of the unknown.
+        unknown: String,
+    },
+}
+
+/// Solves for initial values.
+pub struct Initial<'a> {
+    system: &'a System,
+    solver: Box<dyn LinearSolver<f64>>,
+    linearization: Linearization,
+    values: Vec<f64>,
+    scale: f64,
+    still: Vec<Vector6>,
+    unchanged: Vec<f64>,
+}
+
+impl<'a> Initial<'a> {
+    /// Room for initial values of `system`.
+    pub fn new(
+        system: &'a System,
+        state: &State,
+        representative: &Representative,
+        kind: &SolverKind,
+    ) -> Self {
+        Self {
+            system,
+            solver: (kind.real)(system.structure()),
+            linearization: Linearization::new(system),
+            values: vec![0.0; system.structure().pattern.entries()],
+            scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
+            still: vec![Vector6::zeros(); state.kinematics.nodes.len()],
+            unchanged: vec![0.0; state.kinematics.coordinates.len()],
+        }
+    }
+
+    fn factor(&mut self, state: &State) -> Result<(), InitialError> {
+        let zero = vec![0.0; self.system.layout().multiplier_count];
+        let mut linearization = std::mem::replace(&mut self.linearization, Linearization::empty());
+        self.system.linearize(&self.point(&state.kinematics, &zero), false, &mut linearization);
+        self.linearization = linearization;
+        let Linearization { mass, gram, constraint, .. } = &self.linearization;
+        for (i, value) in self.values.iter_mut().enumerate() {
+            *value = mass[i] + self.scale * (gram[i] + constraint[i]);
+        }
+        let layout = self.system.layout();
+        self.solver.factor(&self.values).map(|_| ()).map_err(|error| match error {
+            FactorError::ZeroPivot { unknown, pivot, .. } => InitialError::ZeroPivot {
+                pivot,
+                unknown: layout.name_of(unknown),
+                hint: pivot_hint(unknown >= layout.coordinate_count(), true),
+            },
+            FactorError::NotFinite { unknown } => {
+                InitialError::NotFinite { unknown: layout.name_of(unknown) }
+            }
+        })
+    }
+
+    fn point<'b>(&'b self, at: &'b Kinematics, multipliers: &'b [f64]) -> Point<'b> {
+        Point {
+            at,
+            increments: Increments { start: at, nodes: &self.still, coordinates: &self.unchanged },
+            multipliers,
+            violations: multipliers,
+            augmentation: 0.0,
+        }
+    }
+
+    /// Solves [M Bᵀ; B 0] [x; λ] = [motion; constraint], given as one vector.
+    fn solve(&mut self, right: &mut [f64]) {
+        let layout = self.system.layout();
+        let count = layout.coordinate_count();
+        let original = right.to_vec();
+        let mut solution = vec![0.0; right.len()];
+        // Scaled rows s B, and the augmented term s Bᵀ B x = s Bᵀ c on both sides; refined once.
+        for _ in 0..2 {
+            let mut rest = original.clone();
+            self.subtract_product(&solution, &mut rest);
+            let constraints: Vec<f64> = rest[count..].to_vec();
+            self.add_transposed(&constraints, &mut rest);
+            rest[count..].iter_mut().for_each(|value| *value *= self.scale);
+            self.solver.solve(&mut rest);
+            for (row, value) in rest.iter().enumerate() {
+                solution[row] += if row < count { *value } else { self.scale * value };
+            }
+        }
+        right.copy_from_slice(&solution);
+    }
+
+    /// rest -= [M Bᵀ; B 0] x.
+    fn subtract_product(&self, x: &[f64], rest: &mut [f64]) {
+        let pattern = &self.system.structure().pattern;
+        for column in 0..pattern.size() {
+            let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+            for position in range {
+                let row = pattern.row_indices()[position];
+                rest[row] -=
+                    (self.linearization.mass[position] + self.linearization.constraint[position]) * x[column];
+            }
+        }
+    }
+
+    /// motion += s Bᵀ c.
+    fn add_transposed(&self, constraints: &[f64], rest: &mut [f64]) {
+        let pattern = &self.system.structure().pattern;
+        let count = self.system.layout().coordinate_count();
+        for (k, &violation) in constraints.iter().enumerate() {
+            let column = count + k;
+            let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+            for position in range {
+                let row = pattern.row_indices()[position];
+                if row < count {
+                    rest[row] += self.scale * self.linearization.constraint[position] * violation;
+                }
+            }
+        }
+    }
+
+    /// Makes velocities consistent with the constraints, changing them as little as possible in the norm
+    /// of the kinetic energy. Gives the largest change of a node's twist [m/s, rad/s].
+    ///
+    /// # Errors
+    /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
+    pub fn velocities(&mut self, state: &mut State) -> Result<f64, InitialError> {
+        self.factor(state)?;
+        let layout = self.system.layout();
+        let count = layout.coordinate_count();
+        let mut speeds = vec![0.0; layout.size()];
+        gather_rates(layout, &state.kinematics, &mut speeds);
+        let mut right = vec![0.0; layout.size()];
+        // -(B v + ∂c/∂t): only the constraint rows are kept.
+        self.subtract_product(&speeds, &mut right);
+        right[..count].fill(0.0);
+        let mut explicit = vec![0.0; layout.multiplier_count];
+        self.system.constraint_velocities(&state.kinematics, &mut explicit);
+        for (value, rate) in right[count..].iter_mut().zip(&explicit) {
+            *value -= rate;
+        }
+        self.solve(&mut right);
+        let mut largest = 0.0_f64;
+        for (rows, node) in layout.node_rows.iter().zip(&mut state.kinematics.nodes) {
+            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+                node.twist[k] += right[row as usize];
+                largest = largest.max(right[row as usize].abs());
+            }
+        }
+        for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut state.kinematics.coordinates) {
+            coordinate.rate += right[row as usize];
+        }
+        Ok(largest)
+    }
+
+    /// Accelerations and multipliers in equilibrium with places and velocities.
+    ///
+    /// # Errors
+    /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
+    pub fn accelerations(&mut self, state: &mut State) -> Result<(), InitialError> {
+        self.factor(state)?;
+        let right = self.acceleration_vector(state);
+        let layout = self.system.layout();
+        scatter_accelerations(layout, &right, &mut state.kinematics);
+        state.multipliers.copy_from_slice(&right[layout.coordinate_count()..]);
+        Ok(())
+    }
+
+    fn acceleration_vector(&mut self, state: &State) -> Vec<f64> {
+        let layout = self.system.layout();
+        let count = layout.coordinate_count();
+        let mut at = state.kinematics.clone();
+        scatter_accelerations(layout, &vec![0.0; layout.size()], &mut at);
+        let zero = vec![0.0; layout.multiplier_count];
+        let mut right = vec![0.0; layout.size()];
+        self.system.residual(&self.point(&at, &zero), &mut right);
+        right[..count].iter_mut().for_each(|value| *value = -*value);
+        self.system.constraint_accelerations(&at, &mut right[count..]);
+        right[count..].iter_mut().for_each(|value| *value = -*value);
+        self.solve(&mut right);
+        right
+    }
+
+    /// Accelerations by row `delay` [s] after (or before) the state, for a scheme whose memory starts
+    /// there: v̇ + delay v̈, with v̈ from a central difference along the motion.
+    ///
+    /// # Errors
+    /// If the equations cannot be solved nearby.
+    pub fn delayed_accelerations(&mut self, state: &State, delay: f64) -> Result<Vec<f64>, InitialError> {
+        let layout = self.system.layout();
+        let count = layout.coordinate_count();
+        let mut now = vec![0.0; layout.size()];
+        gather_accelerations(layout, &state.kinematics, &mut now);
+        now.truncate(count);
+        if delay == 0.0 {
+            return Ok(now);
+        }
+        let mut difference = vec![0.0; count];
+        for sign in [1.0, -1.0] {
+            let moved = self.moved(state, sign * delay);
+            self.factor(&moved)?;
+            let there = self.acceleration_vector(&moved);
+            for (value, acceleration) in difference.iter_mut().zip(&there) {
+                *value += 0.5 * sign * acceleration;
+            }
+        }
+        let size = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        // Where accelerations change more than they are, the step does not resolve them, and starting
+        // ahead of them would only feed the oscillation.
+        if size(&difference) <= size(&now) {
+            for (value, change) in now.iter_mut().zip(&difference) {
+                *value += change;
+            }
+        }
+        Ok(now)
+    }
+
+    /// The state moved along its motion for a short time, to second order.
+    fn moved(&self, state: &State, time: f64) -> State {
+        let mut moved = state.clone();
+        moved.kinematics.time += time;
+        for node in &mut moved.kinematics.nodes {
+            let psi = time * (node.twist + 0.5 * time * node.acceleration);
+            node.frame = node.frame * Motion::exponential(&psi);
+            node.twist += time * node.acceleration;
+        }
+        for coordinate in &mut moved.kinematics.coordinates {
+            coordinate.value += time * (coordinate.rate + 0.5 * time * coordinate.acceleration);
+            coordinate.rate += time * coordinate.acceleration;
+        }
+        moved
+    }
+}
+
+fn gather_rates(layout: &Layout, at: &Kinematics, out: &mut [f64]) {
+    gather(layout, at, out, |node| &node.twist, |coordinate| coordinate.rate);
+}
+
+fn gather_accelerations(layout: &Layout, at: &Kinematics, out: &mut [f64]) {
+    gather(layout, at, out, |node| &node.acceleration, |coordinate| coordinate.acceleration);
+}
+
+fn gather(
+    layout: &Layout,
+    at: &Kinematics,
+    out: &mut [f64],
+    of_node: impl Fn(&crate::system::NodeMotion) -> &Vector6,
+    of_coordinate: impl Fn(&crate::system::CoordinateMotion) -> f64,
+) {
+    for (rows, node) in layout.node_rows.iter().zip(&at.nodes) {
+        for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+            out[row as usize] = of_node(node)[k];
+        }
+    }
+    for (&row, coordinate) in layout.coordinate_rows.iter().zip(&at.coordinates) {
+        out[row as usize] = of_coordinate(coordinate);
+    }
+}
+
+fn scatter_accelerations(layout: &Layout, values: &[f64], at: &mut Kinematics) {
+    for (rows, node) in layout.node_rows.iter().zip(&mut at.nodes) {
+        for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+            node.acceleration[k] = values[row as usize];
+        }
+    }
+    for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut at.coordinates) {
+        coordinate.acceleration = values[row as usize];
+    }
+}

@@ -1,0 +1,110 @@
+//! Force on a point of a node: dead (fixed direction) or follower (turning with the node).
+
+use lissom_motion::{Vector3, skew};
+
+use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents, add_block};
+use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
+use crate::system::{Builder, Kinematics, NodeId};
+
+/// Registry entry.
+pub const KIND: ElementKind = ElementKind {
+    name: "force",
+    summary: "Force on a point, dead or following the node's rotation, with a function of time.",
+    sample: "vector = [0.0, 0.0, 1.0]\nscale = \"10*sin(t)\"",
+    parameters: LOAD_PARAMETERS,
+    attachment: Attachment::OneNode,
+    build,
+};
+
+/// Parameters that a force and a moment share.
+pub(super) const LOAD_PARAMETERS: &[Parameter] = &[
+    Parameter::required(
+        "vector",
+        ParameterType::Vector,
+        "N or N m",
+        "Force or moment at scale 1, in global axes at the start.",
+    ),
+    Parameter::optional("scale", ParameterType::Function, "", "Factor, a function of time; default 1."),
+    Parameter::optional(
+        "follower",
+        ParameterType::Flag,
+        "",
+        "Whether it turns with the node; default false: it keeps its direction.",
+    ),
+];
+
+/// Force on a point of a node.
+#[derive(Clone, Debug)]
+pub struct Force {
+    node: [NodeId; 1],
+    point: Vector3,
+    load: DirectedLoad,
+}
+
+/// A vector times a function of time, fixed in space or in the node.
+#[derive(Clone, Debug)]
+pub(super) struct DirectedLoad {
+    vector: Vector3,
+    scale: Function,
+    pub(super) follower: bool,
+}
+
+impl DirectedLoad {
+    /// Reads the parameters; a follower's vector is turned into the node's axes at the start.
+    pub(super) fn new(
+        builder: &Builder,
+        node: NodeId,
+        parameters: &Parameters,
+    ) -> Result<Self, ParameterError> {
+        let follower = parameters.flag_or("follower", false)?;
+        let vector = parameters.vector("vector")?;
+        let vector =
+            if follower { builder.initial_frame(node).rotation.apply_inverse(&vector) } else { vector };
+        Ok(Self { vector, scale: parameters.function_or("scale", 1.0)?, follower })
+    }
+
+    /// The load in the node's axes.
+    pub(super) fn in_body(&self, at: &Kinematics, node: NodeId) -> Vector3 {
+        let load = self.scale.value(at.time) * self.vector;
+        if self.follower { load } else { at.nodes[node].frame.rotation.apply_inverse(&load) }
+    }
+}
+
+fn build(
+    builder: &mut Builder,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<(), ParameterError> {
+    let (node, point) = attached.one_node()?;
+    let load = DirectedLoad::new(builder, node, parameters)?;
+    builder.add_element(Force { node: [node], point, load });
+    Ok(())
+}
+
+impl Element for Force {
+    fn nodes(&self) -> &[NodeId] {
+        &self.node
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        let force = self.load.in_body(at, self.node[0]);
+        let moment = self.point.cross(&force);
+        for k in 0..3 {
+            out[k] -= force[k];
+            out[3 + k] -= moment[k];
+        }
+    }
+
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        if !self.load.follower {
+            // δ(Rᵀ f) = (Rᵀ f)~ δθ
+            let turning = skew(&self.load.in_body(at, self.node[0]));
+            add_block(&mut out.stiffness, 6, (0, 3), &-turning);
+            add_block(&mut out.stiffness, 6, (3, 3), &(-skew(&self.point) * turning));
+        }
+    }
+
+    fn energy(&self, _: &Kinematics) -> Energy {
+        Energy::default()
+    }
+}

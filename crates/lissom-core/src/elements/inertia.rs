@@ -1,0 +1,100 @@
+//! Inertia of a rigid body frame with gravity: a rigid body, a point mass, or a beam node's share of
+//! the beam. In body axes the mass matrix is constant.
+//!
+//!     f = M (V̇ - γ) - ad_Vᵀ M V,     γ = (Rᵀ g, 0)
+//!
+//! M 6x6 mass matrix about the node, V twist, g gravity. [Sonneville, Cardona and Brüls 2014, eq. 25]
+
+use lissom_motion::{
+    Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times, lie_bracket_matrix, skew,
+};
+
+use super::{Element, Energy, Tangents, add_block};
+use crate::system::state::split;
+use crate::system::{Kinematics, NodeId};
+
+/// Mass matrix of one node.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inertia {
+    node: [NodeId; 1],
+    mass: Matrix6,
+    gravity: Vector3,
+}
+
+impl Inertia {
+    /// Inertia `mass` (6x6, body axes, about the node) of `node` in the field `gravity` [m/s²].
+    pub fn new(node: NodeId, mass: Matrix6, gravity: Vector3) -> Self {
+        Self { node: [node], mass, gravity }
+    }
+
+    /// Mass matrix of a rigid body about its reference point: mass [kg], centre of mass [m] and
+    /// inertia tensor about the centre of mass [kg m²], all in body axes.
+    pub fn of_rigid_body(mass: f64, center: &Vector3, inertia: &lissom_motion::Matrix3) -> Matrix6 {
+        let c = skew(center);
+        let mut matrix = Matrix6::zeros();
+        matrix.fixed_view_mut::<3, 3>(0, 0).fill_diagonal(mass);
+        matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-mass * c));
+        matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&(mass * c));
+        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&(inertia - mass * c * c));
+        matrix
+    }
+
+    /// The 6x6 mass matrix.
+    pub fn mass(&self) -> &Matrix6 {
+        &self.mass
+    }
+
+    /// The node.
+    pub fn node(&self) -> NodeId {
+        self.node[0]
+    }
+
+    /// Gravity in body axes, as a twist rate γ.
+    fn gravity_in_body(&self, at: &Kinematics) -> Vector6 {
+        let g = at.nodes[self.node[0]].frame.rotation.apply_inverse(&self.gravity);
+        Vector6::new(g.x, g.y, g.z, 0.0, 0.0, 0.0)
+    }
+}
+
+impl Element for Inertia {
+    fn nodes(&self) -> &[NodeId] {
+        &self.node
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        let node = &at.nodes[self.node[0]];
+        let force = self.mass * (node.acceleration - self.gravity_in_body(at))
+            - coadjoint_times(&node.twist, &(self.mass * node.twist));
+        for (sum, value) in out.iter_mut().zip(force.iter()) {
+            *sum += value;
+        }
+    }
+
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        let twist = &at.nodes[self.node[0]].twist;
+        add_block(&mut out.mass, 6, (0, 0), &self.mass);
+        // ∂(ad_Vᵀ M V) = ad_Vᵀ M δV + X(M V) δV
+        let gyroscopic =
+            -(lie_bracket_matrix(twist).transpose() * self.mass + coadjoint_matrix(&(self.mass * twist)));
+        add_block(&mut out.damping, 6, (0, 0), &gyroscopic);
+        if self.gravity != Vector3::zeros() {
+            // δ(Rᵀ g) = (Rᵀ g)~ δθ
+            let g = skew(&split(&self.gravity_in_body(at)).0);
+            let columns = -(self.mass.fixed_view::<6, 3>(0, 0) * g);
+            add_block(&mut out.stiffness, 6, (0, 3), &columns);
+        }
+    }
+
+    fn energy(&self, at: &Kinematics) -> Energy {
+        let node = &at.nodes[self.node[0]];
+        let mass = self.mass[(0, 0)];
+        // First moment m c from the coupling block m c̃.
+        let moment = Vector3::new(self.mass[(5, 1)], self.mass[(3, 2)], self.mass[(4, 0)]);
+        let weight_moment = mass * node.frame.position + node.frame.rotation.apply(&moment);
+        Energy {
+            kinetic: 0.5 * node.twist.dot(&(self.mass * node.twist)),
+            strain: 0.0,
+            potential: -self.gravity.dot(&weight_moment),
+        }
+    }
+}

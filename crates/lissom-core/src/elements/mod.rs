@@ -1,0 +1,196 @@
+//! What pushes back: inertia, stiffness, loads.
+//!
+//! An element sees places, twists and accelerations in SI and answers with forces and their
+//! derivatives. It knows no time step, no scheme and no scaling.
+
+pub mod beam;
+pub mod force;
+pub mod inertia;
+pub mod moment;
+pub mod point_spring;
+pub mod quadrature;
+pub mod shape;
+pub mod torsional_spring;
+
+use crate::registry::{Parameter, ParameterError, Parameters};
+use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
+use lissom_motion::Vector3;
+
+/// Most local unknowns an element may have: four nodes and two coordinates.
+pub const MOST_UNKNOWNS: usize = 26;
+
+/// Energies of an element or a system [J].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Energy {
+    /// Kinetic energy.
+    pub kinetic: f64,
+    /// Elastic energy.
+    pub strain: f64,
+    /// Energy of gravity and of dead loads that do not change in time.
+    pub potential: f64,
+}
+
+impl Energy {
+    /// Sum of all parts.
+    pub fn total(&self) -> f64 {
+        self.kinetic + self.strain + self.potential
+    }
+}
+
+impl std::ops::AddAssign for Energy {
+    fn add_assign(&mut self, other: Self) {
+        self.kinetic += other.kinetic;
+        self.strain += other.strain;
+        self.potential += other.potential;
+    }
+}
+
+/// Derivatives of an element's forces, as dense local matrices: row `i`, column `j` stands at
+/// `i * size + j`. Unknowns are six body-frame freedoms per node, then the coordinates.
+#[derive(Clone, Debug)]
+pub struct Tangents {
+    size: usize,
+    /// With respect to body-frame displacements and rotations.
+    pub stiffness: Vec<f64>,
+    /// With respect to twists.
+    pub damping: Vec<f64>,
+    /// With respect to accelerations.
+    pub mass: Vec<f64>,
+}
+
+impl Tangents {
+    /// Room for `size` local unknowns, all zero.
+    pub fn new(size: usize) -> Self {
+        let zeros = vec![0.0; size * size];
+        Self { size, stiffness: zeros.clone(), damping: zeros.clone(), mass: zeros }
+    }
+
+    /// Number of local unknowns.
+    pub fn size(&self) -> usize {
+        self.size
+    }
+
+    /// Sets everything to zero, for an element of `size` unknowns.
+    pub fn clear(&mut self, size: usize) {
+        self.size = size;
+        for matrix in [&mut self.stiffness, &mut self.damping, &mut self.mass] {
+            matrix.clear();
+            matrix.resize(size * size, 0.0);
+        }
+    }
+}
+
+/// Adds `block` to the local matrix at local rows from `row` and columns from `column`.
+pub(crate) fn add_block<const R: usize, const C: usize>(
+    matrix: &mut [f64],
+    size: usize,
+    (row, column): (usize, usize),
+    block: &nalgebra::SMatrix<f64, R, C>,
+) {
+    for i in 0..R {
+        for j in 0..C {
+            matrix[(row + i) * size + column + j] += block[(i, j)];
+        }
+    }
+}
+
+/// An element. SI in, SI out.
+pub trait Element: Send + Sync + 'static {
+    /// Nodes it acts on, in local order.
+    fn nodes(&self) -> &[NodeId];
+
+    /// Algebraic coordinates it acts on, after the nodes in local order.
+    fn coordinates(&self) -> &[CoordinateId] {
+        &[]
+    }
+
+    /// Adds the forces [N, N m] that stand on the left-hand side of the equations of motion,
+    /// six per node in the node's body frame, then one per coordinate. Hot: called in every iteration.
+    fn forces(&self, at: &Kinematics, out: &mut [f64]);
+
+    /// Adds the derivatives of `forces`. `out` is zero on entry. Rare.
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents);
+
+    /// Kinetic, elastic and potential energy.
+    fn energy(&self, at: &Kinematics) -> Energy;
+}
+
+/// What a springlike or loadlike kind is attached to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Attachment {
+    /// One node and a point carried by it.
+    OneNode,
+    /// Two nodes, base and tip, and a point carried by each.
+    TwoNodes,
+    /// A joint's algebraic coordinate.
+    Coordinate,
+}
+
+/// Where a component is attached, resolved to indices.
+#[derive(Clone, Copy, Debug)]
+pub enum Attached {
+    /// A node and a point in its body frame [m].
+    OneNode(NodeId, Vector3),
+    /// Base and tip node, each with a point in its body frame [m].
+    TwoNodes([NodeId; 2], [Vector3; 2]),
+    /// An algebraic coordinate.
+    Coordinate(CoordinateId),
+}
+
+impl Attached {
+    /// The node and point of a one-node attachment.
+    ///
+    /// # Errors
+    /// If the attachment is of another form.
+    pub fn one_node(self) -> Result<(NodeId, Vector3), ParameterError> {
+        match self {
+            Self::OneNode(node, point) => Ok((node, point)),
+            _ => Err(ParameterError::new("on", "must name one node")),
+        }
+    }
+
+    /// Nodes and points of a two-node attachment.
+    ///
+    /// # Errors
+    /// If the attachment is of another form.
+    pub fn two_nodes(self) -> Result<([NodeId; 2], [Vector3; 2]), ParameterError> {
+        match self {
+            Self::TwoNodes(nodes, points) => Ok((nodes, points)),
+            _ => Err(ParameterError::new("base", "and `tip` must name two nodes")),
+        }
+    }
+
+    /// The coordinate of a coordinate attachment.
+    ///
+    /// # Errors
+    /// If the attachment is of another form.
+    pub fn coordinate(self) -> Result<CoordinateId, ParameterError> {
+        match self {
+            Self::Coordinate(coordinate) => Ok(coordinate),
+            _ => Err(ParameterError::new("joint", "must name a joint with a relative coordinate")),
+        }
+    }
+}
+
+/// A kind of spring or load, as the model file and the tests know it.
+#[derive(Clone, Copy, Debug)]
+pub struct ElementKind {
+    /// Name in the model file.
+    pub name: &'static str,
+    /// One sentence.
+    pub summary: &'static str,
+    /// A minimal model-file entry of its own parameters.
+    pub sample: &'static str,
+    /// Parameters beyond the attachment.
+    pub parameters: &'static [Parameter],
+    /// What it is attached to.
+    pub attachment: Attachment,
+    /// Builds it and adds it to a system.
+    pub build: fn(&mut Builder, Attached, &Parameters) -> Result<(), ParameterError>,
+}
+
+/// Springs and dampers, one line each.
+pub static SPRINGS: &[ElementKind] = &[point_spring::KIND, torsional_spring::KIND];
+
+/// Loads, one line each.
+pub static LOADS: &[ElementKind] = &[force::KIND, moment::KIND];

@@ -1,0 +1,60 @@
+//! Moment on a node: dead (fixed direction) or follower (turning with the node).
+
+use lissom_motion::skew;
+
+use super::force::{DirectedLoad, LOAD_PARAMETERS};
+use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents, add_block};
+use crate::registry::{ParameterError, Parameters};
+use crate::system::{Builder, Kinematics, NodeId};
+
+/// Registry entry.
+pub const KIND: ElementKind = ElementKind {
+    name: "moment",
+    summary: "Moment on a node, dead or following the node's rotation, with a function of time.",
+    sample: "vector = [0.0, 0.0, 1.0]\nfollower = true",
+    parameters: LOAD_PARAMETERS,
+    attachment: Attachment::OneNode,
+    build,
+};
+
+/// Moment on a node.
+#[derive(Clone, Debug)]
+pub struct Moment {
+    node: [NodeId; 1],
+    load: DirectedLoad,
+}
+
+fn build(
+    builder: &mut Builder,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<(), ParameterError> {
+    let (node, _) = attached.one_node()?;
+    let load = DirectedLoad::new(builder, node, parameters)?;
+    builder.add_element(Moment { node: [node], load });
+    Ok(())
+}
+
+impl Element for Moment {
+    fn nodes(&self) -> &[NodeId] {
+        &self.node
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        let moment = self.load.in_body(at, self.node[0]);
+        for k in 0..3 {
+            out[3 + k] -= moment[k];
+        }
+    }
+
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        if !self.load.follower {
+            let turning = skew(&self.load.in_body(at, self.node[0]));
+            add_block(&mut out.stiffness, 6, (3, 3), &-turning);
+        }
+    }
+
+    fn energy(&self, _: &Kinematics) -> Energy {
+        Energy::default()
+    }
+}

@@ -1,0 +1,222 @@
+//! A joint in its place: between two nodes, with its rows in the system. Turns the joint's equations in
+//! the relative motion into equations in the unknowns of the nodes.
+//!
+//!     G = H_A⁻¹ H_B of the joint frames,   η = δh_B - Ad(G⁻¹) δh_A,   w = (∂c/∂η)ᵀ μ
+//!     wrench on the tip's joint frame w, on the base's -Ad(G⁻¹)ᵀ w
+
+use lissom_motion::{
+    Matrix6, Motion, Vector6, coadjoint_matrix, rotation_exponential_minus_identity, rotation_tangent,
+};
+use nalgebra::{SMatrix, SVector};
+
+use super::{Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, Own, Relative};
+use crate::system::state::split;
+use crate::system::{CoordinateId, Kinematics, NodeId};
+
+/// A joint frame: a frame carried by a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CarriedFrame {
+    /// The node that carries it.
+    pub node: NodeId,
+    /// The frame in the node's frame.
+    pub offset: Motion,
+}
+
+/// Local unknowns of a joint: six of the base, six of the tip, its coordinates.
+pub const LOCAL: usize = 12 + MOST_COORDINATES;
+
+/// Derivatives of the equations with respect to the local unknowns.
+pub type LocalGradient = SMatrix<f64, MOST_EQUATIONS, LOCAL>;
+
+/// A joint between two nodes.
+#[derive(Debug)]
+pub struct AttachedJoint {
+    /// Name in the model.
+    pub name: String,
+    /// Name of its kind.
+    pub kind: &'static str,
+    /// Base and tip.
+    pub frames: [CarriedFrame; 2],
+    /// Its coordinates; the first `joint.coordinates().len()` count.
+    pub coordinates: Vec<CoordinateId>,
+    /// Position of its first multiplier among all multipliers.
+    pub first_multiplier: usize,
+    pub(crate) joint: Box<dyn Joint>,
+}
+
+/// Increments of the nodes since the start of the step, in body frames.
+#[derive(Clone, Copy, Debug)]
+pub struct Increments<'a> {
+    /// The start of the step.
+    pub start: &'a Kinematics,
+    /// ψ of every node, with H = H_start exp ψ.
+    pub nodes: &'a [Vector6],
+    /// Change of every coordinate.
+    pub coordinates: &'a [f64],
+}
+
+impl AttachedJoint {
+    /// Number of equations.
+    pub fn equations(&self) -> usize {
+        self.joint.equations().len()
+    }
+
+    /// The joint's equations.
+    pub fn joint(&self) -> &dyn Joint {
+        self.joint.as_ref()
+    }
+
+    /// Relative motion of tip to base.
+    pub fn relative_motion(&self, at: &Kinematics) -> Motion {
+        let [base, tip] = self.frames.map(|frame| at.nodes[frame.node].frame * frame.offset);
+        tip.relative_to(&base)
+    }
+
+    /// Relative motion and its change over the step.
+    ///
+    /// With E = exp ψ_A, (F, p_F) = exp ψ_B seen in the joint frames, and (R, x) at the start:
+    /// R' = EᵀRF and x' = Eᵀ(x + R p_F - p_E), so
+    /// ΔR = aR + (R + aR) b and Δx = a (x + Δy) + Δy, with a = Eᵀ - I, b = F - I, Δy = R p_F - p_E.
+    fn relative(&self, increments: &Increments<'_>) -> Relative {
+        let start = self.relative_motion(increments.start);
+        let [(a, base_shift), (b, tip_shift)] = self.frames.map(|frame| {
+            let seen = frame.offset.adjoint_inverse_times(&increments.nodes[frame.node]);
+            let (u, theta) = split(&seen);
+            // exp(u, θ) moves the origin by T(θ)ᵀ u.
+            (rotation_exponential_minus_identity(&theta), rotation_tangent(&theta).tr_mul(&u))
+        });
+        let rotation = start.rotation.matrix();
+        let a = a.transpose();
+        let turned = a * rotation;
+        let rotation_change = turned + (rotation + turned) * b;
+        let shift = rotation * tip_shift - base_shift;
+        let position_change = a * (start.position + shift) + shift;
+        Relative {
+            rotation: rotation + rotation_change,
+            position: start.position + position_change,
+            rotation_change,
+            position_change,
+        }
+    }
+
+    fn own(&self, at: &Kinematics, changes: &[f64]) -> Own {
+        let mut own = Own::default();
+        for (k, &coordinate) in self.coordinates.iter().enumerate() {
+            own.change[k] = changes[coordinate];
+            own.value[k] = at.coordinates[coordinate].value + own.change[k];
+        }
+        own
+    }
+
+    /// Violation, evaluated outright from absolute places.
+    pub fn violation(&self, at: &Kinematics) -> Equations {
+        let mut own = Own::default();
+        for (k, &coordinate) in self.coordinates.iter().enumerate() {
+            own.value[k] = at.coordinates[coordinate].value;
+        }
+        self.joint.violation(&Relative::at_start(&self.relative_motion(at)), &own)
+    }
+
+    /// Relative motion and own coordinates after the increments.
+    pub fn configuration(&self, increments: &Increments<'_>) -> (Relative, Own) {
+        (self.relative(increments), self.own(increments.start, increments.coordinates))
+    }
+
+    /// Forces on the local unknowns for the multipliers `mu`.
+    pub fn forces(&self, (relative, own): &(Relative, Own), mu: &Equations) -> SVector<f64, LOCAL> {
+        let mut gradient = Gradient::zeros();
+        self.joint.gradient(relative, own, &mut gradient);
+        let mu = SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu);
+        let wrench = gradient.relative.tr_mul(&mu);
+        let moments = gradient.own.tr_mul(&mu);
+        let on_base = -adjoint_inverse_transpose(relative, &wrench);
+        let base = self.frames[0].offset.adjoint_inverse_transpose_times(&on_base);
+        let tip = self.frames[1].offset.adjoint_inverse_transpose_times(&wrench);
+        let mut out = SVector::<f64, LOCAL>::zeros();
+        out.fixed_rows_mut::<6>(0).copy_from(&base);
+        out.fixed_rows_mut::<6>(6).copy_from(&tip);
+        out.fixed_rows_mut::<MOST_COORDINATES>(12).copy_from(&moments);
+        out
+    }
+
+    /// Derivatives of the equations and of the forces at constant multipliers `mu`, with respect to the
+    /// local unknowns.
+    pub fn linearize(
+        &self,
+        (relative, own): &(Relative, Own),
+        mu: &Equations,
+    ) -> (LocalGradient, SMatrix<f64, LOCAL, LOCAL>) {
+        let mut gradient = Gradient::zeros();
+        self.joint.gradient(relative, own, &mut gradient);
+        let mut curvature = Curvature::zeros();
+        self.joint.curvature(relative, own, mu, &mut curvature);
+        let variation = self.variation(relative);
+        let mut rows = LocalGradient::zeros();
+        rows.fixed_columns_mut::<12>(0).copy_from(&(gradient.relative * variation));
+        rows.fixed_columns_mut::<MOST_COORDINATES>(12).copy_from(&gradient.own);
+
+        // Chain rule through (η, φ).
+        let mut chain = SMatrix::<f64, 8, LOCAL>::zeros();
+        chain.fixed_view_mut::<6, 12>(0, 0).copy_from(&variation);
+        chain.fixed_view_mut::<2, 2>(6, 12).fill_with_identity();
+        let mut geometric = chain.transpose() * (curvature * chain);
+        // The base's wrench -Aᵀ w, A = Ad(G⁻¹), turns with η: δ(Aᵀ) w = -Aᵀ X(w) η.
+        let wrench =
+            gradient.relative.tr_mul(&SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu));
+        let [base, _] = self.offset_adjoints();
+        let turning = (relative_adjoint(relative) * base).transpose()
+            * (coadjoint_matrix(&wrench) * variation);
+        let mut view = geometric.fixed_view_mut::<6, 12>(0, 0);
+        view += turning;
+        (rows, geometric)
+    }
+
+    /// η as a linear map of the node variations.
+    fn variation(&self, relative: &Relative) -> SMatrix<f64, 6, 12> {
+        let [base, tip] = self.offset_adjoints();
+        let mut variation = SMatrix::<f64, 6, 12>::zeros();
+        variation.fixed_columns_mut::<6>(0).copy_from(&(-relative_adjoint(relative) * base));
+        variation.fixed_columns_mut::<6>(6).copy_from(&tip);
+        variation
+    }
+
+    fn offset_adjoints(&self) -> [Matrix6; 2] {
+        self.frames.map(|frame| frame.offset.inverse().adjoint())
+    }
+
+    /// Wrench of the joint on the tip at the joint's point, in inertial axes [N, N m], for the
+    /// multipliers `mu` at the configuration `at`.
+    pub fn reaction(&self, at: &Kinematics, mu: &Equations) -> Vector6 {
+        let motion = self.relative_motion(at);
+        let mut own = Own::default();
+        for (k, &coordinate) in self.coordinates.iter().enumerate() {
+            own.value[k] = at.coordinates[coordinate].value;
+        }
+        let mut gradient = Gradient::zeros();
+        self.joint.gradient(&Relative::at_start(&motion), &own, &mut gradient);
+        let wrench =
+            -gradient.relative.tr_mul(&SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu));
+        let tip = self.frames[1];
+        let rotation = at.nodes[tip.node].frame.rotation * tip.offset.rotation;
+        let (force, moment) = split(&wrench);
+        lissom_motion::screw(&rotation.apply(&force), &rotation.apply(&moment))
+    }
+}
+
+/// Ad(G⁻¹) = [[Rᵀ, -Rᵀ x̃], [0, Rᵀ]].
+fn relative_adjoint(relative: &Relative) -> Matrix6 {
+    let turned = relative.rotation.transpose();
+    let mut adjoint = Matrix6::zeros();
+    adjoint.fixed_view_mut::<3, 3>(0, 0).copy_from(&turned);
+    adjoint.fixed_view_mut::<3, 3>(3, 3).copy_from(&turned);
+    adjoint.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-turned * lissom_motion::skew(&relative.position)));
+    adjoint
+}
+
+/// Ad(G⁻¹)ᵀ w: the wrench moved from the tip's to the base's joint frame.
+fn adjoint_inverse_transpose(relative: &Relative, wrench: &Vector6) -> Vector6 {
+    let (force, moment) = split(wrench);
+    let force = relative.rotation * force;
+    let moment = relative.rotation * moment + relative.position.cross(&force);
+    lissom_motion::screw(&force, &moment)
+}

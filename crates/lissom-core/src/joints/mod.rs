@@ -1,0 +1,178 @@
+//! What must hold: joints between two nodes, and prescribed relative motions.
+//!
+//! A joint sees only the relative motion of two joint frames, one carried by its base node and one by
+//! its tip node, and its own algebraic coordinates. It knows no step size, no scheme, no scaling, and
+//! not even where it is. `attached` turns its answers into rows of the system.
+
+pub mod attached;
+pub mod clamp;
+pub mod distance;
+pub mod prescribed_rotation;
+pub mod primitives;
+pub mod revolute;
+pub mod rigid_link;
+pub mod spherical;
+pub mod swing_arm;
+pub mod universal;
+
+use lissom_motion::{Matrix3, Motion, Vector3};
+use nalgebra::SMatrix;
+
+use crate::registry::{Function, Parameter, ParameterError, Parameters};
+
+/// Most equations a joint may have.
+pub const MOST_EQUATIONS: usize = 6;
+/// Most algebraic coordinates a joint may have.
+pub const MOST_COORDINATES: usize = 2;
+
+/// Motion of the tip's joint frame in the base's joint frame, and its change since the start of the
+/// step, computed from the increments without cancellation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Relative {
+    /// Relative rotation now.
+    pub rotation: Matrix3,
+    /// Relative position now [m].
+    pub position: Vector3,
+    /// Change of the rotation matrix since the start of the step.
+    pub rotation_change: Matrix3,
+    /// Change of the position since the start of the step [m].
+    pub position_change: Vector3,
+}
+
+impl Relative {
+    /// A relative motion that has not changed.
+    pub fn at_start(motion: &Motion) -> Self {
+        Self {
+            rotation: motion.rotation.matrix(),
+            position: motion.position,
+            rotation_change: Matrix3::zeros(),
+            position_change: Vector3::zeros(),
+        }
+    }
+
+    /// Relative rotation at the start of the step.
+    pub fn start_rotation(&self) -> Matrix3 {
+        self.rotation - self.rotation_change
+    }
+}
+
+/// The joint's own coordinates now, and their change since the start of the step [rad].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Own {
+    /// Values now.
+    pub value: [f64; MOST_COORDINATES],
+    /// Change since the start of the step.
+    pub change: [f64; MOST_COORDINATES],
+}
+
+/// One number per equation.
+pub type Equations = [f64; MOST_EQUATIONS];
+
+/// Derivatives of the equations: with respect to the body variation η of the relative motion
+/// (translation, rotation), and to the joint's own coordinates. Unused rows and columns stay zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gradient {
+    /// ∂c/∂η.
+    pub relative: SMatrix<f64, MOST_EQUATIONS, 6>,
+    /// ∂c/∂φ.
+    pub own: SMatrix<f64, MOST_EQUATIONS, MOST_COORDINATES>,
+}
+
+impl Gradient {
+    /// All zero.
+    pub fn zeros() -> Self {
+        Self { relative: SMatrix::zeros(), own: SMatrix::zeros() }
+    }
+}
+
+/// Derivatives of (∂c/∂(η, φ))ᵀ μ with respect to (η, φ).
+pub type Curvature = SMatrix<f64, 8, 8>;
+
+/// The equations of a joint.
+pub trait Joint: Send + Sync + std::fmt::Debug {
+    /// Name of each equation.
+    fn equations(&self) -> &'static [&'static str];
+
+    /// Name of each algebraic coordinate.
+    fn coordinates(&self) -> &'static [&'static str] {
+        &[]
+    }
+
+    /// Coordinates at the start, and the relative motion for which they satisfy the equations.
+    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+        ([0.0; MOST_COORDINATES], Motion::identity())
+    }
+
+    /// Violation c of the equations, evaluated outright.
+    fn violation(&self, relative: &Relative, own: &Own) -> Equations;
+
+    /// Change of the violation since the start of the step, from the changes of `relative` and `own`,
+    /// without cancellation.
+    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations;
+
+    /// ∂c/∂(η, φ); `out` is zero on entry.
+    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient);
+
+    /// Derivative of the constraint forces at constant multipliers μ; `out` is zero on entry.
+    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature);
+}
+
+/// How the joint frames are laid at the start.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Frames {
+    /// Both at one point; their direction does not matter.
+    Point,
+    /// Both at one point, third axis along `axis`.
+    Axis,
+    /// Both at one point, first axis along `axis`, second along `second_axis`.
+    TwoAxes,
+    /// One at the base's point, one at the tip node; third axis along `axis`.
+    SpanWithAxis,
+    /// One at the base's point, one at the tip node; their direction does not matter.
+    Span,
+}
+
+/// Place of the tip's joint frame at the start, seen from the base's joint frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Geometry {
+    /// From the base's point to the tip's point, in the base's joint frame [m].
+    pub span: Vector3,
+    /// Whether the tip node can only move in the joint frame's plane of the first two axes.
+    pub planar: bool,
+}
+
+/// How a joint is made.
+#[derive(Clone, Copy, Debug)]
+pub enum Build {
+    /// Between two nodes.
+    Relative(Frames, fn(&Parameters, &Geometry) -> Result<Box<dyn Joint>, ParameterError>),
+    /// Prescribes the algebraic coordinate of another joint as a function of time.
+    Coordinate(fn(&Parameters) -> Result<Function, ParameterError>),
+}
+
+/// A kind of joint, as the model file and the tests know it.
+#[derive(Clone, Copy, Debug)]
+pub struct JointKind {
+    /// Name in the model file.
+    pub name: &'static str,
+    /// One sentence.
+    pub summary: &'static str,
+    /// A minimal model-file entry of its own parameters.
+    pub sample: &'static str,
+    /// Parameters beyond base, tip, at and the axes.
+    pub parameters: &'static [Parameter],
+    /// How it is made.
+    pub build: Build,
+}
+
+/// All kinds of joints, one line each.
+pub static KINDS: &[JointKind] = &[
+    clamp::KIND,
+    distance::KIND,
+    prescribed_rotation::KIND,
+    revolute::KIND,
+    rigid_link::KIND,
+    spherical::KIND,
+    swing_arm::KIND,
+    universal::KIND,
+];

@@ -1,0 +1,167 @@
+//! Formulas that joints share: coincident points and matching rotations.
+//!
+//! Rotations: with the joint's rotation Q(φ) and the relative rotation R,
+//!
+//!     E = QᵀR,   c = axial(E),   δE = E ρ̃,   ρ = η_θ - Eᵀ S δφ,   S = axis vectors of Qᵀ ∂Q/∂φ
+//!     ∂c/∂ρ = N = ½ (tr E I - Eᵀ),   m = Nᵀ μ = ½ (tr E μ - E μ),   ∂m/∂ρ = ½ E μ̃ - μ axial(E)ᵀ
+
+use lissom_motion::{Matrix3, Vector3, axial, skew};
+
+use super::{Curvature, Equations, Gradient, MOST_COORDINATES, Own, Relative};
+
+/// Names of three equations that hold two points together.
+pub const POINT_EQUATIONS: [&str; 3] = ["position 1", "position 2", "position 3"];
+
+/// Rows `row..row + 3`: the tip's point lies at the base's point.
+pub fn coincident(relative: &Relative, row: usize, out: &mut Equations) {
+    out[row..row + 3].copy_from_slice(relative.position.as_slice());
+}
+
+/// Change of [`coincident`] since the start of the step.
+pub fn coincident_change(relative: &Relative, row: usize, out: &mut Equations) {
+    out[row..row + 3].copy_from_slice(relative.position_change.as_slice());
+}
+
+/// Gradient of [`coincident`]: δx = R η_u.
+pub fn coincident_gradient(relative: &Relative, row: usize, out: &mut Gradient) {
+    out.relative.fixed_view_mut::<3, 3>(row, 0).copy_from(&relative.rotation);
+}
+
+/// Curvature of [`coincident`]: δ(Rᵀ μ) = (Rᵀ μ)~ η_θ.
+pub fn coincident_curvature(relative: &Relative, mu: &Vector3, out: &mut Curvature) {
+    let turning = skew(&relative.rotation.tr_mul(mu));
+    let mut view = out.fixed_view_mut::<3, 3>(0, 3);
+    view += turning;
+}
+
+/// A joint's own rotation Q(φ) and its derivatives.
+#[derive(Clone, Copy, Debug)]
+pub struct JointRotation {
+    /// Q(φ).
+    pub rotation: Matrix3,
+    /// Change of Q since the start of the step, free of cancellation.
+    pub change: Matrix3,
+    /// Axis vectors of Qᵀ ∂Q/∂φ_k, one per coordinate.
+    pub axes: [Vector3; MOST_COORDINATES],
+    /// ∂axes[k]/∂φ_j, at `[k][j]`.
+    pub axes_by: [[Vector3; MOST_COORDINATES]; MOST_COORDINATES],
+    /// Number of coordinates.
+    pub count: usize,
+}
+
+impl JointRotation {
+    /// No rotation of its own.
+    pub fn none() -> Self {
+        Self {
+            rotation: Matrix3::identity(),
+            change: Matrix3::zeros(),
+            axes: [Vector3::zeros(); 2],
+            axes_by: [[Vector3::zeros(); 2]; 2],
+            count: 0,
+        }
+    }
+
+    /// Rotation about the third axis.
+    pub fn about_third_axis(own: &Own) -> Self {
+        Self {
+            rotation: elementary(2, own.value[0]),
+            change: elementary_change(2, own.value[0], own.change[0]),
+            axes: [Vector3::z(), Vector3::zeros()],
+            count: 1,
+            ..Self::none()
+        }
+    }
+
+    /// Rotation about the first axis, then about the turned second axis.
+    pub fn about_first_and_second_axis(own: &Own) -> Self {
+        let [a, b] = own.value;
+        let [da, db] = own.change;
+        let (first, second) = (elementary(0, a), elementary(1, b));
+        let first_change = elementary_change(0, a, da);
+        let second_change = elementary_change(1, b, db);
+        let seen = second.tr_mul(&Vector3::x());
+        Self {
+            rotation: first * second,
+            // P Q - P₀ Q₀ = ΔP Q + P₀ ΔQ
+            change: first_change * second + (first - first_change) * second_change,
+            axes: [seen, Vector3::y()],
+            // ∂/∂b (Qᵀ e₁) = - e₂ × (Qᵀ e₁)
+            axes_by: [[Vector3::zeros(), -Vector3::y().cross(&seen)], [Vector3::zeros(); 2]],
+            count: 2,
+        }
+    }
+
+    fn error(&self, relative: &Relative) -> Matrix3 {
+        self.rotation.tr_mul(&relative.rotation)
+    }
+
+    /// Rows `row..row + 3`: the relative rotation is Q.
+    pub fn matches(&self, relative: &Relative, row: usize, out: &mut Equations) {
+        out[row..row + 3].copy_from_slice(axial(&self.error(relative)).as_slice());
+    }
+
+    /// Change of [`Self::matches`]: QᵀR - Q₀ᵀR₀ = ΔQᵀ R₀ + Qᵀ ΔR.
+    pub fn matches_change(&self, relative: &Relative, row: usize, out: &mut Equations) {
+        let change = self.change.tr_mul(&relative.start_rotation())
+            + self.rotation.tr_mul(&relative.rotation_change);
+        out[row..row + 3].copy_from_slice(axial(&change).as_slice());
+    }
+
+    /// Gradient of [`Self::matches`].
+    pub fn matches_gradient(&self, relative: &Relative, row: usize, out: &mut Gradient) {
+        let e = self.error(relative);
+        let n = 0.5 * (Matrix3::identity() * e.trace() - e.transpose());
+        out.relative.fixed_view_mut::<3, 3>(row, 3).copy_from(&n);
+        for k in 0..self.count {
+            let column = -n * e.tr_mul(&self.axes[k]);
+            out.own.fixed_view_mut::<3, 1>(row, k).copy_from(&column);
+        }
+    }
+
+    /// Curvature of [`Self::matches`].
+    pub fn matches_curvature(&self, relative: &Relative, mu: &Vector3, out: &mut Curvature) {
+        let e = self.error(relative);
+        let m = 0.5 * (e.trace() * mu - e * mu);
+        let dm = 0.5 * e * skew(mu) - mu * axial(&e).transpose();
+        let mut view = out.fixed_view_mut::<3, 3>(3, 3);
+        view += dm;
+        for k in 0..self.count {
+            let axis = e.tr_mul(&self.axes[k]);
+            // The moment -Sᵀ E m on φ_k changes with ρ as Sᵀ E (m̃ - ∂m/∂ρ).
+            let by_rho = axis.transpose() * (skew(&m) - dm);
+            let column = dm * axis;
+            for i in 0..3 {
+                out[(3 + i, 6 + k)] -= column[i];
+                out[(6 + k, 3 + i)] += by_rho[i];
+            }
+            for j in 0..self.count {
+                out[(6 + k, 6 + j)] -= by_rho.dot(&e.tr_mul(&self.axes[j]).transpose());
+                out[(6 + k, 6 + j)] -= self.axes_by[k][j].dot(&(e * m));
+            }
+        }
+    }
+}
+
+/// Rotation by `angle` about coordinate axis `axis`.
+pub fn elementary(axis: usize, angle: f64) -> Matrix3 {
+    let (s, c) = angle.sin_cos();
+    fill_elementary(axis, s, c, 1.0)
+}
+
+/// `elementary(axis, angle) - elementary(axis, angle - change)` without cancellation.
+pub fn elementary_change(axis: usize, angle: f64, change: f64) -> Matrix3 {
+    let half = (0.5 * change).sin();
+    let (s, c) = (angle - 0.5 * change).sin_cos();
+    fill_elementary(axis, 2.0 * c * half, -2.0 * s * half, 0.0)
+}
+
+fn fill_elementary(axis: usize, sine: f64, cosine: f64, one: f64) -> Matrix3 {
+    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut matrix = Matrix3::zeros();
+    matrix[(axis, axis)] = one;
+    matrix[(j, j)] = cosine;
+    matrix[(k, k)] = cosine;
+    matrix[(k, j)] = sine;
+    matrix[(j, k)] = -sine;
+    matrix
+}

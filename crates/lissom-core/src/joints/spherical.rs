@@ -1,0 +1,47 @@
+//! Spherical joint: two nodes share a point and turn freely about it.
+
+use lissom_motion::Vector3;
+
+use super::primitives::{
+    POINT_EQUATIONS, coincident, coincident_change, coincident_curvature, coincident_gradient,
+};
+use super::{Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, Own, Relative};
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "spherical",
+    summary: "Two nodes share a point and turn freely about it.",
+    sample: "",
+    parameters: &[],
+    build: Build::Relative(Frames::Point, |_, _| Ok(Box::new(Spherical))),
+};
+
+/// A shared point.
+#[derive(Clone, Copy, Debug)]
+pub struct Spherical;
+
+impl Joint for Spherical {
+    fn equations(&self) -> &'static [&'static str] {
+        &POINT_EQUATIONS
+    }
+
+    fn violation(&self, relative: &Relative, _: &Own) -> Equations {
+        let mut out = Equations::default();
+        coincident(relative, 0, &mut out);
+        out
+    }
+
+    fn violation_change(&self, relative: &Relative, _: &Own) -> Equations {
+        let mut out = Equations::default();
+        coincident_change(relative, 0, &mut out);
+        out
+    }
+
+    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+        coincident_gradient(relative, 0, out);
+    }
+
+    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
+        coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+    }
+}

@@ -1,0 +1,61 @@
+//! Universal joint: two nodes share a point; the tip turns about an axis of the base, then about an
+//! axis of its own. Both angles are algebraic coordinates.
+
+use lissom_motion::Vector3;
+
+use super::clamp::EQUATIONS;
+use super::primitives::{
+    JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient,
+};
+use super::{Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, Own, Relative};
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "universal",
+    summary: "Two nodes share a point and a cross of two axes; both rotations are coordinates.",
+    sample: "axis = [1.0, 0.0, 0.0]\nsecond_axis = [0.0, 1.0, 0.0]",
+    parameters: &[],
+    build: Build::Relative(Frames::TwoAxes, |_, _| Ok(Box::new(Universal))),
+};
+
+/// A shared point and a cross.
+#[derive(Clone, Copy, Debug)]
+pub struct Universal;
+
+impl Joint for Universal {
+    fn equations(&self) -> &'static [&'static str] {
+        &EQUATIONS
+    }
+
+    fn coordinates(&self) -> &'static [&'static str] {
+        &["first angle", "second angle"]
+    }
+
+    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+        let mut out = Equations::default();
+        coincident(relative, 0, &mut out);
+        JointRotation::about_first_and_second_axis(own).matches(relative, 3, &mut out);
+        out
+    }
+
+    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations {
+        let mut out = Equations::default();
+        coincident_change(relative, 0, &mut out);
+        JointRotation::about_first_and_second_axis(own).matches_change(relative, 3, &mut out);
+        out
+    }
+
+    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+        coincident_gradient(relative, 0, out);
+        JointRotation::about_first_and_second_axis(own).matches_gradient(relative, 3, out);
+    }
+
+    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
+        coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+        JointRotation::about_first_and_second_axis(own).matches_curvature(
+            relative,
+            &Vector3::new(mu[3], mu[4], mu[5]),
+            out,
+        );
+    }
+}

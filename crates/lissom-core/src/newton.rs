@@ -1,0 +1,214 @@
+//! The only Newton loop. Knows neither time nor mechanics: it corrects, watches the contraction, keeps
+//! the tangent while it serves, renews it when it does not, and stops on a scaled tolerance or when
+//! corrections no longer shrink because round-off is reached.
+
+use lissom_solver::FactorError;
+
+/// What Newton's method sees of a problem.
+pub trait Equations {
+    /// Evaluates the residual at the current iterate, solves with the current tangent and corrects.
+    fn correct(&mut self) -> Correction;
+
+    /// Linearises at the current iterate and factors.
+    ///
+    /// # Errors
+    /// If a pivot vanishes.
+    fn renew_tangent(&mut self) -> Result<(), FactorError>;
+
+    /// Goes back to the first guess.
+    fn restart(&mut self);
+}
+
+/// Size of a correction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Correction {
+    /// Largest scaled correction [-].
+    pub size: f64,
+    /// What it is to be compared with: the size of what the step has to find out.
+    pub reference: f64,
+}
+
+/// When to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Limits {
+    /// Estimated remaining error relative to the correction's reference [-].
+    pub tolerance: f64,
+    /// Most iterations in one solution.
+    pub max_iterations: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { tolerance: 1e-8, max_iterations: 25 }
+    }
+}
+
+/// What is remembered from one solution to the next.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Memory {
+    /// Whether there is a factored tangent that may still serve.
+    pub has_tangent: bool,
+    /// Contraction per iteration last seen with this tangent.
+    contraction: Option<f64>,
+}
+
+/// A solution found.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Outcome {
+    /// Iterations made.
+    pub iterations: usize,
+    /// Tangents factored.
+    pub factorizations: usize,
+    /// Size of the last correction.
+    pub correction: f64,
+    /// Whether it stopped because round-off was reached before the tolerance.
+    pub stagnated: bool,
+}
+
+/// No solution.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Failure {
+    /// Too many iterations, or corrections that grow.
+    NotConverged {
+        /// Iterations made.
+        iterations: usize,
+        /// Size of the last correction.
+        correction: f64,
+    },
+    /// A number is not finite.
+    NotFinite {
+        /// Iterations made.
+        iterations: usize,
+    },
+    /// The tangent has no factorisation without pivoting.
+    Factor(FactorError),
+}
+
+/// Slower contraction than this asks for a new tangent.
+const SLOW: f64 = 0.3;
+/// Corrections that shrink by less than this are round-off, once they are small.
+const STALLED: f64 = 0.5;
+/// A stalled correction below this size is round-off whatever the reference [-].
+const ROUND_OFF: f64 = 1e-11;
+/// A stalled correction below this fraction of the reference is good enough to go on.
+const STALLED_FRACTION: f64 = 1e-3;
+
+/// Solves `equations`.
+///
+/// # Errors
+/// If it does not converge within the limits.
+pub fn solve<E: Equations>(
+    equations: &mut E,
+    limits: &Limits,
+    memory: &mut Memory,
+) -> Result<Outcome, Failure> {
+    let mut outcome = Outcome::default();
+    let mut previous: Option<f64> = None;
+    // Whether the tangent was made in this solution.
+    let mut fresh = false;
+    while outcome.iterations < limits.max_iterations {
+        if !memory.has_tangent {
+            equations.renew_tangent().map_err(Failure::Factor)?;
+            *memory = Memory { has_tangent: true, contraction: None };
+            outcome.factorizations += 1;
+            fresh = true;
+            previous = None;
+        }
+        let Correction { size, reference } = equations.correct();
+        outcome.iterations += 1;
+        outcome.correction = size;
+        if !(size.is_finite() && reference.is_finite()) {
+            memory.has_tangent = false;
+            if fresh {
+                return Err(Failure::NotFinite { iterations: outcome.iterations });
+            }
+            equations.restart();
+            continue;
+        }
+        if size == 0.0 {
+            return Ok(outcome);
+        }
+        let contraction = previous.map(|previous| size / previous);
+        if let Some(contraction) = contraction {
+            memory.contraction = Some(contraction);
+        }
+        let goal = limits.tolerance * reference;
+        if let Some(contraction) = contraction.or(memory.contraction.filter(|_| previous.is_none())) {
+            // Geometric series of the corrections still to come.
+            let remaining = if contraction < 1.0 { contraction / (1.0 - contraction) } else { f64::INFINITY };
+            if remaining * size <= goal {
+                return Ok(outcome);
+            }
+        }
+        if let Some(contraction) = contraction {
+            let round_off = size <= ROUND_OFF || (fresh && size <= STALLED_FRACTION * reference);
+            if contraction > STALLED && round_off {
+                outcome.stagnated = true;
+                return Ok(outcome);
+            }
+            if contraction > 1.0 && !fresh {
+                // The old tangent leads astray: back to the first guess with a new one.
+                memory.has_tangent = false;
+                equations.restart();
+                continue;
+            }
+            if contraction > SLOW {
+                memory.has_tangent = false;
+            }
+        }
+        previous = Some(size);
+    }
+    memory.has_tangent = false;
+    Err(Failure::NotConverged { iterations: outcome.iterations, correction: outcome.correction })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// x² = 2 with a tangent that is only renewed when asked.
+    struct Root {
+        x: f64,
+        slope: f64,
+        tangents: usize,
+    }
+
+    impl Equations for Root {
+        fn correct(&mut self) -> Correction {
+            let change = -(self.x * self.x - 2.0) / self.slope;
+            self.x += change;
+            Correction { size: change.abs(), reference: 1.0 }
+        }
+        fn renew_tangent(&mut self) -> Result<(), FactorError> {
+            self.slope = 2.0 * self.x;
+            self.tangents += 1;
+            Ok(())
+        }
+        fn restart(&mut self) {
+            self.x = 1.0;
+        }
+    }
+
+    #[test]
+    fn converges_and_keeps_the_tangent_for_the_next_solution() {
+        let mut root = Root { x: 1.0, slope: 0.0, tangents: 0 };
+        let mut memory = Memory::default();
+        let limits = Limits { tolerance: 1e-10, max_iterations: 30 };
+        solve(&mut root, &limits, &mut memory).expect("converges");
+        assert!((root.x - 2.0_f64.sqrt()).abs() < 1e-10);
+        let tangents = root.tangents;
+        root.x += 1e-3;
+        let outcome = solve(&mut root, &limits, &mut memory).expect("converges");
+        assert_eq!(root.tangents, tangents);
+        assert!(outcome.iterations <= 4 && outcome.factorizations == 0);
+    }
+
+    #[test]
+    fn a_tangent_that_leads_astray_is_renewed_from_the_first_guess() {
+        let mut root = Root { x: 1.0, slope: 0.5, tangents: 0 };
+        let mut memory = Memory { has_tangent: true, contraction: None };
+        solve(&mut root, &Limits { tolerance: 1e-10, max_iterations: 30 }, &mut memory).expect("converges");
+        assert!((root.x - 2.0_f64.sqrt()).abs() < 1e-9);
+        assert!(root.tangents >= 1);
+    }
+}

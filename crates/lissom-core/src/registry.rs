@@ -1,0 +1,236 @@
+//! What a kind of joint or force element tells the world about itself: its name, one sentence, a
+//! sample, and the parameters it takes. Parser, manual, schema and conformance tests read these
+//! tables; nothing here knows mechanics or files.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
+
+use lissom_motion::Vector3;
+
+/// A function of time with exact first and second derivatives.
+pub trait TimeFunction: Send + Sync + fmt::Debug {
+    /// Value at `time` [s].
+    fn value(&self, time: f64) -> f64;
+    /// First derivative with respect to time at `time` [s].
+    fn first_derivative(&self, time: f64) -> f64;
+    /// Second derivative with respect to time at `time` [s].
+    fn second_derivative(&self, time: f64) -> f64;
+}
+
+/// A shared function of time.
+pub type Function = Arc<dyn TimeFunction>;
+
+/// The same value at all times.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constant(pub f64);
+
+impl TimeFunction for Constant {
+    fn value(&self, _: f64) -> f64 {
+        self.0
+    }
+    fn first_derivative(&self, _: f64) -> f64 {
+        0.0
+    }
+    fn second_derivative(&self, _: f64) -> f64 {
+        0.0
+    }
+}
+
+/// What a parameter holds.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ParameterType {
+    /// A finite number.
+    Number,
+    /// A finite number that must be greater than zero.
+    Positive,
+    /// A finite number that must not be negative.
+    NotNegative,
+    /// Three finite numbers.
+    Vector,
+    /// Three finite numbers, not all zero; only the direction counts.
+    Direction,
+    /// True or false.
+    Flag,
+    /// A number or an expression in the time `t`.
+    Function,
+    /// One of the listed words.
+    Choice(&'static [&'static str]),
+}
+
+/// One parameter of a kind.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// Key in the model file.
+    pub name: &'static str,
+    /// What it holds.
+    pub holds: ParameterType,
+    /// Whether it must be given.
+    pub required: bool,
+    /// Unit, as in `N m/rad`; empty for none.
+    pub unit: &'static str,
+    /// One sentence.
+    pub summary: &'static str,
+}
+
+impl Parameter {
+    /// A parameter that must be given.
+    pub const fn required(
+        name: &'static str,
+        holds: ParameterType,
+        unit: &'static str,
+        summary: &'static str,
+    ) -> Self {
+        Self { name, holds, required: true, unit, summary }
+    }
+
+    /// A parameter that may be left out.
+    pub const fn optional(
+        name: &'static str,
+        holds: ParameterType,
+        unit: &'static str,
+        summary: &'static str,
+    ) -> Self {
+        Self { name, holds, required: false, unit, summary }
+    }
+}
+
+/// A parameter's value.
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// Three numbers.
+    Vector(Vector3),
+    /// True or false.
+    Flag(bool),
+    /// A word.
+    Text(String),
+    /// A function of time.
+    Function(Function),
+}
+
+/// The parameters given for one component, by name.
+#[derive(Clone, Debug, Default)]
+pub struct Parameters {
+    values: BTreeMap<String, Value>,
+}
+
+/// A parameter that is missing or of the wrong kind.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{parameter}` {problem}")]
+pub struct ParameterError {
+    /// Name of the parameter.
+    pub parameter: String,
+    /// What is wrong, to follow the name in a sentence.
+    pub problem: String,
+}
+
+impl ParameterError {
+    /// An error about `parameter`.
+    pub fn new(parameter: &str, problem: impl Into<String>) -> Self {
+        Self { parameter: parameter.to_owned(), problem: problem.into() }
+    }
+}
+
+impl Parameters {
+    /// No parameters.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds or replaces a value.
+    #[must_use]
+    pub fn with(mut self, name: &str, value: Value) -> Self {
+        self.insert(name, value);
+        self
+    }
+
+    /// Adds or replaces a value.
+    pub fn insert(&mut self, name: &str, value: Value) {
+        self.values.insert(name.to_owned(), value);
+    }
+
+    /// Whether `name` was given.
+    pub fn has(&self, name: &str) -> bool {
+        self.values.contains_key(name)
+    }
+
+    /// A number that must be there.
+    ///
+    /// # Errors
+    /// If it is missing or no number.
+    pub fn number(&self, name: &str) -> Result<f64, ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Number(value)) => Ok(*value),
+            other => Err(wrong(name, "a number", other)),
+        }
+    }
+
+    /// A number, or `default` where it is not given.
+    ///
+    /// # Errors
+    /// If it is given and no number.
+    pub fn number_or(&self, name: &str, default: f64) -> Result<f64, ParameterError> {
+        if self.has(name) { self.number(name) } else { Ok(default) }
+    }
+
+    /// A vector that must be there.
+    ///
+    /// # Errors
+    /// If it is missing or no vector.
+    pub fn vector(&self, name: &str) -> Result<Vector3, ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Vector(value)) => Ok(*value),
+            other => Err(wrong(name, "three numbers", other)),
+        }
+    }
+
+    /// A vector, or `default` where it is not given.
+    ///
+    /// # Errors
+    /// If it is given and no vector.
+    pub fn vector_or(&self, name: &str, default: Vector3) -> Result<Vector3, ParameterError> {
+        if self.has(name) { self.vector(name) } else { Ok(default) }
+    }
+
+    /// A flag, or `default` where it is not given.
+    ///
+    /// # Errors
+    /// If it is given and no flag.
+    pub fn flag_or(&self, name: &str, default: bool) -> Result<bool, ParameterError> {
+        match self.values.get(name) {
+            None => Ok(default),
+            Some(Value::Flag(value)) => Ok(*value),
+            other => Err(wrong(name, "true or false", other)),
+        }
+    }
+
+    /// A function of time that must be there; a number counts as a constant.
+    ///
+    /// # Errors
+    /// If it is missing or neither function nor number.
+    pub fn function(&self, name: &str) -> Result<Function, ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Function(value)) => Ok(Arc::clone(value)),
+            Some(Value::Number(value)) => Ok(Arc::new(Constant(*value))),
+            other => Err(wrong(name, "a number or an expression in t", other)),
+        }
+    }
+
+    /// A function of time, or the constant `default` where it is not given.
+    ///
+    /// # Errors
+    /// If it is given and neither function nor number.
+    pub fn function_or(&self, name: &str, default: f64) -> Result<Function, ParameterError> {
+        if self.has(name) { self.function(name) } else { Ok(Arc::new(Constant(default))) }
+    }
+}
+
+fn wrong(name: &str, wanted: &str, found: Option<&Value>) -> ParameterError {
+    let problem = match found {
+        None => format!("is missing: it must be {wanted}"),
+        Some(_) => format!("must be {wanted}"),
+    };
+    ParameterError::new(name, problem)
+}

@@ -1,0 +1,319 @@
+//! THE place: step size, scale, penalty, augmented Lagrangian term, scaled multipliers.
+//!
+//! Before any discretisation [Bauchau, Epple and Bottasso 2009]: time τ = t/h, so that q' = h v and
+//! q'' = h² a, equations of motion times h², constraints times s, multipliers λ = (s/h²) λ̂:
+//!
+//!     M q'' + h D q' + h² K q + s Bᵀ (λ̂ + p C) = h² F,      s C = 0,      s = m_r + d_r h + k_r h²
+//!
+//! Elements and joints know none of this, schemes know unit steps only.
+
+use lissom_motion::{Motion, Vector6, tangent_rate_times, tangent_times};
+use num_complex::Complex64;
+
+use crate::schemes::{Combination, RateOf, Stage, Weights};
+use crate::system::{Kinematics, Layout, Linearization, State, System};
+
+/// How the equations are scaled.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ScaleBy {
+    /// s = m_r + d_r h + k_r h², from the model's own representative mass, damping and stiffness.
+    #[default]
+    Physical,
+    /// s = 1.
+    Unit,
+    /// Not at all: the equations as they stand in SI.
+    None,
+}
+
+impl ScaleBy {
+    /// Names in the model file.
+    pub const NAMES: &'static [&'static str] = &["physical", "unit", "none"];
+
+    /// The scaling of that name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        match name {
+            "physical" => Some(Self::Physical),
+            "unit" => Some(Self::Unit),
+            "none" => Some(Self::None),
+            _ => None,
+        }
+    }
+
+    /// Its name in the model file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Physical => "physical",
+            Self::Unit => "unit",
+            Self::None => "none",
+        }
+    }
+}
+
+/// What the user may choose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScalingChoice {
+    /// How s is found.
+    pub by: ScaleBy,
+    /// Whether the augmented Lagrangian term is there.
+    pub augmented: bool,
+    /// Its factor p [-].
+    pub penalty: f64,
+}
+
+impl Default for ScalingChoice {
+    fn default() -> Self {
+        Self { by: ScaleBy::Physical, augmented: true, penalty: 1.0 }
+    }
+}
+
+/// Representative mass, damping and stiffness of a model: averages of the diagonals of M, D and K over
+/// all coordinates, massless ones included.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Representative {
+    /// m_r.
+    pub mass: f64,
+    /// d_r.
+    pub damping: f64,
+    /// k_r.
+    pub stiffness: f64,
+    /// Representative length: root mean square distance of the nodes from their centre [m].
+    pub length: f64,
+}
+
+impl Representative {
+    /// From a linearisation of `system`.
+    pub fn of(system: &System, at: &Kinematics, linearization: &Linearization) -> Self {
+        let pattern = system.pattern();
+        let count = system.layout().coordinate_count();
+        let average = |values: &[f64]| {
+            let sum: f64 = (0..count)
+                .filter_map(|row| pattern.position(row, row))
+                .map(|position| values[position].abs())
+                .sum();
+            sum / count as f64
+        };
+        Self {
+            mass: average(&linearization.mass),
+            damping: average(&linearization.damping),
+            stiffness: average(&linearization.stiffness),
+            length: spread(at),
+        }
+    }
+}
+
+/// Root mean square distance of the nodes from their centre; 1 for a single place.
+fn spread(at: &Kinematics) -> f64 {
+    let places: Vec<_> = at.nodes.iter().map(|node| node.frame.position).collect();
+    let count = places.len() as f64;
+    let center = places.iter().sum::<lissom_motion::Vector3>() / count;
+    let square = places.iter().map(|place| (place - center).norm_squared()).sum::<f64>() / count;
+    if square > 0.0 { square.sqrt() } else { 1.0 }
+}
+
+/// The scaled equations for one step size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Scaled {
+    h: f64,
+    s: f64,
+    /// p s, or 0 without the augmented term.
+    augmented: f64,
+    /// Factor of the equations of motion: h², or 1 unscaled.
+    dynamic: f64,
+}
+
+impl Scaled {
+    /// For steps of `h` [s].
+    pub fn new(choice: &ScalingChoice, representative: &Representative, h: f64) -> Self {
+        let Representative { mass, damping, stiffness, .. } = *representative;
+        let physical = mass + damping * h + stiffness * h * h;
+        let (s, dynamic) = match choice.by {
+            ScaleBy::Physical => (if physical > 0.0 { physical } else { 1.0 }, h * h),
+            ScaleBy::Unit => (1.0, h * h),
+            ScaleBy::None => (1.0, 1.0),
+        };
+        let augmented = if choice.augmented { choice.penalty * s } else { 0.0 };
+        Self { h, s, augmented, dynamic }
+    }
+
+    /// Step size h [s].
+    pub fn step_size(&self) -> f64 {
+        self.h
+    }
+
+    /// Scale factor s.
+    pub fn scale(&self) -> f64 {
+        self.s
+    }
+
+    /// The augmented term's force per violation, in SI.
+    pub fn augmentation(&self) -> f64 {
+        self.augmented / self.dynamic
+    }
+
+    /// From a scaled multiplier to λ [N, N m].
+    pub fn multiplier_factor(&self) -> f64 {
+        self.s / self.dynamic
+    }
+
+    /// Scales a residual in place.
+    pub fn scale_residual(&self, layout: &Layout, residual: &mut [f64]) {
+        let (motion, constraints) = residual.split_at_mut(layout.coordinate_count());
+        motion.iter_mut().for_each(|value| *value *= self.dynamic);
+        constraints.iter_mut().for_each(|value| *value *= self.s);
+    }
+
+    /// Tangent of the scaled equations for a real scheme of one stage.
+    pub fn tangent(&self, linearization: &Linearization, weights: Weights<f64>, out: &mut [f64]) {
+        let damping = self.dynamic * weights.rate / self.h;
+        let mass = self.dynamic * weights.curvature / (self.h * self.h);
+        let Linearization { stiffness, damping: d, mass: m, gram, constraint, .. } = linearization;
+        for (i, value) in out.iter_mut().enumerate() {
+            *value = self.dynamic * stiffness[i]
+                + damping * d[i]
+                + mass * m[i]
+                + self.augmented * gram[i]
+                + self.s * constraint[i];
+        }
+    }
+
+    /// Tangent of the scaled equations in the complex form of a scheme of two stages.
+    pub fn complex_tangent(
+        &self,
+        linearization: &Linearization,
+        weights: Weights<Complex64>,
+        out: &mut [Complex64],
+    ) {
+        let damping = weights.rate * (self.dynamic / self.h);
+        let mass = weights.curvature * (self.dynamic / (self.h * self.h));
+        let Linearization { stiffness, damping: d, mass: m, gram, constraint, .. } = linearization;
+        for (i, value) in out.iter_mut().enumerate() {
+            let real = self.dynamic * stiffness[i] + self.augmented * gram[i] + self.s * constraint[i];
+            *value = damping * d[i] + mass * m[i] + real;
+        }
+    }
+
+    /// Unit-step rates q' = h v, curvatures q'' = h² v̇ and scheme memory of a state, by row.
+    pub fn enter(&self, layout: &Layout, state: &State, out: &mut UnitStart) {
+        let square = self.h * self.h;
+        for (rows, node) in layout.node_rows.iter().zip(&state.kinematics.nodes) {
+            for (k, &row) in rows.iter().enumerate() {
+                if row != crate::system::LOCKED {
+                    out.rate[row as usize] = self.h * node.twist[k];
+                    out.curvature[row as usize] = square * node.acceleration[k];
+                }
+            }
+        }
+        for (&row, coordinate) in layout.coordinate_rows.iter().zip(&state.kinematics.coordinates) {
+            out.rate[row as usize] = self.h * coordinate.rate;
+            out.curvature[row as usize] = square * coordinate.acceleration;
+        }
+        for (value, algorithmic) in out.algorithmic.iter_mut().zip(&state.algorithmic) {
+            *value = square * algorithmic;
+        }
+    }
+
+    /// The scheme's memory after a step, back in SI.
+    pub fn leave(&self, memory: f64) -> f64 {
+        memory / (self.h * self.h)
+    }
+
+    /// Time of a stage and time since the start of the step.
+    fn instant(&self, start: f64, stage: &Stage) -> (f64, f64) {
+        let elapsed = stage.abscissa * self.h;
+        (start + elapsed, elapsed)
+    }
+
+    /// Motion at a stage in SI, from the increments since the start of the step and the scheme's formulas
+    /// for unit-step rates and curvatures. `increments[j][row]` are those of stage j.
+    pub fn stage_motion(
+        &self,
+        layout: &Layout,
+        stage: &Stage,
+        rate_of: RateOf,
+        start: &State,
+        unit: &UnitStart,
+        increments: &StageIncrements<'_>,
+        out: &mut Kinematics,
+    ) {
+        let square = self.h * self.h;
+        (out.time, out.elapsed) = self.instant(start.kinematics.time, stage);
+        let own = &increments.all[increments.stage];
+        for (node, rows) in layout.node_rows.iter().enumerate() {
+            let from = &start.kinematics.nodes[node];
+            let to = &mut out.nodes[node];
+            if rows.iter().all(|&row| row == crate::system::LOCKED) {
+                *to = *from;
+                continue;
+            }
+            let mut psi = Vector6::zeros();
+            let mut rate = Vector6::zeros();
+            let mut curvature = Vector6::zeros();
+            for (k, &row) in rows.iter().enumerate() {
+                if row != crate::system::LOCKED {
+                    let row = row as usize;
+                    psi[k] = own[row];
+                    rate[k] = unit.combine(&stage.rate, increments.all, row);
+                    curvature[k] = unit.combine(&stage.curvature, increments.all, row);
+                }
+            }
+            to.frame = from.frame * Motion::exponential(&psi);
+            match rate_of {
+                RateOf::Twist => {
+                    to.twist = rate / self.h;
+                    to.acceleration = curvature / square;
+                }
+                // The increment's own rates: V = T ψ', V̇ = T ψ'' + Ṫ ψ'.
+                RateOf::Increment => {
+                    to.twist = tangent_times(&psi, &rate) / self.h;
+                    to.acceleration =
+                        (tangent_times(&psi, &curvature) + tangent_rate_times(&psi, &rate, &rate)) / square;
+                }
+            }
+        }
+        for (coordinate, &row) in layout.coordinate_rows.iter().enumerate() {
+            let row = row as usize;
+            let to = &mut out.coordinates[coordinate];
+            to.value = start.kinematics.coordinates[coordinate].value + own[row];
+            to.rate = unit.combine(&stage.rate, increments.all, row) / self.h;
+            to.acceleration = unit.combine(&stage.curvature, increments.all, row) / square;
+        }
+    }
+}
+
+/// Increments of all stages, and which stage is meant.
+#[derive(Clone, Copy, Debug)]
+pub struct StageIncrements<'a> {
+    /// By stage, then by row.
+    pub all: &'a [Vec<f64>],
+    /// The stage.
+    pub stage: usize,
+}
+
+/// The start of a step of unit length, by coordinate row.
+#[derive(Clone, Debug, Default)]
+pub struct UnitStart {
+    /// q'.
+    pub rate: Vec<f64>,
+    /// q''.
+    pub curvature: Vec<f64>,
+    /// The scheme's memory, like q''.
+    pub algorithmic: Vec<f64>,
+}
+
+impl UnitStart {
+    /// Room for `count` rows.
+    pub fn new(count: usize) -> Self {
+        Self { rate: vec![0.0; count], curvature: vec![0.0; count], algorithmic: vec![0.0; count] }
+    }
+
+    /// A scheme's linear combination of the increments and the start, for one row.
+    pub fn combine(&self, combination: &Combination, increments: &[Vec<f64>], row: usize) -> f64 {
+        let mut sum = combination.rate * self.rate[row]
+            + combination.algorithmic * self.algorithmic[row]
+            + combination.curvature * self.curvature[row];
+        for (weight, increment) in combination.increments.iter().zip(increments) {
+            sum += weight * increment[row];
+        }
+        sum
+    }
+}

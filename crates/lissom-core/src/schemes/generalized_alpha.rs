@@ -1,0 +1,106 @@
+//! Generalized-α and HHT-α on Lie groups [Chung and Hulbert 1993; Hilber, Hughes and Taylor 1977; Arnold
+//! and Brüls 2007; Brüls, Cardona and Arnold 2012].
+//!
+//! Legend: v rate, v̇ curvature, a the scheme's memory, z increment.
+//!
+//!     z = v_n + (½ - β) a_n + β a_{n+1},      v_{n+1} = v_n + (1 - γ) a_n + γ a_{n+1}
+//!     (1 - α_m) a_{n+1} + α_m a_n = (1 - α_f) v̇_{n+1} + α_f v̇_n
+//!
+//! Equilibrium and constraints hold at the end of the step.
+
+use super::{
+    Combination, Coupling, RateOf, Scheme, SchemeError, SchemeKind, SchemeParameters, Stage, Weights, within,
+};
+
+/// Registry entry of generalized-α.
+pub const KIND: SchemeKind = SchemeKind {
+    name: "generalized-alpha",
+    summary: "Generalized-α: second order, numerical damping set by the spectral radius.",
+    build: |parameters| with_spectral_radius(parameters.spectral_radius.unwrap_or(0.8)),
+};
+
+/// Registry entry of HHT-α.
+pub const HHT_KIND: SchemeKind = SchemeKind {
+    name: "hht",
+    summary: "HHT-α: second order, numerical damping set by α in -1/3 … 0.",
+    build: |parameters: &SchemeParameters| hht(parameters.alpha.unwrap_or(-0.1)),
+};
+
+/// Second order with the spectral radius `rho` in 0 … 1 at infinite frequency.
+///
+/// # Errors
+/// If `rho` is out of range.
+pub fn with_spectral_radius(rho: f64) -> Result<Scheme, SchemeError> {
+    let rho = within("spectral_radius", rho, (0.0, 1.0))?;
+    Ok(new(
+        format!("generalized-alpha (spectral radius {rho})"),
+        (2.0 * rho - 1.0) / (rho + 1.0),
+        rho / (rho + 1.0),
+    ))
+}
+
+/// HHT-α with `alpha` in -1/3 … 0.
+///
+/// # Errors
+/// If `alpha` is out of range.
+pub fn hht(alpha: f64) -> Result<Scheme, SchemeError> {
+    let alpha = within("alpha", alpha, (-1.0 / 3.0, 0.0))?;
+    Ok(new(format!("hht (alpha {alpha})"), 0.0, -alpha))
+}
+
+fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
+    // These two give second order and, at given (α_m, α_f), the most damping of high frequencies.
+    let gamma = 0.5 + alpha_f - alpha_m;
+    let beta = 0.25 * (gamma + 0.5).powi(2);
+    // a_{n+1} = (z - v_n - (½ - β) a_n) / β
+    let memory = Combination {
+        increments: [1.0 / beta, 0.0],
+        rate: -1.0 / beta,
+        algorithmic: -(0.5 - beta) / beta,
+        curvature: 0.0,
+    };
+    let old = Combination { algorithmic: 1.0, ..Combination::default() };
+    let rate = Combination { rate: 1.0, ..Combination::default() }
+        .plus(&old.times(1.0 - gamma))
+        .plus(&memory.times(gamma));
+    let curvature = memory
+        .times((1.0 - alpha_m) / (1.0 - alpha_f))
+        .plus(&old.times(alpha_m / (1.0 - alpha_f)))
+        .plus(&Combination { curvature: -alpha_f / (1.0 - alpha_f), ..Combination::default() });
+    let prediction = Combination { rate: 1.0, algorithmic: 0.5, ..Combination::default() };
+    Scheme {
+        name,
+        coupling: Coupling::Single(Weights {
+            rate: rate.increments[0],
+            curvature: curvature.increments[0],
+        }),
+        stages: vec![Stage { abscissa: 1.0, rate, curvature, prediction }],
+        algorithmic: memory,
+        rate_of: RateOf::Twist,
+        memory_delay: alpha_m - alpha_f,
+        dynamic: true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constants_are_those_of_the_papers() {
+        let scheme = hht(-0.3).expect("in range");
+        let Coupling::Single(weights) = scheme.coupling else { panic!("one stage") };
+        assert!((weights.rate - 0.8 / 0.4225).abs() < 1e-14);
+        assert!((weights.curvature - 1.0 / (0.4225 * 0.7)).abs() < 1e-14);
+        // A spectral radius of 1 is the trapezoidal rule.
+        let scheme = with_spectral_radius(1.0).expect("in range");
+        let Coupling::Single(weights) = scheme.coupling else { panic!("one stage") };
+        assert!((weights.rate - 2.0).abs() < 1e-14 && (weights.curvature - 4.0).abs() < 1e-14);
+    }
+
+    #[test]
+    fn parameters_out_of_range_are_refused() {
+        assert!(hht(-0.34).is_err() && hht(0.01).is_err() && hht(f64::NAN).is_err());
+        assert!(with_spectral_radius(-0.1).is_err() && with_spectral_radius(1.1).is_err());
+    }
+}

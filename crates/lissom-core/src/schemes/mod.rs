@@ -1,0 +1,173 @@
+//! How time advances, for steps of unit length: no formula here contains the step size.
+//!
+//! A scheme is a table of numbers: at each stage, rate and curvature are linear combinations of the
+//! increments since the start of the step (the unknowns) and of what is known at the start.
+
+pub mod generalized_alpha;
+pub mod radau_iia;
+pub mod statics;
+
+use num_complex::Complex64;
+
+/// Most stages a scheme may have.
+pub const MOST_STAGES: usize = 2;
+
+/// Coefficients of a linear combination.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Combination {
+    /// Of each stage's increment.
+    pub increments: [f64; MOST_STAGES],
+    /// Of the rate q' at the start.
+    pub rate: f64,
+    /// Of the scheme's memory at the start, which is like q''.
+    pub algorithmic: f64,
+    /// Of the curvature q'' at the start.
+    pub curvature: f64,
+}
+
+impl Combination {
+    /// `factor` times this.
+    #[must_use]
+    pub fn times(mut self, factor: f64) -> Self {
+        self.increments.iter_mut().for_each(|value| *value *= factor);
+        self.rate *= factor;
+        self.algorithmic *= factor;
+        self.curvature *= factor;
+        self
+    }
+
+    /// Sum of two.
+    #[must_use]
+    pub fn plus(mut self, other: &Self) -> Self {
+        for (value, add) in self.increments.iter_mut().zip(other.increments) {
+            *value += add;
+        }
+        self.rate += other.rate;
+        self.algorithmic += other.algorithmic;
+        self.curvature += other.curvature;
+        self
+    }
+}
+
+/// One stage: an instant at which equilibrium and constraints hold.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Stage {
+    /// Place in the step, 0 … 1.
+    pub abscissa: f64,
+    /// q' at the stage.
+    pub rate: Combination,
+    /// q'' at the stage.
+    pub curvature: Combination,
+    /// A first guess of the increment.
+    pub prediction: Combination,
+}
+
+/// What q' means for a rotating frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RateOf {
+    /// The body-frame twist: the scheme is stated on the Lie group.
+    Twist,
+    /// The rate of the increment ψ, with H = H_start exp ψ: the scheme is stated in local coordinates.
+    Increment,
+}
+
+/// Derivatives of rate and curvature with respect to the increment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Weights<T> {
+    /// ∂q'/∂z.
+    pub rate: T,
+    /// ∂q''/∂z.
+    pub curvature: T,
+}
+
+/// How the coupled linear systems of all stages come apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Coupling {
+    /// One stage, one real system.
+    Single(Weights<f64>),
+    /// Two stages: one complex system of the size of one stage. With the residuals r of the stages, solve
+    /// J w = Σ left_i r_i, then the corrections are Re(right_i w).
+    Pair {
+        /// Weights of the complex system.
+        weights: Weights<Complex64>,
+        /// Row of T⁻¹.
+        left: [Complex64; 2],
+        /// Twice the column of T.
+        right: [Complex64; 2],
+    },
+}
+
+/// A time-integration scheme for unit steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Scheme {
+    /// Name, with its parameter.
+    pub name: String,
+    /// The stages; the last is the end of the step.
+    pub stages: Vec<Stage>,
+    /// The scheme's memory at the end of the step.
+    pub algorithmic: Combination,
+    /// What q' means for a rotating frame.
+    pub rate_of: RateOf,
+    /// How the linear systems come apart.
+    pub coupling: Coupling,
+    /// The memory starts as the acceleration this long after the start of the first step, in steps.
+    pub memory_delay: f64,
+    /// Whether inertia takes part.
+    pub dynamic: bool,
+}
+
+/// Parameters a scheme may take.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct SchemeParameters {
+    /// α of HHT-α, -1/3 … 0.
+    pub alpha: Option<f64>,
+    /// Spectral radius at infinite frequency, 0 … 1.
+    pub spectral_radius: Option<f64>,
+}
+
+/// A parameter out of range.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error("`{parameter}` = {value} is outside {lowest} … {highest}")]
+pub struct SchemeError {
+    /// Name of the parameter.
+    pub parameter: &'static str,
+    /// Its value.
+    pub value: f64,
+    /// Lowest value allowed.
+    pub lowest: f64,
+    /// Highest value allowed.
+    pub highest: f64,
+}
+
+/// A kind of scheme, as the model file knows it.
+#[derive(Clone, Copy, Debug)]
+pub struct SchemeKind {
+    /// Name in the model file.
+    pub name: &'static str,
+    /// One sentence.
+    pub summary: &'static str,
+    /// Makes the scheme.
+    pub build: fn(&SchemeParameters) -> Result<Scheme, SchemeError>,
+}
+
+/// All schemes for dynamics, one line each.
+pub static KINDS: &[SchemeKind] =
+    &[radau_iia::KIND, generalized_alpha::KIND, generalized_alpha::HHT_KIND];
+
+/// The scheme kind of that name.
+pub fn kind(name: &str) -> Option<&'static SchemeKind> {
+    KINDS.iter().find(|kind| kind.name == name)
+}
+
+/// `value`, if it lies between the limits.
+fn within(
+    parameter: &'static str,
+    value: f64,
+    (lowest, highest): (f64, f64),
+) -> Result<f64, SchemeError> {
+    if (lowest..=highest).contains(&value) {
+        Ok(value)
+    } else {
+        Err(SchemeError { parameter, value, lowest, highest })
+    }
+}

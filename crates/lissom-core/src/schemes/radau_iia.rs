@@ -1,0 +1,106 @@
+//! Radau IIA with two stages, third order, stiffly accurate [Hairer and Wanner 1996, sections IV.5, IV.8].
+//!
+//! Legend: D_i increment at stage i, q' = Σ (A⁻¹)_ij D_j, q'' = Σ (A⁻²)_ij (D_j - c_j q'_n).
+//!
+//!     A = [5/12 -1/12; 3/4 1/4],   c = (1/3, 1),   A⁻¹ = [3/2 1/2; -9/2 5/2],   A⁻² = [0 2; -18 4]
+//!
+//! A⁻¹ = T diag(μ, μ̄) T⁻¹ with μ = 2 + i√2: with one tangent for both stages the linear systems come
+//! apart into one complex system of the size of a single stage. Its real form must not be eliminated first
+//! stage first without pivoting, for (A⁻²)₁₁ = 0.
+
+use num_complex::Complex64;
+
+use super::{Combination, Coupling, RateOf, Scheme, SchemeKind, Stage, Weights};
+
+/// Registry entry.
+pub const KIND: SchemeKind = SchemeKind {
+    name: "radau-iia",
+    summary: "Two-stage Radau IIA: third order, strongly damping.",
+    build: |_| Ok(two_stages()),
+};
+
+/// The scheme.
+pub fn two_stages() -> Scheme {
+    let rate = [[1.5, 0.5], [-4.5, 2.5]];
+    let curvature = [[0.0, 2.0], [-18.0, 4.0]];
+    let abscissae = [1.0 / 3.0, 1.0];
+    let stage = |i: usize| Stage {
+        abscissa: abscissae[i],
+        rate: Combination { increments: rate[i], ..Combination::default() },
+        curvature: Combination {
+            increments: curvature[i],
+            rate: -(curvature[i][0] * abscissae[0] + curvature[i][1] * abscissae[1]),
+            ..Combination::default()
+        },
+        prediction: Combination {
+            rate: abscissae[i],
+            curvature: 0.5 * abscissae[i] * abscissae[i],
+            ..Combination::default()
+        },
+    };
+    let mu = Complex64::new(2.0, std::f64::consts::SQRT_2);
+    // Columns of T are (1, 2 (μ - 3/2)): the first row of (A⁻¹ - μ) T = 0.
+    let second = 2.0 * (mu - 1.5);
+    // T⁻¹ for T = [1 1; t t̄]: first row (t̄, -1) / (t̄ - t).
+    let width = second.conj() - second;
+    Scheme {
+        name: "radau-iia".to_owned(),
+        stages: vec![stage(0), stage(1)],
+        algorithmic: Combination::default(),
+        rate_of: RateOf::Increment,
+        coupling: Coupling::Pair {
+            weights: Weights { rate: mu, curvature: mu * mu },
+            left: [second.conj() / width, -1.0 / width],
+            right: [Complex64::new(2.0, 0.0), 2.0 * second],
+        },
+        memory_delay: 0.0,
+        dynamic: true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The complex form solves the coupled real system A⁻² ⊗ m + A⁻¹ ⊗ d + I ⊗ k.
+    #[test]
+    fn complex_form_solves_the_coupled_stages() {
+        let scheme = two_stages();
+        let Coupling::Pair { weights, left, right } = scheme.coupling else { panic!("two stages") };
+        let (m, d, k) = (1.3, 0.2, 5.0);
+        let solution = [0.7, -0.4];
+        let residual: Vec<f64> = (0..2)
+            .map(|i| {
+                let stage = &scheme.stages[i];
+                (0..2)
+                    .map(|j| {
+                        let identity = if i == j { k } else { 0.0 };
+                        (m * stage.curvature.increments[j] + d * stage.rate.increments[j] + identity)
+                            * solution[j]
+                    })
+                    .sum()
+            })
+            .collect();
+        let jacobian = weights.curvature * m + weights.rate * d + k;
+        let w = (left[0] * residual[0] + left[1] * residual[1]) / jacobian;
+        for i in 0..2 {
+            assert!(((right[i] * w).re - solution[i]).abs() < 1e-14);
+        }
+    }
+
+    /// Rates and curvatures of quadratics are exact.
+    #[test]
+    fn quadratic_motion_is_reproduced() {
+        let scheme = two_stages();
+        let (speed, acceleration) = (0.3, -1.7);
+        let place = |t: f64| speed * t + 0.5 * acceleration * t * t;
+        let increments = [place(1.0 / 3.0), place(1.0)];
+        for stage in &scheme.stages {
+            let combine = |c: &Combination| {
+                c.increments[0] * increments[0] + c.increments[1] * increments[1] + c.rate * speed
+            };
+            assert!((combine(&stage.rate) - speed - acceleration * stage.abscissa).abs() < 1e-14);
+            assert!((combine(&stage.curvature) - acceleration).abs() < 1e-13);
+        }
+    }
+}

@@ -1,0 +1,21 @@
+//! Statics: equilibrium without inertia and rates at the end of each load step.
+
+use super::{Combination, Coupling, RateOf, Scheme, Stage, Weights};
+
+/// The scheme with rate and curvature zero.
+pub fn statics() -> Scheme {
+    Scheme {
+        name: "statics".to_owned(),
+        stages: vec![Stage {
+            abscissa: 1.0,
+            rate: Combination::default(),
+            curvature: Combination::default(),
+            prediction: Combination::default(),
+        }],
+        algorithmic: Combination::default(),
+        rate_of: RateOf::Twist,
+        coupling: Coupling::Single(Weights { rate: 0.0, curvature: 0.0 }),
+        memory_delay: 0.0,
+        dynamic: false,
+    }
+}

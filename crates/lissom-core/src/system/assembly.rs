@@ -1,0 +1,275 @@
+//! Residual and linearisation of the whole system in SI. Knows no time step, scheme or scaling.
+//!
+//!     coordinates:  M(q) a + f(q, v, t) + Bᵀ μ,   μ = λ + w c        multipliers:  c(q, t)
+//!
+//! where the weight w of the augmented Lagrangian term is somebody else's choice.
+
+use lissom_motion::Vector6;
+use nalgebra::SMatrix;
+
+use super::batch::through_chart;
+use super::layout::LOCKED;
+use super::state::Kinematics;
+use super::{Drive, System};
+use crate::elements::{MOST_UNKNOWNS, Tangents};
+use crate::joints::attached::{AttachedJoint, Increments, LOCAL};
+use crate::joints::{Equations, MOST_EQUATIONS};
+
+/// Where residual and tangent are evaluated.
+#[derive(Clone, Copy, Debug)]
+pub struct Point<'a> {
+    /// Places, twists and accelerations.
+    pub at: &'a Kinematics,
+    /// What has changed since the start of the step.
+    pub increments: Increments<'a>,
+    /// Multipliers [N, N m].
+    pub multipliers: &'a [f64],
+    /// Violations at the start of the step.
+    pub violations: &'a [f64],
+    /// Weight of the augmented Lagrangian term: force per violation [N/m].
+    pub augmentation: f64,
+}
+
+/// Derivatives of the equations of motion in SI, each on the values of the tangent's pattern.
+#[derive(Clone, Debug)]
+pub struct Linearization {
+    /// ∂/∂ place, constraint forces at constant multipliers included.
+    pub stiffness: Vec<f64>,
+    /// ∂/∂ twist.
+    pub damping: Vec<f64>,
+    /// ∂/∂ acceleration.
+    pub mass: Vec<f64>,
+    /// BᵀB: the augmented Lagrangian term for weight 1.
+    pub gram: Vec<f64>,
+    /// B and Bᵀ in the multipliers' rows and columns.
+    pub constraint: Vec<f64>,
+    scratch: Tangents,
+}
+
+impl Linearization {
+    /// Room for the linearisation of `system`, all zero.
+    pub fn new(system: &System) -> Self {
+        let zeros = vec![0.0; system.structure.pattern.entries()];
+        Self {
+            stiffness: zeros.clone(),
+            damping: zeros.clone(),
+            mass: zeros.clone(),
+            gram: zeros.clone(),
+            constraint: zeros,
+            scratch: Tangents::new(MOST_UNKNOWNS),
+        }
+    }
+
+    /// A stand-in without room, to be replaced.
+    pub(crate) fn empty() -> Self {
+        Self {
+            stiffness: Vec::new(),
+            damping: Vec::new(),
+            mass: Vec::new(),
+            gram: Vec::new(),
+            constraint: Vec::new(),
+            scratch: Tangents::new(0),
+        }
+    }
+
+    fn clear(&mut self) {
+        for values in
+            [&mut self.stiffness, &mut self.damping, &mut self.mass, &mut self.gram, &mut self.constraint]
+        {
+            values.fill(0.0);
+        }
+    }
+}
+
+impl System {
+    /// Residual at `point`: left-hand sides of the equations of motion in the rows of the coordinates,
+    /// violations in the rows of the multipliers.
+    pub fn residual(&self, point: &Point<'_>, out: &mut [f64]) {
+        out.fill(0.0);
+        for batch in &self.batches {
+            batch.forces(point.at, out);
+        }
+        for (joint, rows) in self.joints.iter().zip(&self.joint_rows) {
+            joint_residual(joint, rows, point, out);
+        }
+        for (drive, rows) in self.drives.iter().zip(&self.joint_rows[self.joints.len()..]) {
+            let violation = drive_violation(drive, point);
+            out[rows[1] as usize] = violation;
+            out[rows[0] as usize] += point.multipliers[drive.multiplier] + point.augmentation * violation;
+        }
+    }
+
+    /// Violations at `point` alone, by multiplier.
+    pub fn stage_violations(&self, point: &Point<'_>, out: &mut [f64]) {
+        for joint in &self.joints {
+            let configuration = joint.configuration(&point.increments);
+            let change = joint.joint().violation_change(&configuration.0, &configuration.1);
+            for k in 0..joint.equations() {
+                let multiplier = joint.first_multiplier + k;
+                out[multiplier] = point.violations[multiplier] + change[k];
+            }
+        }
+        for drive in &self.drives {
+            out[drive.multiplier] = drive_violation(drive, point);
+        }
+    }
+
+    /// Linearisation at `point`. With `charts`, derivatives are taken with respect to the increments
+    /// since the start of the step, else with respect to body variations at `point`.
+    pub fn linearize(&self, point: &Point<'_>, charts: bool, out: &mut Linearization) {
+        out.clear();
+        let charts = charts.then_some(point.increments.nodes);
+        let mut scratch = std::mem::replace(&mut out.scratch, Tangents::new(0));
+        for batch in &self.batches {
+            batch.linearize(point.at, charts, &mut scratch, out);
+        }
+        out.scratch = scratch;
+        for ((joint, rows), positions) in self.joints.iter().zip(&self.joint_rows).zip(&self.joint_positions) {
+            let free = Local { equations: joint.equations(), size: rows.len() };
+            joint_linearization(joint, positions, free, point, charts, out);
+        }
+        for positions in &self.joint_positions[self.joints.len()..] {
+            out.gram[positions[0] as usize] += 1.0;
+            out.constraint[positions[1] as usize] = 1.0;
+            out.constraint[positions[2] as usize] = 1.0;
+        }
+    }
+
+    /// Ḃ v + ∂²c/∂t² by multiplier: what the constraints' second time derivative holds besides B v̇.
+    pub fn constraint_accelerations(&self, at: &Kinematics, out: &mut [f64]) {
+        let still = vec![Vector6::zeros(); at.nodes.len()];
+        let unchanged = vec![0.0; at.coordinates.len()];
+        let increments = Increments { start: at, nodes: &still, coordinates: &unchanged };
+        for joint in &self.joints {
+            let configuration = joint.configuration(&increments);
+            let speeds = local_speeds(joint, at);
+            for equation in 0..joint.equations() {
+                let mut mu = Equations::default();
+                mu[equation] = 1.0;
+                // d/dt (B_eᵀ) = (∂(B_eᵀ)/∂q) v
+                let (_, curvature) = joint.linearize(&configuration, &mu);
+                out[joint.first_multiplier + equation] = speeds.dot(&(curvature * speeds));
+            }
+        }
+        for drive in &self.drives {
+            out[drive.multiplier] = -drive.prescribed.rotation.second_derivative(at.time);
+        }
+    }
+
+    /// ∂c/∂t by multiplier.
+    pub fn constraint_velocities(&self, at: &Kinematics, out: &mut [f64]) {
+        out.fill(0.0);
+        for drive in &self.drives {
+            out[drive.multiplier] = -drive.prescribed.rotation.first_derivative(at.time);
+        }
+    }
+}
+
+fn local_speeds(joint: &AttachedJoint, at: &Kinematics) -> nalgebra::SVector<f64, LOCAL> {
+    let mut speeds = nalgebra::SVector::<f64, LOCAL>::zeros();
+    for (side, frame) in joint.frames.iter().enumerate() {
+        speeds.fixed_rows_mut::<6>(6 * side).copy_from(&at.nodes[frame.node].twist);
+    }
+    for (k, &coordinate) in joint.coordinates.iter().enumerate() {
+        speeds[12 + k] = at.coordinates[coordinate].rate;
+    }
+    speeds
+}
+
+fn drive_violation(drive: &Drive, point: &Point<'_>) -> f64 {
+    let change = point.increments.coordinates[drive.prescribed.coordinate];
+    point.violations[drive.multiplier]
+        + drive.prescribed.violation_change(change, point.at.time, point.at.elapsed)
+}
+
+/// Violations c and augmented multipliers μ = λ + w c of a joint.
+fn joint_multipliers(
+    joint: &AttachedJoint,
+    configuration: &(crate::joints::Relative, crate::joints::Own),
+    point: &Point<'_>,
+) -> (Equations, Equations) {
+    let mut violation = joint.joint().violation_change(&configuration.0, &configuration.1);
+    let mut mu = Equations::default();
+    for k in 0..joint.equations() {
+        let multiplier = joint.first_multiplier + k;
+        violation[k] += point.violations[multiplier];
+        mu[k] = point.multipliers[multiplier] + point.augmentation * violation[k];
+    }
+    (violation, mu)
+}
+
+fn joint_residual(joint: &AttachedJoint, rows: &[u32], point: &Point<'_>, out: &mut [f64]) {
+    let configuration = joint.configuration(&point.increments);
+    let (violation, mu) = joint_multipliers(joint, &configuration, point);
+    let forces = joint.forces(&configuration, &mu);
+    let unknowns = rows.len() - joint.equations();
+    for (&row, force) in rows[..unknowns].iter().zip(forces.iter()) {
+        if row != LOCKED {
+            out[row as usize] += force;
+        }
+    }
+    for (&row, value) in rows[unknowns..].iter().zip(violation) {
+        out[row as usize] = value;
+    }
+}
+
+/// Sizes of a joint's local matrix: its last `equations` rows belong to the multipliers.
+#[derive(Clone, Copy)]
+struct Local {
+    equations: usize,
+    size: usize,
+}
+
+fn joint_linearization(
+    joint: &AttachedJoint,
+    positions: &[u32],
+    local: Local,
+    point: &Point<'_>,
+    charts: Option<&[Vector6]>,
+    out: &mut Linearization,
+) {
+    let configuration = joint.configuration(&point.increments);
+    let (_, mu) = joint_multipliers(joint, &configuration, point);
+    let (rows, curvature) = joint.linearize(&configuration, &mu);
+    let unknowns = local.size - local.equations;
+    let gram: SMatrix<f64, LOCAL, LOCAL> = rows.transpose() * rows;
+    // Row-major copies, through the charts where asked.
+    let mut gradient = [0.0; MOST_EQUATIONS * LOCAL];
+    let mut stiffness = [0.0; LOCAL * LOCAL];
+    let mut augmented = [0.0; LOCAL * LOCAL];
+    for i in 0..LOCAL {
+        for j in 0..LOCAL {
+            stiffness[i * LOCAL + j] = curvature[(i, j)];
+            augmented[i * LOCAL + j] = gram[(i, j)];
+        }
+    }
+    for i in 0..MOST_EQUATIONS {
+        for j in 0..LOCAL {
+            gradient[i * LOCAL + j] = rows[(i, j)];
+        }
+    }
+    if let Some(increments) = charts {
+        for (side, frame) in joint.frames.iter().enumerate() {
+            for matrix in [&mut gradient[..], &mut stiffness[..], &mut augmented[..]] {
+                through_chart(matrix, LOCAL, 6 * side, &increments[frame.node]);
+            }
+        }
+    }
+    for i in 0..unknowns {
+        for j in 0..unknowns {
+            let position = positions[i * local.size + j];
+            if position != LOCKED {
+                out.stiffness[position as usize] += stiffness[i * LOCAL + j];
+                out.gram[position as usize] += augmented[i * LOCAL + j];
+            }
+        }
+        for e in 0..local.equations {
+            let column = positions[i * local.size + unknowns + e];
+            let row = positions[(unknowns + e) * local.size + i];
+            if column != LOCKED {
+                out.constraint[column as usize] = rows[(e, i)];
+                out.constraint[row as usize] = gradient[e * LOCAL + i];
+            }
+        }
+    }
+}

@@ -1,0 +1,174 @@
+//! Elements of one kind stored together: one virtual call per kind, a monomorphic loop inside.
+
+use std::any::Any;
+
+use lissom_motion::{Matrix6, Vector6};
+use lissom_solver::Pattern;
+
+use super::assembly::Linearization;
+use super::layout::{LOCKED, Layout};
+use super::state::Kinematics;
+use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
+
+/// All elements of one kind.
+pub(crate) struct Batch<E> {
+    items: Vec<E>,
+    /// Row of every local unknown, item after item, [`LOCKED`] where there is none.
+    rows: Vec<u32>,
+    /// Where each item's rows begin.
+    starts: Vec<usize>,
+    /// Position in the pattern of every local matrix entry, item after item.
+    positions: Vec<u32>,
+    position_starts: Vec<usize>,
+}
+
+/// A batch of any kind.
+pub(crate) trait AnyBatch: Send + Sync {
+    fn len(&self) -> usize;
+    fn connect(&mut self, layout: &Layout);
+    fn locate(&mut self, pattern: &Pattern);
+    /// Free rows of each item.
+    fn cliques(&self) -> Vec<Vec<usize>>;
+    fn forces(&self, at: &Kinematics, out: &mut [f64]);
+    fn linearize(&self, at: &Kinematics, charts: Charts<'_>, scratch: &mut Tangents, out: &mut Linearization);
+    fn energy(&self, at: &Kinematics) -> Energy;
+    fn as_any_mut(&mut self) -> &mut dyn Any;
+}
+
+/// Tangent operators of the nodes' increments, where the unknowns are these increments.
+pub(crate) type Charts<'a> = Option<&'a [Vector6]>;
+
+impl<E: Element> Batch<E> {
+    pub(crate) fn new() -> Self {
+        Self {
+            items: Vec::new(),
+            rows: Vec::new(),
+            starts: Vec::new(),
+            positions: Vec::new(),
+            position_starts: Vec::new(),
+        }
+    }
+
+    pub(crate) fn push(&mut self, item: E) {
+        self.items.push(item);
+    }
+
+    fn item_rows(&self, item: usize) -> &[u32] {
+        &self.rows[self.starts[item]..self.starts[item + 1]]
+    }
+}
+
+impl<E: Element> AnyBatch for Batch<E> {
+    fn len(&self) -> usize {
+        self.items.len()
+    }
+
+    fn connect(&mut self, layout: &Layout) {
+        self.rows.clear();
+        self.starts = vec![0];
+        for item in &self.items {
+            for &node in item.nodes() {
+                self.rows.extend_from_slice(layout.rows_of_node(node));
+            }
+            self.rows
+                .extend(item.coordinates().iter().map(|&coordinate| layout.row_of_coordinate(coordinate) as u32));
+            self.starts.push(self.rows.len());
+        }
+    }
+
+    fn locate(&mut self, pattern: &Pattern) {
+        self.positions.clear();
+        self.position_starts = vec![0];
+        for item in 0..self.items.len() {
+            let positions = positions_of(pattern, self.item_rows(item));
+            self.positions.extend(positions);
+            self.position_starts.push(self.positions.len());
+        }
+    }
+
+    fn cliques(&self) -> Vec<Vec<usize>> {
+        (0..self.items.len()).map(|item| free_rows(self.item_rows(item))).collect()
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        for (index, item) in self.items.iter().enumerate() {
+            let rows = self.item_rows(index);
+            let mut local = [0.0; MOST_UNKNOWNS];
+            item.forces(at, &mut local[..rows.len()]);
+            for (&row, value) in rows.iter().zip(local) {
+                if row != LOCKED {
+                    out[row as usize] += value;
+                }
+            }
+        }
+    }
+
+    fn linearize(&self, at: &Kinematics, charts: Charts<'_>, scratch: &mut Tangents, out: &mut Linearization) {
+        for (index, item) in self.items.iter().enumerate() {
+            let rows = self.item_rows(index);
+            scratch.clear(rows.len());
+            item.linearize(at, scratch);
+            if let Some(increments) = charts {
+                for (k, &node) in item.nodes().iter().enumerate() {
+                    through_chart(&mut scratch.stiffness, rows.len(), 6 * k, &increments[node]);
+                }
+            }
+            let positions = &self.positions[self.position_starts[index]..self.position_starts[index + 1]];
+            for (entry, &position) in positions.iter().enumerate() {
+                if position != LOCKED {
+                    let position = position as usize;
+                    out.stiffness[position] += scratch.stiffness[entry];
+                    out.damping[position] += scratch.damping[entry];
+                    out.mass[position] += scratch.mass[entry];
+                }
+            }
+        }
+    }
+
+    fn energy(&self, at: &Kinematics) -> Energy {
+        let mut sum = Energy::default();
+        for item in &self.items {
+            sum += item.energy(at);
+        }
+        sum
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+}
+
+/// Positions in the pattern of the dense local matrix over `rows`, row by row.
+pub(crate) fn positions_of(pattern: &Pattern, rows: &[u32]) -> Vec<u32> {
+    let mut positions = Vec::with_capacity(rows.len() * rows.len());
+    for &row in rows {
+        for &column in rows {
+            let position = if row == LOCKED || column == LOCKED {
+                LOCKED
+            } else {
+                pattern
+                    .position(row as usize, column as usize)
+                    .expect("the pattern was made from these rows") as u32
+            };
+            positions.push(position);
+        }
+    }
+    positions
+}
+
+pub(crate) fn free_rows(rows: &[u32]) -> Vec<usize> {
+    rows.iter().filter(|&&row| row != LOCKED).map(|&row| row as usize).collect()
+}
+
+/// Multiplies the six columns from `column` of a row-major local matrix by T(ψ): from body variations to
+/// variations of the increment ψ.
+pub(crate) fn through_chart(matrix: &mut [f64], size: usize, column: usize, increment: &Vector6) {
+    let chart: Matrix6 = lissom_motion::tangent(increment);
+    for row in matrix.chunks_exact_mut(size) {
+        let mut turned = [0.0; 6];
+        for (j, value) in turned.iter_mut().enumerate() {
+            *value = (0..6).map(|i| row[column + i] * chart[(i, j)]).sum();
+        }
+        row[column..column + 6].copy_from_slice(&turned);
+    }
+}

@@ -1,0 +1,402 @@
+//! Puts a system together: nodes, elements, joints; then numbers the unknowns and checks what can be
+//! checked without solving.
+
+use std::sync::Arc;
+
+use lissom_motion::{Matrix6, Motion, Rotation, Vector3, Vector6};
+use lissom_solver::{Group, Pattern, Structure};
+
+use super::batch::{AnyBatch, Batch, free_rows, positions_of};
+use super::layout::{Freedoms, LOCKED, Layout};
+use super::state::{CoordinateId, CoordinateMotion, Kinematics, NodeId, NodeMotion, State};
+use super::{Drive, GROUND, System};
+use crate::elements::Element;
+use crate::elements::inertia::Inertia;
+use crate::joints::attached::{AttachedJoint, CarriedFrame};
+use crate::joints::prescribed_rotation::PrescribedRotation;
+use crate::joints::{Build, Frames, Geometry, JointKind};
+use crate::registry::{ParameterError, Parameters};
+
+/// Why a system could not be built.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// Nothing can move.
+    #[error("the model has no unknowns: nothing in it can move")]
+    Empty,
+    /// A coordinate that no constraint or spring sees, or a structure that cannot be ordered.
+    #[error("the equations cannot be ordered: {0}")]
+    Structure(String),
+}
+
+/// Where a joint lies at the start, in inertial axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// Base and tip node.
+    pub nodes: [NodeId; 2],
+    /// The joint's point, on the base [m].
+    pub at: Vector3,
+    /// Direction of the joint's axis, for kinds that have one.
+    pub axis: Option<Vector3>,
+    /// Direction of the second axis, for kinds that have two.
+    pub second_axis: Option<Vector3>,
+}
+
+struct Node {
+    name: String,
+    motion: NodeMotion,
+    freedoms: Freedoms,
+    mass: Option<Matrix6>,
+}
+
+/// Collects the parts of a system.
+pub struct Builder {
+    nodes: Vec<Node>,
+    coordinates: Vec<(String, f64)>,
+    batches: Vec<Box<dyn AnyBatch>>,
+    joints: Vec<AttachedJoint>,
+    drives: Vec<Drive>,
+    multipliers: Vec<(String, &'static str)>,
+    gravity: Vector3,
+}
+
+impl Default for Builder {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Builder {
+    /// A system with nothing but the ground.
+    pub fn new() -> Self {
+        let ground = Node {
+            name: "ground".to_owned(),
+            motion: NodeMotion::at_rest(Motion::identity()),
+            freedoms: Freedoms::Fixed,
+            mass: None,
+        };
+        Self {
+            nodes: vec![ground],
+            coordinates: Vec::new(),
+            batches: Vec::new(),
+            joints: Vec::new(),
+            drives: Vec::new(),
+            multipliers: Vec::new(),
+            gravity: Vector3::zeros(),
+        }
+    }
+
+    /// Sets gravity [m/s²], in inertial axes.
+    pub fn set_gravity(&mut self, gravity: Vector3) {
+        self.gravity = gravity;
+    }
+
+    /// Adds a node with its place at the start.
+    pub fn add_node(&mut self, name: &str, frame: Motion, freedoms: Freedoms) -> NodeId {
+        let motion = NodeMotion::at_rest(frame);
+        self.nodes.push(Node { name: name.to_owned(), motion, freedoms, mass: None });
+        self.nodes.len() - 1
+    }
+
+    /// Sets a node's twist at the start, in its body frame [m/s, rad/s]; locked freedoms stay at rest.
+    pub fn set_twist(&mut self, node: NodeId, twist: Vector6) {
+        let freedoms = self.nodes[node].freedoms;
+        self.nodes[node].motion.twist =
+            Vector6::from_fn(|k, _| if freedoms.is_free(k) { twist[k] } else { 0.0 });
+    }
+
+    /// Place of a node at the start.
+    pub fn initial_frame(&self, node: NodeId) -> Motion {
+        self.nodes[node].motion.frame
+    }
+
+    /// Which freedoms of a node are free.
+    pub fn freedoms(&self, node: NodeId) -> Freedoms {
+        self.nodes[node].freedoms
+    }
+
+    /// Adds to a node's mass matrix: 6x6, in the node's frame, about the node.
+    pub fn add_inertia(&mut self, node: NodeId, mass: &Matrix6) {
+        *self.nodes[node].mass.get_or_insert_with(Matrix6::zeros) += mass;
+    }
+
+    /// Adds an element.
+    pub fn add_element<E: Element>(&mut self, element: E) {
+        for batch in &mut self.batches {
+            if let Some(batch) = batch.as_any_mut().downcast_mut::<Batch<E>>() {
+                batch.push(element);
+                return;
+            }
+        }
+        let mut batch = Batch::<E>::new();
+        batch.push(element);
+        self.batches.push(Box::new(batch));
+    }
+
+    /// Adds a joint of a kind that stands between two nodes; gives its algebraic coordinates.
+    ///
+    /// # Errors
+    /// If a parameter or an axis is missing or makes no sense.
+    pub fn add_joint(
+        &mut self,
+        name: &str,
+        kind: &JointKind,
+        placement: &Placement,
+        parameters: &Parameters,
+    ) -> Result<Vec<CoordinateId>, ParameterError> {
+        let Build::Relative(frames, build) = kind.build else {
+            return Err(ParameterError::new("kind", "acts on another joint's coordinate"));
+        };
+        let base = Motion::new(joint_rotation(frames, placement)?, placement.at);
+        let tip_node = self.nodes[placement.nodes[1]].motion.frame;
+        let span = base.inverse_transform_point(&tip_node.position);
+        let joint = build(parameters, &Geometry { span, planar: self.moves_in_plane(placement, &base) })?;
+        let (values, relative) = joint.initial();
+        let places = [base, base * relative];
+        let carried = [0, 1].map(|side| {
+            let node = placement.nodes[side];
+            CarriedFrame { node, offset: places[side].relative_to(&self.nodes[node].motion.frame) }
+        });
+        let coordinates: Vec<CoordinateId> = joint
+            .coordinates()
+            .iter()
+            .enumerate()
+            .map(|(k, label)| {
+                self.coordinates.push((format!("{name}.{label}"), values[k]));
+                self.coordinates.len() - 1
+            })
+            .collect();
+        let first_multiplier = self.multipliers.len();
+        self.multipliers.extend(joint.equations().iter().map(|&equation| (name.to_owned(), equation)));
+        self.joints.push(AttachedJoint {
+            name: name.to_owned(),
+            kind: kind.name,
+            frames: carried,
+            coordinates: coordinates.clone(),
+            first_multiplier,
+            joint,
+        });
+        Ok(coordinates)
+    }
+
+    /// Whether the tip can only move in the plane of the joint frame's first two axes.
+    fn moves_in_plane(&self, placement: &Placement, base: &Motion) -> bool {
+        let Freedoms::Planar(a, b) = self.nodes[placement.nodes[1]].freedoms else { return false };
+        let frame = self.nodes[placement.nodes[1]].motion.frame;
+        let mut normal = Vector3::zeros();
+        normal[3 - a - b] = 1.0;
+        base.rotation.apply_inverse(&frame.rotation.apply(&normal)).z.abs() > 1.0 - 1e-12
+    }
+
+    /// Prescribes a coordinate, with a drive of a kind that acts on one.
+    ///
+    /// # Errors
+    /// If a parameter is missing.
+    pub fn add_drive(
+        &mut self,
+        name: &str,
+        kind: &JointKind,
+        coordinate: CoordinateId,
+        parameters: &Parameters,
+    ) -> Result<(), ParameterError> {
+        let Build::Coordinate(build) = kind.build else {
+            return Err(ParameterError::new("kind", "stands between two nodes"));
+        };
+        let prescribed = PrescribedRotation { coordinate, rotation: build(parameters)? };
+        self.drives.push(Drive { name: name.to_owned(), prescribed, multiplier: self.multipliers.len() });
+        self.multipliers.push((name.to_owned(), "rotation"));
+        Ok(())
+    }
+
+    /// Numbers the unknowns and gives the system with its state at `time` [s]: places and twists as
+    /// given, accelerations and multipliers zero.
+    ///
+    /// # Errors
+    /// If nothing can move.
+    pub fn build(mut self, time: f64) -> Result<(System, State), BuildError> {
+        let layout = self.number();
+        if layout.coordinate_count == 0 {
+            return Err(BuildError::Empty);
+        }
+        let inertias: Vec<Inertia> = self
+            .nodes
+            .iter()
+            .enumerate()
+            .filter_map(|(node, spec)| spec.mass.map(|mass| Inertia::new(node, mass, self.gravity)))
+            .collect();
+        if !inertias.is_empty() {
+            let mut batch = Batch::<Inertia>::new();
+            for inertia in &inertias {
+                batch.push(inertia.clone());
+            }
+            self.batches.push(Box::new(batch));
+        }
+        for batch in &mut self.batches {
+            batch.connect(&layout);
+        }
+        let joint_rows = self.joint_rows(&layout);
+        let cliques: Vec<Vec<usize>> = self
+            .batches
+            .iter()
+            .flat_map(|batch| batch.cliques())
+            .chain(joint_rows.iter().map(|rows| free_rows(rows)))
+            .collect();
+        let pattern =
+            Arc::new(Pattern::from_cliques(layout.size(), cliques.iter().map(Vec::as_slice)));
+        for batch in &mut self.batches {
+            batch.locate(&pattern);
+        }
+        let joint_positions = joint_rows.iter().map(|rows| positions_of(&pattern, rows)).collect();
+        let structure = Structure::new(pattern, self.groups(&layout))
+            .map_err(|error| BuildError::Structure(error.to_string()))?;
+        let state = self.initial_state(&layout, time);
+        let element_count = self.batches.iter().map(|batch| batch.len()).sum();
+        let system = System {
+            body_count: self.nodes.len() - 1,
+            layout,
+            batches: self.batches,
+            joints: self.joints,
+            drives: self.drives,
+            structure,
+            joint_positions,
+            joint_rows,
+            inertias,
+            gravity: self.gravity,
+            element_count,
+        };
+        Ok((system, state))
+    }
+
+    fn number(&mut self) -> Layout {
+        let mut layout = Layout::default();
+        let mut next = 0;
+        for node in &self.nodes {
+            layout.node_rows.push(std::array::from_fn(|k| {
+                if node.freedoms.is_free(k) {
+                    next += 1;
+                    next - 1
+                } else {
+                    LOCKED
+                }
+            }));
+            layout.node_names.push(node.name.clone());
+        }
+        for (name, _) in &self.coordinates {
+            layout.coordinate_rows.push(next);
+            layout.coordinate_names.push(name.clone());
+            next += 1;
+        }
+        layout.coordinate_count = next as usize;
+        layout.multiplier_count = self.multipliers.len();
+        layout.multiplier_names = std::mem::take(&mut self.multipliers);
+        layout
+    }
+
+    /// Rows of each joint's local unknowns and multipliers, then of each drive's.
+    fn joint_rows(&self, layout: &Layout) -> Vec<Vec<u32>> {
+        let first = layout.coordinate_count;
+        let joints = self.joints.iter().map(|joint| {
+            let mut rows: Vec<u32> =
+                joint.frames.iter().flat_map(|frame| layout.node_rows[frame.node]).collect();
+            rows.extend(joint.coordinates.iter().map(|&coordinate| layout.coordinate_rows[coordinate]));
+            rows.extend((0..joint.equations()).map(|k| (first + joint.first_multiplier + k) as u32));
+            rows
+        });
+        let drives = self.drives.iter().map(|drive| {
+            vec![
+                layout.coordinate_rows[drive.prescribed.coordinate],
+                (first + drive.multiplier) as u32,
+            ]
+        });
+        joints.chain(drives).collect()
+    }
+
+    /// One group per node and per coordinate, then one per joint and drive, after all that it acts on.
+    fn groups(&self, layout: &Layout) -> Vec<Group> {
+        let mut groups = Vec::new();
+        let mut of_node = vec![None; self.nodes.len()];
+        for (node, rows) in layout.node_rows.iter().enumerate() {
+            let unknowns = free_rows(rows);
+            if !unknowns.is_empty() {
+                of_node[node] = Some(groups.len());
+                groups.push(Group { unknowns, hosts: Vec::new() });
+            }
+        }
+        let first_coordinate = groups.len();
+        groups.extend(
+            layout
+                .coordinate_rows
+                .iter()
+                .map(|&row| Group { unknowns: vec![row as usize], hosts: Vec::new() }),
+        );
+        let multipliers = layout.coordinate_count;
+        for joint in &self.joints {
+            let first = multipliers + joint.first_multiplier;
+            let mut hosts: Vec<usize> =
+                joint.frames.iter().filter_map(|frame| of_node[frame.node]).collect();
+            hosts.extend(joint.coordinates.iter().map(|&coordinate| first_coordinate + coordinate));
+            hosts.dedup();
+            groups.push(Group { unknowns: (first..first + joint.equations()).collect(), hosts });
+        }
+        for drive in &self.drives {
+            groups.push(Group {
+                unknowns: vec![multipliers + drive.multiplier],
+                hosts: vec![first_coordinate + drive.prescribed.coordinate],
+            });
+        }
+        groups
+    }
+
+    fn initial_state(&self, layout: &Layout, time: f64) -> State {
+        let coordinates = self
+            .coordinates
+            .iter()
+            .map(|&(_, value)| CoordinateMotion { value, ..CoordinateMotion::default() })
+            .collect();
+        State {
+            kinematics: Kinematics {
+                time,
+                elapsed: 0.0,
+                nodes: self.nodes.iter().map(|node| node.motion).collect(),
+                coordinates,
+            },
+            multipliers: vec![0.0; layout.multiplier_count],
+            violations: vec![0.0; layout.multiplier_count],
+            algorithmic: vec![0.0; layout.coordinate_count],
+            position_remainders: vec![Vector3::zeros(); self.nodes.len()],
+        }
+    }
+
+    /// The ground's index, for symmetry with [`Self::add_node`].
+    pub fn ground(&self) -> NodeId {
+        GROUND
+    }
+}
+
+/// Direction of the joint frames at the start.
+fn joint_rotation(frames: Frames, placement: &Placement) -> Result<Rotation, ParameterError> {
+    let missing = |name: &str| ParameterError::new(name, "is missing: it must be a direction");
+    let unusable = |name: &str, why: &str| ParameterError::new(name, why);
+    match frames {
+        Frames::Point | Frames::Span => Ok(Rotation::identity()),
+        Frames::Axis | Frames::SpanWithAxis => {
+            let third = placement.axis.ok_or_else(|| missing("axis"))?;
+            let third = third
+                .try_normalize(0.0)
+                .ok_or_else(|| unusable("axis", "has no direction: all its numbers are zero"))?;
+            // Any first axis across the third; the one nearest to a global axis, for readable results.
+            let smallest = third.iamin();
+            let mut across = Vector3::zeros();
+            across[smallest] = 1.0;
+            let first = (across - third * third.dot(&across)).normalize();
+            Rotation::from_columns(&first, &third.cross(&first), &third)
+                .ok_or_else(|| unusable("axis", "has no usable direction"))
+        }
+        Frames::TwoAxes => {
+            let first = placement.axis.ok_or_else(|| missing("axis"))?;
+            let second = placement.second_axis.ok_or_else(|| missing("second_axis"))?;
+            Rotation::from_axis_and_reference(&first, &second)
+                .ok_or_else(|| unusable("second_axis", "is parallel to `axis`, or one of them is zero"))
+        }
+    }
+}

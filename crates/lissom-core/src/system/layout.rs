@@ -1,0 +1,110 @@
+//! Which row of the equations belongs to which unknown, and what a person calls it.
+
+use std::ops::Range;
+
+use super::state::{CoordinateId, NodeId};
+
+/// Marks a freedom that is locked: it has no row.
+pub const LOCKED: u32 = u32::MAX;
+
+/// Which freedoms of a node are free.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Freedoms {
+    /// None: the ground, or a frame fixed to it.
+    Fixed,
+    /// Three translations and three rotations.
+    Full,
+    /// Three translations: a point mass.
+    Translations,
+    /// Two translations, along the two given axes (0, 1 or 2): a planar point mass.
+    Planar(usize, usize),
+}
+
+impl Freedoms {
+    /// Whether freedom `k` (0..3 translations, 3..6 rotations) is free.
+    pub fn is_free(self, k: usize) -> bool {
+        match self {
+            Self::Fixed => false,
+            Self::Full => true,
+            Self::Translations => k < 3,
+            Self::Planar(a, b) => k == a || k == b,
+        }
+    }
+}
+
+/// Numbering of all unknowns: node freedoms, algebraic coordinates, then multipliers.
+#[derive(Clone, Debug, Default)]
+pub struct Layout {
+    /// Row of each freedom of each node, or [`LOCKED`].
+    pub(crate) node_rows: Vec<[u32; 6]>,
+    /// Row of each algebraic coordinate.
+    pub(crate) coordinate_rows: Vec<u32>,
+    /// Number of node freedoms and coordinates.
+    pub(crate) coordinate_count: usize,
+    /// Number of multipliers.
+    pub(crate) multiplier_count: usize,
+    pub(crate) node_names: Vec<String>,
+    pub(crate) coordinate_names: Vec<String>,
+    /// Name and equation of every multiplier.
+    pub(crate) multiplier_names: Vec<(String, &'static str)>,
+}
+
+impl Layout {
+    /// Number of unknowns: coordinates and multipliers.
+    pub fn size(&self) -> usize {
+        self.coordinate_count + self.multiplier_count
+    }
+
+    /// Number of rows that belong to node freedoms and algebraic coordinates.
+    pub fn coordinate_count(&self) -> usize {
+        self.coordinate_count
+    }
+
+    /// Rows of the multipliers.
+    pub fn multiplier_rows(&self) -> Range<usize> {
+        self.coordinate_count..self.size()
+    }
+
+    /// Number of nodes, the ground included.
+    pub fn node_count(&self) -> usize {
+        self.node_rows.len()
+    }
+
+    /// Rows of a node's six freedoms, [`LOCKED`] where it has none.
+    pub fn rows_of_node(&self, node: NodeId) -> &[u32; 6] {
+        &self.node_rows[node]
+    }
+
+    /// Row of an algebraic coordinate.
+    pub fn row_of_coordinate(&self, coordinate: CoordinateId) -> usize {
+        self.coordinate_rows[coordinate] as usize
+    }
+
+    /// Name of the unknown in `row`, as a person would call it.
+    pub fn name_of(&self, row: usize) -> String {
+        const FREEDOMS: [&str; 6] =
+            ["translation 1", "translation 2", "translation 3", "rotation 1", "rotation 2", "rotation 3"];
+        if row >= self.coordinate_count {
+            return self.multiplier_names.get(row - self.coordinate_count).map_or_else(
+                || format!("unknown {row}"),
+                |(joint, equation)| format!("multiplier of joint `{joint}` ({equation})"),
+            );
+        }
+        for (node, rows) in self.node_rows.iter().enumerate() {
+            if let Some(k) = rows.iter().position(|&r| r as usize == row && r != LOCKED) {
+                return format!("{} of node `{}`", FREEDOMS[k], self.node_names[node]);
+            }
+        }
+        for (coordinate, &r) in self.coordinate_rows.iter().enumerate() {
+            if r as usize == row {
+                return format!("coordinate `{}`", self.coordinate_names[coordinate]);
+            }
+        }
+        format!("unknown {row}")
+    }
+
+    /// Whether `row` is a translation [m], as against a rotation [rad] or a multiplier.
+    pub fn is_translation(&self, row: usize) -> bool {
+        self.node_rows.iter().any(|rows| rows[..3].iter().any(|&r| r as usize == row))
+    }
+}

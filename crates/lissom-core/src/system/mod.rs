@@ -1,0 +1,137 @@
+//! What is simulated: an immutable system, and the state that changes.
+
+mod assembly;
+mod batch;
+mod builder;
+mod layout;
+pub(crate) mod state;
+
+use std::sync::Arc;
+
+pub use assembly::{Linearization, Point};
+pub use builder::{BuildError, Builder, Placement};
+pub use layout::{Freedoms, LOCKED, Layout};
+pub use state::{CoordinateId, CoordinateMotion, Kinematics, NodeId, NodeMotion, State};
+
+use lissom_motion::Vector3;
+use lissom_solver::Structure;
+
+use crate::elements::Energy;
+use crate::elements::inertia::Inertia;
+use crate::joints::attached::AttachedJoint;
+use crate::joints::prescribed_rotation::PrescribedRotation;
+use batch::AnyBatch;
+
+/// The ground: node 0 of every system, without freedoms.
+pub const GROUND: NodeId = 0;
+
+/// A coordinate driven as a function of time, with its place among the multipliers.
+#[derive(Debug)]
+pub struct Drive {
+    /// Name in the model.
+    pub name: String,
+    /// What is prescribed.
+    pub prescribed: PrescribedRotation,
+    /// Its multiplier, the drive's moment, among all multipliers.
+    pub multiplier: usize,
+}
+
+/// Nodes, elements and joints with their numbering. Does not change during a simulation and knows
+/// neither time nor state.
+pub struct System {
+    pub(crate) layout: Layout,
+    pub(crate) batches: Vec<Box<dyn AnyBatch>>,
+    pub(crate) joints: Vec<AttachedJoint>,
+    pub(crate) drives: Vec<Drive>,
+    pub(crate) structure: Structure,
+    /// Positions of every joint's local matrix in the pattern, then of every drive's.
+    pub(crate) joint_positions: Vec<Vec<u32>>,
+    pub(crate) joint_rows: Vec<Vec<u32>>,
+    pub(crate) inertias: Vec<Inertia>,
+    pub(crate) gravity: Vector3,
+    pub(crate) body_count: usize,
+    pub(crate) element_count: usize,
+}
+
+impl System {
+    /// Numbering of the unknowns.
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Sparsity and elimination groups of the tangent.
+    pub fn structure(&self) -> &Structure {
+        &self.structure
+    }
+
+    /// A shared handle on the tangent's pattern.
+    pub fn pattern(&self) -> Arc<lissom_solver::Pattern> {
+        Arc::clone(&self.structure.pattern)
+    }
+
+    /// All joints between nodes.
+    pub fn joints(&self) -> &[AttachedJoint] {
+        &self.joints
+    }
+
+    /// All prescribed coordinates.
+    pub fn drives(&self) -> &[Drive] {
+        &self.drives
+    }
+
+    /// Inertia of every node that has mass.
+    pub fn inertias(&self) -> &[Inertia] {
+        &self.inertias
+    }
+
+    /// Gravity [m/s²].
+    pub fn gravity(&self) -> &Vector3 {
+        &self.gravity
+    }
+
+    /// Number of elements, inertias included.
+    pub fn element_count(&self) -> usize {
+        self.element_count
+    }
+
+    /// Number of nodes with mass or freedom.
+    pub fn body_count(&self) -> usize {
+        self.body_count
+    }
+
+    /// Kinetic, elastic and potential energy [J].
+    pub fn energy(&self, at: &Kinematics) -> Energy {
+        let mut sum = Energy::default();
+        for batch in &self.batches {
+            sum += batch.energy(at);
+        }
+        sum
+    }
+
+    /// Momentum [N s] and angular momentum about the origin [N m s], in inertial axes.
+    pub fn momentum(&self, at: &Kinematics) -> (Vector3, Vector3) {
+        let mut linear = Vector3::zeros();
+        let mut angular = Vector3::zeros();
+        for inertia in &self.inertias {
+            let node = &at.nodes[inertia.node()];
+            let (p, l) = state::split(&(inertia.mass() * node.twist));
+            let p = node.frame.rotation.apply(&p);
+            linear += p;
+            angular += node.frame.rotation.apply(&l) + node.frame.position.cross(&p);
+        }
+        (linear, angular)
+    }
+
+    /// Violations of all constraints, evaluated outright from absolute places: by multiplier.
+    pub fn violations(&self, at: &Kinematics, out: &mut [f64]) {
+        for joint in &self.joints {
+            let violation = joint.violation(at);
+            let first = joint.first_multiplier;
+            out[first..first + joint.equations()].copy_from_slice(&violation[..joint.equations()]);
+        }
+        for drive in &self.drives {
+            let value = at.coordinates[drive.prescribed.coordinate].value;
+            out[drive.multiplier] = drive.prescribed.violation(value, at.time);
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! Where everything is and how it moves, in SI. Knows neither topology nor time step.
+
+use lissom_motion::{Motion, Vector3, Vector6};
+
+/// Index of a node.
+pub type NodeId = usize;
+/// Index of an algebraic coordinate, such as a revolute joint's relative rotation.
+pub type CoordinateId = usize;
+
+/// A node: place, twist and acceleration of its body frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NodeMotion {
+    /// Place of the body frame in the inertial frame.
+    pub frame: Motion,
+    /// Twist in the body frame: velocity [m/s], angular velocity [rad/s].
+    pub twist: Vector6,
+    /// Time derivative of the twist's components [m/s², rad/s²].
+    pub acceleration: Vector6,
+}
+
+impl NodeMotion {
+    /// A node at rest.
+    pub fn at_rest(frame: Motion) -> Self {
+        Self { frame, twist: Vector6::zeros(), acceleration: Vector6::zeros() }
+    }
+
+    /// Velocity of the body's point `offset` [m, body frame], in the inertial frame [m/s].
+    pub fn velocity_at(&self, offset: &Vector3) -> Vector3 {
+        let (v, w) = split(&self.twist);
+        self.frame.rotation.apply(&(v + w.cross(offset)))
+    }
+
+    /// Acceleration of the body's point `offset` [m, body frame], in the inertial frame [m/s²].
+    pub fn acceleration_at(&self, offset: &Vector3) -> Vector3 {
+        let (v, w) = split(&self.twist);
+        let (dv, dw) = split(&self.acceleration);
+        let local = dv + dw.cross(offset) + w.cross(&(v + w.cross(offset)));
+        self.frame.rotation.apply(&local)
+    }
+
+    /// Angular velocity in the inertial frame [rad/s].
+    pub fn angular_velocity(&self) -> Vector3 {
+        self.frame.rotation.apply(&split(&self.twist).1)
+    }
+
+    /// Angular acceleration in the inertial frame [rad/s²].
+    pub fn angular_acceleration(&self) -> Vector3 {
+        self.frame.rotation.apply(&split(&self.acceleration).1)
+    }
+}
+
+/// Translation and rotation parts of a twist or wrench.
+pub(crate) fn split(screw: &Vector6) -> (Vector3, Vector3) {
+    (Vector3::new(screw[0], screw[1], screw[2]), Vector3::new(screw[3], screw[4], screw[5]))
+}
+
+/// A scalar algebraic coordinate and its rates.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CoordinateMotion {
+    /// Value [rad].
+    pub value: f64,
+    /// First time derivative [rad/s].
+    pub rate: f64,
+    /// Second time derivative [rad/s²].
+    pub acceleration: f64,
+}
+
+/// All nodes and coordinates at one instant.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Kinematics {
+    /// Time [s].
+    pub time: f64,
+    /// Time since the start of the step [s]; exact where `time` is rounded.
+    pub elapsed: f64,
+    /// One entry per node; node 0 is the ground.
+    pub nodes: Vec<NodeMotion>,
+    /// One entry per algebraic coordinate.
+    pub coordinates: Vec<CoordinateMotion>,
+}
+
+/// The state between two steps.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State {
+    /// Positions, velocities and accelerations.
+    pub kinematics: Kinematics,
+    /// Multipliers: constraint forces and moments [N, N m].
+    pub multipliers: Vec<f64>,
+    /// Violations of the constraints, carried from step to step: they are evaluated from the
+    /// increments of a step, so that the round-off of absolute positions does not enter them.
+    pub violations: Vec<f64>,
+    /// The scheme's own acceleration-like memory, one entry per coordinate row [m/s², rad/s²].
+    pub algorithmic: Vec<f64>,
+    /// What rounding has cut off each node's position so far [m].
+    pub position_remainders: Vec<Vector3>,
+}

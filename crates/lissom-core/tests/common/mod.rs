@@ -1,0 +1,233 @@
+//! Random frames, twists and parameters, and high-order differences, shared by the tests.
+#![allow(dead_code, reason = "each test file uses its own part")]
+
+use std::sync::Arc;
+
+use lissom_core::joints::attached::Increments;
+use lissom_core::registry::{Constant, Parameter, ParameterType, Parameters, TimeFunction, Value};
+use lissom_core::system::{Kinematics, LOCKED, Layout, Point, State, System};
+use lissom_motion::{Motion, Vector3, Vector6};
+
+/// A small generator of numbers in -1 … 1 that is the same on every machine.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Self {
+        Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
+    }
+
+    pub fn number(&mut self) -> f64 {
+        self.0 ^= self.0 << 13;
+        self.0 ^= self.0 >> 7;
+        self.0 ^= self.0 << 17;
+        (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+
+    pub fn vector(&mut self) -> Vector3 {
+        Vector3::from_fn(|_, _| self.number())
+    }
+
+    pub fn screw(&mut self) -> Vector6 {
+        Vector6::from_fn(|_, _| self.number())
+    }
+
+    pub fn motion(&mut self) -> Motion {
+        Motion::exponential(&(1.5 * self.screw()))
+    }
+}
+
+#[derive(Debug)]
+pub struct Wave;
+
+impl TimeFunction for Wave {
+    fn value(&self, time: f64) -> f64 {
+        0.4 + (1.3 * time).sin()
+    }
+    fn first_derivative(&self, time: f64) -> f64 {
+        1.3 * (1.3 * time).cos()
+    }
+    fn second_derivative(&self, time: f64) -> f64 {
+        -1.69 * (1.3 * time).sin()
+    }
+}
+
+/// A value for every parameter of a kind.
+pub fn sample_parameters(parameters: &[Parameter], flag: bool, random: &mut Random) -> Parameters {
+    let mut result = Parameters::new();
+    for parameter in parameters {
+        let value = match parameter.holds {
+            ParameterType::Number => Value::Number(random.number()),
+            ParameterType::Positive | ParameterType::NotNegative => {
+                Value::Number(1.5 + random.number())
+            }
+            ParameterType::Vector | ParameterType::Direction => Value::Vector(random.vector()),
+            ParameterType::Flag => Value::Flag(flag),
+            ParameterType::Function => Value::Function(if flag { Arc::new(Wave) } else { Arc::new(Constant(0.6)) }),
+            ParameterType::Choice(words) => Value::Text(words[0].to_owned()),
+        };
+        result.insert(parameter.name, value);
+    }
+    result
+}
+
+/// A configuration some way from the start of a step, with everything moving.
+pub struct Configuration {
+    pub start: Kinematics,
+    pub at: Kinematics,
+    pub node_increments: Vec<Vector6>,
+    pub coordinate_increments: Vec<f64>,
+    pub multipliers: Vec<f64>,
+    pub violations: Vec<f64>,
+}
+
+impl Configuration {
+    pub fn random(system: &System, state: &State, size: f64, random: &mut Random) -> Self {
+        let layout = system.layout();
+        let start = state.kinematics.clone();
+        let mut node_increments = Vec::new();
+        let mut at = start.clone();
+        at.time = 0.3;
+        at.elapsed = 0.1;
+        for node in 0..start.nodes.len() {
+            let free = free(layout, node);
+            let mut psi = size * random.screw();
+            let mut twist = random.screw();
+            let mut acceleration = random.screw();
+            for k in 0..6 {
+                if !free[k] {
+                    (psi[k], twist[k], acceleration[k]) = (0.0, 0.0, 0.0);
+                }
+            }
+            at.nodes[node].frame = start.nodes[node].frame * Motion::exponential(&psi);
+            at.nodes[node].twist = twist;
+            at.nodes[node].acceleration = acceleration;
+            node_increments.push(psi);
+        }
+        let mut coordinate_increments = Vec::new();
+        for coordinate in &mut at.coordinates {
+            let change = size * random.number();
+            coordinate.value += change;
+            coordinate.rate = random.number();
+            coordinate.acceleration = random.number();
+            coordinate_increments.push(change);
+        }
+        let multipliers = state.multipliers.iter().map(|_| random.number()).collect();
+        let mut violations = vec![0.0; state.multipliers.len()];
+        system.violations(&start, &mut violations);
+        Self { start, at, node_increments, coordinate_increments, multipliers, violations }
+    }
+
+    pub fn point(&self, augmentation: f64) -> Point<'_> {
+        Point {
+            at: &self.at,
+            increments: Increments {
+                start: &self.start,
+                nodes: &self.node_increments,
+                coordinates: &self.coordinate_increments,
+            },
+            multipliers: &self.multipliers,
+            violations: &self.violations,
+            augmentation,
+        }
+    }
+
+    /// The configuration with one unknown's place moved: by a body variation, or in its increment.
+    pub fn displaced(&self, system: &System, row: usize, change: f64, chart: bool) -> Self {
+        let mut moved = self.copy();
+        match unknown(system.layout(), row) {
+            Unknown::Node(node, k) => {
+                let mut step = Vector6::zeros();
+                step[k] = change;
+                let start = self.start.nodes[node].frame;
+                if chart {
+                    moved.node_increments[node] += step;
+                    moved.at.nodes[node].frame = start * Motion::exponential(&moved.node_increments[node]);
+                } else {
+                    let frame = self.at.nodes[node].frame * Motion::exponential(&step);
+                    moved.at.nodes[node].frame = frame;
+                    moved.node_increments[node] = frame.relative_to(&start).logarithm();
+                }
+            }
+            Unknown::Coordinate(coordinate) => {
+                moved.at.coordinates[coordinate].value += change;
+                moved.coordinate_increments[coordinate] += change;
+            }
+            Unknown::Multiplier(k) => moved.multipliers[k] += change,
+        }
+        moved
+    }
+
+    pub fn accelerated(&self, system: &System, row: usize, change: f64, order: usize) -> Self {
+        let mut moved = self.copy();
+        match (unknown(system.layout(), row), order) {
+            (Unknown::Node(node, k), 1) => moved.at.nodes[node].twist[k] += change,
+            (Unknown::Node(node, k), _) => moved.at.nodes[node].acceleration[k] += change,
+            (Unknown::Coordinate(coordinate), 1) => moved.at.coordinates[coordinate].rate += change,
+            (Unknown::Coordinate(coordinate), _) => moved.at.coordinates[coordinate].acceleration += change,
+            (Unknown::Multiplier(_), _) => {}
+        }
+        moved
+    }
+
+    fn copy(&self) -> Self {
+        Self {
+            start: self.start.clone(),
+            at: self.at.clone(),
+            node_increments: self.node_increments.clone(),
+            coordinate_increments: self.coordinate_increments.clone(),
+            multipliers: self.multipliers.clone(),
+            violations: self.violations.clone(),
+        }
+    }
+
+    pub fn residual(&self, system: &System, augmentation: f64) -> Vec<f64> {
+        let mut out = vec![0.0; system.layout().size()];
+        system.residual(&self.point(augmentation), &mut out);
+        out
+    }
+}
+
+pub enum Unknown {
+    Node(usize, usize),
+    Coordinate(usize),
+    Multiplier(usize),
+}
+
+pub fn unknown(layout: &Layout, row: usize) -> Unknown {
+    if row >= layout.coordinate_count() {
+        return Unknown::Multiplier(row - layout.coordinate_count());
+    }
+    for node in 0.. {
+        if node >= node_count(layout) {
+            break;
+        }
+        if let Some(k) = layout.rows_of_node(node).iter().position(|&r| r != LOCKED && r as usize == row) {
+            return Unknown::Node(node, k);
+        }
+    }
+    let coordinate = (0..).find(|&c| layout.row_of_coordinate(c) == row).expect("every row has an unknown");
+    Unknown::Coordinate(coordinate)
+}
+
+fn node_count(layout: &Layout) -> usize {
+    layout.node_count()
+}
+
+pub fn free(layout: &Layout, node: usize) -> [bool; 6] {
+    layout.rows_of_node(node).map(|row| row != LOCKED)
+}
+
+/// Sixth-order central difference of a vector function of one number, at 0.
+pub fn difference(function: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
+    let width = 2e-2;
+    let weights = [(1.0, 0.75), (2.0, -0.15), (3.0, 1.0 / 60.0)];
+    let mut sum: Vec<f64> = Vec::new();
+    for (steps, weight) in weights {
+        let (plus, minus) = (function(steps * width), function(-steps * width));
+        sum.resize(plus.len(), 0.0);
+        for (value, (p, m)) in sum.iter_mut().zip(plus.iter().zip(&minus)) {
+            *value += weight * (p - m) / width;
+        }
+    }
+    sum
+}

@@ -1,0 +1,252 @@
+//! Every registered element and joint: its tangents are the derivatives of its forces.
+
+mod common;
+
+use common::{Configuration, Random, difference, sample_parameters};
+use lissom_core::elements::beam::{Beam, SectionLaw};
+use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
+use lissom_core::joints::{self, Build};
+use lissom_core::system::{Builder, Freedoms, Linearization, Placement, State, System};
+use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
+
+/// Compares all blocks of the linearisation with differences of the residual.
+fn check(name: &str, system: &System, state: &State, size: f64, random: &mut Random) {
+    const TOLERANCE: f64 = 2e-8;
+    let here = Configuration::random(system, state, size, random);
+    let layout = system.layout();
+    let pattern = system.pattern();
+    for chart in [false, true] {
+        let mut linearization = Linearization::new(system);
+        system.linearize(&here.point(0.0), chart, &mut linearization);
+        for column in 0..layout.size() {
+            let by_place =
+                difference(|step| here.displaced(system, column, step, chart).residual(system, 0.0));
+            let by_rate = difference(|step| here.accelerated(system, column, step, 1).residual(system, 0.0));
+            let by_acceleration =
+                difference(|step| here.accelerated(system, column, step, 2).residual(system, 0.0));
+            for row in 0..layout.size() {
+                let at = |values: &[f64]| pattern.position(row, column).map_or(0.0, |p| values[p]);
+                let place = at(&linearization.stiffness) + at(&linearization.constraint);
+                for (what, exact, found) in [
+                    ("stiffness", place, by_place[row]),
+                    ("damping", at(&linearization.damping), by_rate[row]),
+                    ("mass", at(&linearization.mass), by_acceleration[row]),
+                ] {
+                    let scale = 1.0 + exact.abs().max(found.abs());
+                    assert!(
+                        (exact - found).abs() < TOLERANCE * scale,
+                        "{name}: {what} of {} by {} (charts {chart}): {exact} but difference {found}",
+                        layout.name_of(row),
+                        layout.name_of(column),
+                    );
+                }
+            }
+        }
+        // BᵀB belongs to the same B (columns through the chart, rows not).
+        for row in 0..layout.coordinate_count() {
+            for column in 0..layout.coordinate_count() {
+                let get = |r, c, values: &[f64]| pattern.position(r, c).map_or(0.0, |p| values[p]);
+                let product: f64 = layout
+                    .multiplier_rows()
+                    .map(|m| {
+                        get(row, m, &linearization.constraint) * get(m, column, &linearization.constraint)
+                    })
+                    .sum();
+                let gram = get(row, column, &linearization.gram);
+                assert!((product - gram).abs() < 1e-12 * (1.0 + gram.abs()), "{name}: BᵀB");
+            }
+        }
+    }
+}
+
+fn two_bodies(random: &mut Random) -> (Builder, [usize; 2]) {
+    let mut builder = Builder::new();
+    let nodes = ["base", "tip"].map(|name| builder.add_node(name, random.motion(), Freedoms::Full));
+    (builder, nodes)
+}
+
+#[test]
+fn springs_and_loads() {
+    for (seed, kind) in SPRINGS.iter().chain(LOADS).enumerate() {
+        for flag in [false, true] {
+            let mut random = Random::new(seed as u64 + 1);
+            let (mut builder, nodes) = two_bodies(&mut random);
+            let parameters = sample_parameters(kind.parameters, flag, &mut random);
+            let attached = match kind.attachment {
+                Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),
+                Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
+                Attachment::Coordinate => {
+                    let placement = Placement {
+                        nodes,
+                        at: random.vector(),
+                        axis: Some(random.vector()),
+                        second_axis: None,
+                    };
+                    let revolute = joints::KINDS.iter().find(|kind| kind.name == "revolute").expect("there");
+                    let coordinates = builder
+                        .add_joint("hinge", revolute, &placement, &sample_parameters(&[], flag, &mut random))
+                        .expect("valid");
+                    Attached::Coordinate(coordinates[0])
+                }
+            };
+            (kind.build)(&mut builder, attached, &parameters).expect("valid");
+            let (system, state) = builder.build(0.0).expect("valid");
+            check(kind.name, &system, &state, 0.4, &mut random);
+        }
+    }
+}
+
+#[test]
+fn inertia_with_gravity() {
+    let mut random = Random::new(7);
+    let mut builder = Builder::new();
+    builder.set_gravity(random.vector());
+    let node = builder.add_node("body", random.motion(), Freedoms::Full);
+    let root = Matrix6::from_fn(|_, _| random.number());
+    builder.add_inertia(node, &(root * root.transpose()));
+    let (system, state) = builder.build(0.0).expect("valid");
+    check("inertia", &system, &state, 0.4, &mut random);
+}
+
+fn beam<const N: usize>(damping: f64, offsets: bool, random: &mut Random) -> (System, State) {
+    let mut builder = Builder::new();
+    let sections: [Motion; N] = std::array::from_fn(|i| {
+        let along = Motion::translation(Vector3::new(0.4 * i as f64, 0.0, 0.0));
+        along * Motion::exponential(&(0.2 * random.screw()))
+    });
+    let offset: [Option<Motion>; N] =
+        std::array::from_fn(|i| (offsets && i % 2 == 0).then(|| random.motion()));
+    let nodes = std::array::from_fn(|i| {
+        let frame = offset[i].map_or(sections[i], |offset| sections[i] * offset.inverse());
+        builder.add_node(&format!("node {i}"), frame, Freedoms::Full)
+    });
+    let root = Matrix6::from_fn(|_, _| random.number());
+    let stiffness = root * root.transpose() + Matrix6::identity();
+    builder.add_element(Beam::<N>::new(nodes, offset, &sections, |xi| SectionLaw {
+        stiffness: stiffness * (1.0 + 0.3 * xi),
+        damping,
+    }));
+    builder.build(0.0).expect("valid")
+}
+
+#[test]
+fn beams_of_two_three_and_four_nodes() {
+    for (damping, offsets) in [(0.0, false), (0.0, true), (0.2, false), (0.2, true)] {
+        let mut random = Random::new(11);
+        let (system, state) = beam::<2>(damping, offsets, &mut random);
+        check("beam of 2 nodes", &system, &state, 0.3, &mut random);
+        let (system, state) = beam::<3>(damping, offsets, &mut random);
+        check("beam of 3 nodes", &system, &state, 0.3, &mut random);
+        let (system, state) = beam::<4>(damping, offsets, &mut random);
+        check("beam of 4 nodes", &system, &state, 0.3, &mut random);
+    }
+}
+
+#[test]
+fn all_joints() {
+    for (seed, kind) in joints::KINDS.iter().enumerate() {
+        for (size, planar) in [(0.0, false), (0.5, false), (0.3, true)] {
+            let mut random = Random::new(seed as u64 + 3);
+            let (mut builder, mut nodes) = two_bodies(&mut random);
+            let axis = if planar { Vector3::z() } else { random.vector() };
+            if planar {
+                nodes[0] = builder.ground();
+                nodes[1] = builder.add_node(
+                    "point",
+                    Motion::translation(random.vector()),
+                    Freedoms::Planar(0, 1),
+                );
+            }
+            let placement =
+                Placement { nodes, at: random.vector(), axis: Some(axis), second_axis: Some(random.vector()) };
+            let parameters = sample_parameters(kind.parameters, true, &mut random);
+            match kind.build {
+                Build::Relative(..) => {
+                    builder.add_joint("joint", kind, &placement, &parameters).expect("valid");
+                }
+                Build::Coordinate(_) => {
+                    let revolute = joints::KINDS.iter().find(|kind| kind.name == "revolute").expect("there");
+                    let coordinates = builder
+                        .add_joint("hinge", revolute, &placement, &sample_parameters(&[], false, &mut random))
+                        .expect("valid");
+                    builder.add_drive("drive", kind, coordinates[0], &parameters).expect("valid");
+                }
+            }
+            let (system, state) = builder.build(0.0).expect("valid");
+            check(kind.name, &system, &state, size, &mut random);
+        }
+    }
+}
+
+/// The violation carried over a step equals the one evaluated outright, and joints start satisfied.
+#[test]
+fn violation_changes_agree_with_violations() {
+    for (seed, kind) in joints::KINDS.iter().enumerate() {
+        let Build::Relative(..) = kind.build else { continue };
+        let mut random = Random::new(seed as u64 + 20);
+        let (mut builder, nodes) = two_bodies(&mut random);
+        let placement = Placement {
+            nodes,
+            at: random.vector(),
+            axis: Some(random.vector()),
+            second_axis: Some(random.vector()),
+        };
+        let parameters = sample_parameters(kind.parameters, true, &mut random);
+        builder.add_joint("joint", kind, &placement, &parameters).expect("valid");
+        let (system, state) = builder.build(0.0).expect("valid");
+        let count = state.multipliers.len();
+        let mut violations = vec![0.0; count];
+        system.violations(&state.kinematics, &mut violations);
+        assert!(violations.iter().all(|value| value.abs() < 1e-14), "{}: not satisfied at the start", kind.name);
+        let here = Configuration::random(&system, &state, 0.5, &mut random);
+        let mut carried = vec![0.0; count];
+        system.stage_violations(&here.point(0.0), &mut carried);
+        let mut outright = vec![0.0; count];
+        system.violations(&here.at, &mut outright);
+        for (a, b) in carried.iter().zip(&outright) {
+            assert!((a - b).abs() < 1e-13, "{}: {a} carried, {b} outright", kind.name);
+        }
+    }
+}
+
+/// d/dt (B v) along a motion, against the exact Ḃ v.
+#[test]
+fn constraint_accelerations_are_second_derivatives() {
+    for (seed, kind) in joints::KINDS.iter().enumerate() {
+        let Build::Relative(..) = kind.build else { continue };
+        let mut random = Random::new(seed as u64 + 40);
+        let (mut builder, nodes) = two_bodies(&mut random);
+        let placement = Placement {
+            nodes,
+            at: random.vector(),
+            axis: Some(random.vector()),
+            second_axis: Some(random.vector()),
+        };
+        let parameters = sample_parameters(kind.parameters, true, &mut random);
+        builder.add_joint("joint", kind, &placement, &parameters).expect("valid");
+        let (system, state) = builder.build(0.0).expect("valid");
+        let here = Configuration::random(&system, &state, 0.3, &mut random);
+        let mut exact = vec![0.0; state.multipliers.len()];
+        system.constraint_accelerations(&here.at, &mut exact);
+        // Constant twists: H(t) = H exp(t V).
+        let rate = |time: f64| {
+            difference(|step| {
+                let mut at = here.at.clone();
+                for node in &mut at.nodes {
+                    let psi: Vector6 = (time + step) * node.twist;
+                    node.frame = node.frame * Motion::exponential(&psi);
+                }
+                for coordinate in &mut at.coordinates {
+                    coordinate.value += (time + step) * coordinate.rate;
+                }
+                let mut out = vec![0.0; exact.len()];
+                system.violations(&at, &mut out);
+                out
+            })
+        };
+        let found = difference(rate);
+        for (a, b) in exact.iter().zip(&found) {
+            assert!((a - b).abs() < 1e-7 * (1.0 + a.abs()), "{}: {a} exact, {b} by differences", kind.name);
+        }
+    }
+}
