@@ -30,6 +30,8 @@ mod entries;
 mod multifrontal;
 mod ordering;
 mod pattern;
+#[cfg(feature = "pivoting")]
+mod pivoting;
 mod report;
 #[cfg(feature = "samples")]
 pub mod samples;
@@ -43,6 +45,8 @@ pub use dense::Dense;
 pub use multifrontal::Multifrontal;
 pub use ordering::{minimum_degree_order, profile_order};
 pub use pattern::Pattern;
+#[cfg(feature = "pivoting")]
+pub use pivoting::Pivoting;
 pub use report::{FactorError, FactorReport, TINY_PIVOT};
 pub use scalar::Scalar;
 pub use skyline::Skyline;

@@ -8,7 +8,7 @@
 /// good pivot may be 1e-27 of the largest one.
 pub const TINY_PIVOT: f64 = 1e-14;
 
-/// Monitor of a factorisation that went through.
+/// Monitor of a factorisation that went through. The solver `pivoting` does not see its pivots and gives estimates.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FactorReport {
     /// Smallest magnitude of a pivot.
@@ -17,7 +17,7 @@ pub struct FactorReport {
     pub smallest_pivot_unknown: usize,
     /// Largest magnitude of a pivot.
     pub largest_diagonal: f64,
-    /// Largest `|u_ij|` over largest `|a_ij|`.
+    /// Largest `|u_ij|` over largest `|a_ij|`. Not a number where the solver does not know.
     pub growth: f64,
     /// Smallest ratio of a pivot to the sum of the magnitudes of the terms it is made of: 1 where nothing
     /// cancels, near the round-off unit for a redundant constraint. It does not change when rows and columns are scaled. Solvers

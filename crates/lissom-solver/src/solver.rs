@@ -2,6 +2,8 @@
 
 use num_complex::Complex64;
 
+#[cfg(feature = "pivoting")]
+use crate::pivoting;
 use crate::report::{FactorError, FactorReport};
 use crate::scalar::Scalar;
 use crate::structure::Structure;
@@ -65,6 +67,13 @@ pub static KINDS: &[SolverKind] = &[
         summary: "profile storage without pivoting: short, readable, good for chains",
         real: |structure| Box::new(skyline::Skyline::<f64>::new(structure)),
         complex: |structure| Box::new(skyline::Skyline::<Complex64>::new(structure)),
+    },
+    #[cfg(feature = "pivoting")]
+    SolverKind {
+        name: pivoting::NAME,
+        summary: "supernodal LU with partial pivoting: to fall back on, and to compare with",
+        real: |structure| Box::new(pivoting::Pivoting::<f64>::new(structure)),
+        complex: |structure| Box::new(pivoting::Pivoting::<Complex64>::new(structure)),
     },
     SolverKind {
         name: dense::NAME,
