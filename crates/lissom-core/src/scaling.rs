@@ -7,11 +7,11 @@
 //!
 //! Elements and joints know none of this, schemes know unit steps only.
 
-use lissom_motion::{Motion, Vector6, tangent_rate_times, tangent_times};
+use lissom_motion::{Motion, Vector6, lie_bracket, tangent_rate_times, tangent_times};
 use num_complex::Complex64;
 
-use crate::schemes::{Combination, RateOf, Stage, Weights};
-use crate::system::{Kinematics, Layout, Linearization, State, System};
+use crate::schemes::{Combination, Increments, Stage, Weights};
+use crate::system::{Kinematics, Layout, Linearization, MotionChange, State, System};
 
 /// How the equations are scaled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -229,13 +229,14 @@ impl Scaled {
         &self,
         layout: &Layout,
         stage: &Stage,
-        rate_of: RateOf,
+        kind: Increments,
         start: &State,
         unit: &UnitStart,
         increments: &StageIncrements<'_>,
-        out: &mut Kinematics,
+        reached: &mut StageMotion,
     ) {
         let square = self.h * self.h;
+        let StageMotion { at: out, changes, coordinate_changes } = reached;
         (out.time, out.elapsed) = self.instant(start.kinematics.time, stage);
         let own = &increments.all[increments.stage];
         for (node, rows) in layout.node_rows.iter().enumerate() {
@@ -256,26 +257,62 @@ impl Scaled {
                     curvature[k] = unit.combine(&stage.curvature, increments.all, row);
                 }
             }
-            to.frame = from.frame * Motion::exponential(&psi);
-            match rate_of {
-                RateOf::Twist => {
+            let (motion, change) = (Motion::exponential(&psi), MotionChange::exponential(&psi));
+            match kind {
+                Increments::FromStart => {
+                    to.frame = from.frame * motion;
+                    changes[node] = change;
                     to.twist = rate / self.h;
                     to.acceleration = curvature / square;
                 }
-                // The increment's own rates: V = T ψ', V̇ = T ψ'' + Ṫ ψ'.
-                RateOf::Increment => {
-                    to.twist = tangent_times(&psi, &rate) / self.h;
+                // V = Ad(exp(-ψ)) V₀ + W with W = T ψ', and V̇ = T ψ'' + Ṫ ψ' - ad_W Ad(exp(-ψ)) V₀.
+                Increments::Departure => {
+                    let carried = motion.adjoint_inverse_times(&from.twist);
+                    let own = tangent_times(&psi, &rate) / self.h;
+                    to.twist = carried + own;
                     to.acceleration =
-                        (tangent_times(&psi, &curvature) + tangent_rate_times(&psi, &rate, &rate)) / square;
+                        (tangent_times(&psi, &curvature) + tangent_rate_times(&psi, &rate, &rate)) / square
+                            - lie_bracket(&own, &carried);
+                    let ahead = out.elapsed * from.twist;
+                    to.frame = from.frame * Motion::exponential(&ahead) * motion;
+                    changes[node] = MotionChange::exponential(&ahead).then(&change);
                 }
             }
         }
         for (coordinate, &row) in layout.coordinate_rows.iter().enumerate() {
             let row = row as usize;
+            let from = &start.kinematics.coordinates[coordinate];
             let to = &mut out.coordinates[coordinate];
-            to.value = start.kinematics.coordinates[coordinate].value + own[row];
-            to.rate = unit.combine(&stage.rate, increments.all, row) / self.h;
+            let ahead = match kind {
+                Increments::FromStart => 0.0,
+                Increments::Departure => from.rate,
+            };
+            coordinate_changes[coordinate] = out.elapsed * ahead + own[row];
+            to.value = from.value + coordinate_changes[coordinate];
+            to.rate = ahead + unit.combine(&stage.rate, increments.all, row) / self.h;
             to.acceleration = unit.combine(&stage.curvature, increments.all, row) / square;
+        }
+    }
+}
+
+/// Motion at a stage, and what has changed since the start of the step.
+#[derive(Clone, Debug)]
+pub struct StageMotion {
+    /// Places, twists and accelerations.
+    pub at: Kinematics,
+    /// Change of every node's motion.
+    pub changes: Vec<MotionChange>,
+    /// Change of every algebraic coordinate.
+    pub coordinate_changes: Vec<f64>,
+}
+
+impl StageMotion {
+    /// No change from `at`.
+    pub fn new(at: &Kinematics) -> Self {
+        Self {
+            at: at.clone(),
+            changes: vec![MotionChange::none(); at.nodes.len()],
+            coordinate_changes: vec![0.0; at.coordinates.len()],
         }
     }
 }

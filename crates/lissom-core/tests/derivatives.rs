@@ -6,7 +6,7 @@ use common::{Configuration, Random, difference, sample_parameters};
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
 use lissom_core::joints::{self, Build};
-use lissom_core::system::{Builder, Freedoms, Linearization, Placement, State, System};
+use lissom_core::system::{Builder, Chart, Freedoms, Linearization, Placement, State, System};
 use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
 
 /// Compares all blocks of the linearisation with differences of the residual.
@@ -17,7 +17,8 @@ fn check(name: &str, system: &System, state: &State, size: f64, random: &mut Ran
     let pattern = system.pattern();
     for chart in [false, true] {
         let mut linearization = Linearization::new(system);
-        system.linearize(&here.point(0.0), chart, &mut linearization);
+        let unknowns = if chart { Chart::Increments(&here.node_increments) } else { Chart::Body };
+        system.linearize(&here.point(0.0), unknowns, &mut linearization);
         for column in 0..layout.size() {
             let by_place =
                 difference(|step| here.displaced(system, column, step, chart).residual(system, 0.0));
@@ -151,14 +152,15 @@ fn all_joints() {
             let axis = if planar { Vector3::z() } else { random.vector() };
             if planar {
                 nodes[0] = builder.ground();
-                nodes[1] = builder.add_node(
-                    "point",
-                    Motion::translation(random.vector()),
-                    Freedoms::Planar(0, 1),
-                );
+                nodes[1] =
+                    builder.add_node("point", Motion::translation(random.vector()), Freedoms::Planar(0, 1));
             }
-            let placement =
-                Placement { nodes, at: random.vector(), axis: Some(axis), second_axis: Some(random.vector()) };
+            let placement = Placement {
+                nodes,
+                at: random.vector(),
+                axis: Some(axis),
+                second_axis: Some(random.vector()),
+            };
             let parameters = sample_parameters(kind.parameters, true, &mut random);
             match kind.build {
                 Build::Relative(..) => {
@@ -197,7 +199,11 @@ fn violation_changes_agree_with_violations() {
         let count = state.multipliers.len();
         let mut violations = vec![0.0; count];
         system.violations(&state.kinematics, &mut violations);
-        assert!(violations.iter().all(|value| value.abs() < 1e-14), "{}: not satisfied at the start", kind.name);
+        assert!(
+            violations.iter().all(|value| value.abs() < 1e-14),
+            "{}: not satisfied at the start",
+            kind.name
+        );
         let here = Configuration::random(&system, &state, 0.5, &mut random);
         let mut carried = vec![0.0; count];
         system.stage_violations(&here.point(0.0), &mut carried);

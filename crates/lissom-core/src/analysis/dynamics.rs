@@ -1,6 +1,5 @@
 //! Time steps and load steps: `Simulation::step` is the table of contents of a step.
 
-use lissom_motion::Vector3;
 use lissom_solver::{FactorError, SolverKind};
 
 use super::equations::{StepEquations, Workspace};
@@ -9,7 +8,7 @@ use super::step_error::{StepError, pivot_hint};
 use crate::newton::{self, Failure, Limits, Memory};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::Scheme;
-use crate::system::{Linearization, Point, State, System};
+use crate::system::{Chart, Kinematics, Linearization, MotionChange, Point, State, System};
 
 /// What a simulation is told besides system and state.
 #[derive(Clone)]
@@ -197,14 +196,14 @@ impl Simulation {
     fn finish(&mut self) {
         let last = self.settings.scheme.stages.len() - 1;
         let work = &mut self.work;
-        self.next.kinematics.clone_from(&work.motions[last]);
+        copy_motion(&work.motions[last].at, &mut self.next.kinematics);
         self.next.kinematics.elapsed = 0.0;
         self.next.multipliers.copy_from_slice(&work.multipliers[last]);
         for (row, value) in self.next.algorithmic.iter_mut().enumerate() {
             let memory = work.unit.combine(&self.settings.scheme.algorithmic, &work.increments, row);
             *value = self.scaled.leave(memory);
         }
-        compensate_positions(&self.state, &work.node_increments[last], &mut self.next);
+        compensate_positions(&self.state, &work.motions[last].changes, &mut self.next);
         std::mem::swap(&mut self.state, &mut self.next);
     }
 
@@ -228,13 +227,18 @@ impl Simulation {
     }
 }
 
+fn copy_motion(from: &Kinematics, to: &mut Kinematics) {
+    to.time = from.time;
+    to.nodes.copy_from_slice(&from.nodes);
+    to.coordinates.copy_from_slice(&from.coordinates);
+}
+
 /// Adds each node's displacement to its position with the remainder of earlier roundings, so that many
 /// small steps do not lose digits [Kahan 1965].
-fn compensate_positions(start: &State, increments: &[lissom_motion::Vector6], next: &mut State) {
-    for (node, psi) in increments.iter().enumerate() {
+fn compensate_positions(start: &State, changes: &[MotionChange], next: &mut State) {
+    for (node, change) in changes.iter().enumerate() {
         let from = &start.kinematics.nodes[node].frame;
-        let moved = lissom_motion::Motion::displacement_of_point(psi, &Vector3::zeros());
-        let shift = from.rotation.apply(&moved) + start.position_remainders[node];
+        let shift = from.rotation.apply(&change.shift) + start.position_remainders[node];
         let position = from.position + shift;
         next.position_remainders[node] = shift - (position - from.position);
         let frame = &mut next.kinematics.nodes[node].frame;
@@ -245,7 +249,7 @@ fn compensate_positions(start: &State, increments: &[lissom_motion::Vector6], ne
 
 /// Representative values from the linearisation at the start.
 fn representative(system: &System, state: &State) -> Representative {
-    let still = vec![lissom_motion::Vector6::zeros(); state.kinematics.nodes.len()];
+    let still = vec![MotionChange::none(); state.kinematics.nodes.len()];
     let unchanged = vec![0.0; state.kinematics.coordinates.len()];
     let zero = vec![0.0; system.layout().multiplier_count];
     let point = Point {
@@ -260,7 +264,7 @@ fn representative(system: &System, state: &State) -> Representative {
         augmentation: 0.0,
     };
     let mut linearization = Linearization::new(system);
-    system.linearize(&point, false, &mut linearization);
+    system.linearize(&point, Chart::Body, &mut linearization);
     Representative::of(system, &state.kinematics, &linearization)
 }
 

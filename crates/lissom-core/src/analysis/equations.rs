@@ -4,11 +4,11 @@ use lissom_motion::Vector6;
 use lissom_solver::{FactorError, FactorReport};
 
 use super::factorization::Factorization;
-use crate::joints::attached::Increments;
+use crate::joints::attached;
 use crate::newton::{Correction, Equations};
-use crate::scaling::{Representative, Scaled, StageIncrements, UnitStart};
-use crate::schemes::Scheme;
-use crate::system::{Kinematics, LOCKED, Layout, Linearization, Point, State, System};
+use crate::scaling::{Representative, Scaled, StageIncrements, StageMotion, UnitStart};
+use crate::schemes::{Increments, Scheme};
+use crate::system::{Chart, Kinematics, LOCKED, Layout, Linearization, Point, State, System};
 
 /// Corrections of rotations larger than this are cut short [rad].
 const LARGEST_ROTATION: f64 = 1.0;
@@ -18,20 +18,17 @@ pub(crate) struct Workspace {
     pub(crate) unit: UnitStart,
     /// Increments since the start of the step, by stage and coordinate row.
     pub(crate) increments: Vec<Vec<f64>>,
-    /// The same as node increments, and as changes of the algebraic coordinates.
-    pub(crate) node_increments: Vec<Vec<Vector6>>,
-    pub(crate) coordinate_increments: Vec<Vec<f64>>,
+    /// The increments by node, for the tangent.
+    node_increments: Vec<Vector6>,
     /// Multipliers by stage [N, N m].
     pub(crate) multipliers: Vec<Vec<f64>>,
-    pub(crate) motions: Vec<Kinematics>,
+    pub(crate) motions: Vec<StageMotion>,
     /// Residuals, then corrections, by stage.
     pub(crate) residuals: Vec<Vec<f64>>,
     pub(crate) linearization: Linearization,
     pub(crate) factorization: Factorization,
     /// Scaled size of one unit of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
     pub(crate) sizes: Vec<f64>,
-    /// Row with the largest residual correction of the last iteration.
-    pub(crate) worst: usize,
     pub(crate) report: Option<FactorReport>,
 }
 
@@ -55,15 +52,13 @@ impl Workspace {
         Self {
             unit: UnitStart::new(count),
             increments: vec![vec![0.0; count]; stages],
-            node_increments: vec![vec![Vector6::zeros(); state.kinematics.nodes.len()]; stages],
-            coordinate_increments: vec![vec![0.0; state.kinematics.coordinates.len()]; stages],
+            node_increments: vec![Vector6::zeros(); state.kinematics.nodes.len()],
             multipliers: vec![state.multipliers.clone(); stages],
-            motions: vec![state.kinematics.clone(); stages],
+            motions: vec![StageMotion::new(&state.kinematics); stages],
             residuals: vec![vec![0.0; layout.size()]; stages],
             linearization: Linearization::new(system),
             factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
             sizes,
-            worst: 0,
             report: None,
         }
     }
@@ -100,30 +95,21 @@ impl StepEquations<'_> {
             self.scaled.stage_motion(
                 layout,
                 stage,
-                self.scheme.rate_of,
+                self.scheme.increments,
                 self.start,
                 &self.work.unit,
                 &increments,
                 &mut self.work.motions[i],
-            );
-            spread(
-                layout,
-                &self.work.increments[i],
-                &mut self.work.node_increments[i],
-                &mut self.work.coordinate_increments[i],
             );
         }
     }
 
     fn point<'b>(&'b self, stage: usize) -> Point<'b> {
         let work = &*self.work;
+        let motion = &work.motions[stage];
         Point {
-            at: &work.motions[stage],
-            increments: Increments {
-                start: &self.start.kinematics,
-                nodes: &work.node_increments[stage],
-                coordinates: &work.coordinate_increments[stage],
-            },
+            at: &motion.at,
+            increments: joint_changes(&self.start.kinematics, motion),
             multipliers: &work.multipliers[stage],
             violations: &self.start.violations,
             augmentation: self.scaled.augmentation(),
@@ -150,7 +136,8 @@ impl StepEquations<'_> {
         let mut finite = true;
         for (i, stage) in self.scheme.stages.iter().enumerate() {
             let work = &*self.work;
-            let rate = if self.scheme.dynamic { stage.abscissa } else { 0.0 };
+            let from_start = self.scheme.dynamic && self.scheme.increments == Increments::FromStart;
+            let rate = if from_start { stage.abscissa } else { 0.0 };
             for row in 0..count {
                 let correction = work.sizes[row] * work.residuals[i][row].abs();
                 finite &= correction.is_finite();
@@ -218,11 +205,16 @@ impl Equations for StepEquations<'_> {
 
     fn renew_tangent(&mut self) -> Result<(), FactorError> {
         let last = self.scheme.stages.len() - 1;
-        // One tangent serves both stages of a pair, so it is taken without their increments.
-        let charts = last == 0;
-        let mut linearization =
-            std::mem::replace(&mut self.work.linearization, Linearization::empty());
-        self.system.linearize(&self.point(last), charts, &mut linearization);
+        let layout = self.system.layout();
+        let mut linearization = std::mem::replace(&mut self.work.linearization, Linearization::empty());
+        let mut increments = std::mem::take(&mut self.work.node_increments);
+        spread(layout, &self.work.increments[last], &mut increments);
+        let chart = match self.scheme.increments {
+            Increments::FromStart => Chart::Increments(&increments),
+            Increments::Departure => Chart::Departures(&self.start.kinematics.nodes),
+        };
+        self.system.linearize(&self.point(last), chart, &mut linearization);
+        self.work.node_increments = increments;
         self.work.linearization = linearization;
         let work = &mut *self.work;
         let report = work.factorization.factor(&self.scaled, &self.scheme.coupling, &work.linearization)?;
@@ -235,16 +227,18 @@ impl Equations for StepEquations<'_> {
     }
 }
 
-/// Increments by row as node increments and coordinate changes.
-fn spread(layout: &Layout, increments: &[f64], nodes: &mut [Vector6], coordinates: &mut [f64]) {
+/// What joints see of a stage.
+fn joint_changes<'a>(start: &'a Kinematics, motion: &'a StageMotion) -> attached::Increments<'a> {
+    attached::Increments { start, nodes: &motion.changes, coordinates: &motion.coordinate_changes }
+}
+
+/// Increments by row as node increments.
+fn spread(layout: &Layout, increments: &[f64], nodes: &mut [Vector6]) {
     for (rows, psi) in layout.node_rows.iter().zip(nodes) {
         for (k, &row) in rows.iter().enumerate() {
             if row != LOCKED {
                 psi[k] = increments[row as usize];
             }
         }
-    }
-    for (&row, change) in layout.coordinate_rows.iter().zip(coordinates) {
-        *change = increments[row as usize];
     }
 }

@@ -11,7 +11,7 @@ use lissom_solver::{FactorError, LinearSolver, SolverKind};
 use super::step_error::pivot_hint;
 use crate::joints::attached::Increments;
 use crate::scaling::Representative;
-use crate::system::{Kinematics, LOCKED, Layout, Linearization, Point, State, System};
+use crate::system::{Chart, Kinematics, LOCKED, Layout, Linearization, MotionChange, Point, State, System};
 
 /// Initial values that do not exist.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -42,7 +42,7 @@ pub struct Initial<'a> {
     linearization: Linearization,
     values: Vec<f64>,
     scale: f64,
-    still: Vec<Vector6>,
+    still: Vec<MotionChange>,
     unchanged: Vec<f64>,
 }
 
@@ -60,7 +60,7 @@ impl<'a> Initial<'a> {
             linearization: Linearization::new(system),
             values: vec![0.0; system.structure().pattern.entries()],
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
-            still: vec![Vector6::zeros(); state.kinematics.nodes.len()],
+            still: vec![MotionChange::none(); state.kinematics.nodes.len()],
             unchanged: vec![0.0; state.kinematics.coordinates.len()],
         }
     }
@@ -68,7 +68,7 @@ impl<'a> Initial<'a> {
     fn factor(&mut self, state: &State) -> Result<(), InitialError> {
         let zero = vec![0.0; self.system.layout().multiplier_count];
         let mut linearization = std::mem::replace(&mut self.linearization, Linearization::empty());
-        self.system.linearize(&self.point(&state.kinematics, &zero), false, &mut linearization);
+        self.system.linearize(&self.point(&state.kinematics, &zero), Chart::Body, &mut linearization);
         self.linearization = linearization;
         let Linearization { mass, gram, constraint, .. } = &self.linearization;
         for (i, value) in self.values.iter_mut().enumerate() {

@@ -51,7 +51,9 @@ pub enum StepError {
 /// What to try when elimination stops at a coordinate or at a multiplier.
 pub(crate) fn pivot_hint(is_multiplier: bool, augmented: bool) -> &'static str {
     match (is_multiplier, augmented) {
-        (true, _) => "the joint's equation repeats what other joints hold already: remove or relax one of them",
+        (true, _) => {
+            "the joint's equation repeats what other joints hold already: remove or relax one of them"
+        }
         (false, false) => {
             "a coordinate without mass and stiffness needs the augmented term: set `augmented = true`"
         }

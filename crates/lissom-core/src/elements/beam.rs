@@ -99,6 +99,13 @@ impl<const N: usize> Beam<N> {
         self.stations.iter().map(|station| station.weight).sum()
     }
 
+    /// Length of the stress-free reference line per ξ at ξ [m].
+    pub fn length_per_xi(&self, xi: f64) -> f64 {
+        let (shape, slope) = lagrange::<N>(xi);
+        let twist = tangent_times(&combine(&shape, &self.natural), &combine(&slope, &self.natural));
+        twist.fixed_rows::<3>(0).norm()
+    }
+
     fn section_frame(&self, at: &Kinematics, i: usize) -> Motion {
         let frame = at.nodes[self.nodes[i]].frame;
         self.offsets[i].as_ref().map_or(frame, |offset| frame * *offset)
@@ -267,8 +274,8 @@ impl<const N: usize> Element for Beam<N> {
             .stations
             .iter()
             .map(|station| {
-                let strain = station
-                    .strain(&combine(&station.shape, &relative), &combine(&station.slope, &relative));
+                let strain =
+                    station.strain(&combine(&station.shape, &relative), &combine(&station.slope, &relative));
                 0.5 * station.weight * strain.dot(&(station.law.stiffness * strain))
             })
             .sum();
@@ -349,9 +356,8 @@ mod linearize {
                 // ∂ε̇/∂d = ∂(T ḋ')/∂d + ∂²(T d')/∂d² ḋ, and ∂ε̇/∂d' = Ṫ.
                 let by_d = tangent_derivative(&d, &rate_slope) + second_derivative_times(&d, &d_slope, &rate);
                 let by_slope = tangent_rate(&d, &rate);
-                let changes: [Matrix6; N] = std::array::from_fn(|k| {
-                    shape[k] * by_d + slope[k] * by_slope + strains[k] * changes[k]
-                });
+                let changes: [Matrix6; N] =
+                    std::array::from_fn(|k| shape[k] * by_d + slope[k] * by_slope + strains[k] * changes[k]);
                 changes
             });
             for i in 0..N {
@@ -439,9 +445,7 @@ mod linearize {
 
     /// Ṫ for the rate ḋ.
     fn tangent_rate(d: &Vector6, rate: &Vector6) -> Matrix6 {
-        Matrix6::from_columns(&std::array::from_fn::<_, 6, _>(|k| {
-            tangent_rate_times(d, rate, &unit(k))
-        }))
+        Matrix6::from_columns(&std::array::from_fn::<_, 6, _>(|k| tangent_rate_times(d, rate, &unit(k))))
     }
 
     /// ∂/∂d of (∂(T a)/∂d) b, row by row from the Hessians of the components of T a.

@@ -70,11 +70,7 @@ impl DirectedLoad {
     }
 }
 
-fn build(
-    builder: &mut Builder,
-    attached: Attached,
-    parameters: &Parameters,
-) -> Result<(), ParameterError> {
+fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
     let (node, point) = attached.one_node()?;
     let load = DirectedLoad::new(builder, node, parameters)?;
     builder.add_element(Force { node: [node], point, load });

@@ -5,9 +5,7 @@
 //!
 //! M 6x6 mass matrix about the node, V twist, g gravity. [Sonneville, Cardona and Brüls 2014, eq. 25]
 
-use lissom_motion::{
-    Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times, lie_bracket_matrix, skew,
-};
+use lissom_motion::{Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times, lie_bracket_matrix, skew};
 
 use super::{Element, Energy, Tangents, add_block};
 use crate::system::state::split;

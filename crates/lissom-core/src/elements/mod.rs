@@ -4,6 +4,7 @@
 //! derivatives. It knows no time step, no scheme and no scaling.
 
 pub mod beam;
+pub mod beam_line;
 pub mod force;
 pub mod inertia;
 pub mod moment;

@@ -24,11 +24,7 @@ pub struct Moment {
     load: DirectedLoad,
 }
 
-fn build(
-    builder: &mut Builder,
-    attached: Attached,
-    parameters: &Parameters,
-) -> Result<(), ParameterError> {
+fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
     let (node, _) = attached.one_node()?;
     let load = DirectedLoad::new(builder, node, parameters)?;
     builder.add_element(Moment { node: [node], load });

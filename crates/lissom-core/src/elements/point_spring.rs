@@ -39,16 +39,15 @@ pub struct PointSpring {
     length: f64,
 }
 
-fn build(
-    builder: &mut Builder,
-    attached: Attached,
-    parameters: &Parameters,
-) -> Result<(), ParameterError> {
+fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
     let (nodes, points) = attached.two_nodes()?;
     let [a, b] = [0, 1].map(|i| builder.initial_frame(nodes[i]).transform_point(&points[i]));
     let distance = (b - a).norm();
     if distance == 0.0 {
-        return Err(ParameterError::new("tip", "is at the same place as `base`: the spring has no direction"));
+        return Err(ParameterError::new(
+            "tip",
+            "is at the same place as `base`: the spring has no direction",
+        ));
     }
     builder.add_element(PointSpring {
         nodes,

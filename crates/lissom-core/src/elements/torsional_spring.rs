@@ -32,11 +32,7 @@ pub struct TorsionalSpring {
     angle: f64,
 }
 
-fn build(
-    builder: &mut Builder,
-    attached: Attached,
-    parameters: &Parameters,
-) -> Result<(), ParameterError> {
+fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
     builder.add_element(TorsionalSpring {
         coordinate: [attached.coordinate()?],
         stiffness: parameters.number_or("stiffness", 0.0)?,

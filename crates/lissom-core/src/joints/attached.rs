@@ -4,14 +4,12 @@
 //!     G = H_A⁻¹ H_B of the joint frames,   η = δh_B - Ad(G⁻¹) δh_A,   w = (∂c/∂η)ᵀ μ
 //!     wrench on the tip's joint frame w, on the base's -Ad(G⁻¹)ᵀ w
 
-use lissom_motion::{
-    Matrix6, Motion, Vector6, coadjoint_matrix, rotation_exponential_minus_identity, rotation_tangent,
-};
+use lissom_motion::{Matrix6, Motion, Vector6, coadjoint_matrix};
 use nalgebra::{SMatrix, SVector};
 
 use super::{Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, Own, Relative};
 use crate::system::state::split;
-use crate::system::{CoordinateId, Kinematics, NodeId};
+use crate::system::{CoordinateId, Kinematics, MotionChange, NodeId};
 
 /// A joint frame: a frame carried by a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,13 +42,13 @@ pub struct AttachedJoint {
     pub(crate) joint: Box<dyn Joint>,
 }
 
-/// Increments of the nodes since the start of the step, in body frames.
+/// What has changed since the start of the step.
 #[derive(Clone, Copy, Debug)]
 pub struct Increments<'a> {
     /// The start of the step.
     pub start: &'a Kinematics,
-    /// ψ of every node, with H = H_start exp ψ.
-    pub nodes: &'a [Vector6],
+    /// Change of every node's motion.
+    pub nodes: &'a [MotionChange],
     /// Change of every coordinate.
     pub coordinates: &'a [f64],
 }
@@ -74,22 +72,17 @@ impl AttachedJoint {
 
     /// Relative motion and its change over the step.
     ///
-    /// With E = exp ψ_A, (F, p_F) = exp ψ_B seen in the joint frames, and (R, x) at the start:
+    /// With (E, p_E) and (F, p_F) the changes of base and tip joint frame, and (R, x) at the start:
     /// R' = EᵀRF and x' = Eᵀ(x + R p_F - p_E), so
     /// ΔR = aR + (R + aR) b and Δx = a (x + Δy) + Δy, with a = Eᵀ - I, b = F - I, Δy = R p_F - p_E.
     fn relative(&self, increments: &Increments<'_>) -> Relative {
         let start = self.relative_motion(increments.start);
-        let [(a, base_shift), (b, tip_shift)] = self.frames.map(|frame| {
-            let seen = frame.offset.adjoint_inverse_times(&increments.nodes[frame.node]);
-            let (u, theta) = split(&seen);
-            // exp(u, θ) moves the origin by T(θ)ᵀ u.
-            (rotation_exponential_minus_identity(&theta), rotation_tangent(&theta).tr_mul(&u))
-        });
+        let [base, tip] = self.frames.map(|frame| increments.nodes[frame.node].carried_at(&frame.offset));
         let rotation = start.rotation.matrix();
-        let a = a.transpose();
+        let a = base.turn.transpose();
         let turned = a * rotation;
-        let rotation_change = turned + (rotation + turned) * b;
-        let shift = rotation * tip_shift - base_shift;
+        let rotation_change = turned + (rotation + turned) * tip.turn;
+        let shift = rotation * tip.shift - base.shift;
         let position_change = a * (start.position + shift) + shift;
         Relative {
             rotation: rotation + rotation_change,
@@ -161,11 +154,10 @@ impl AttachedJoint {
         chain.fixed_view_mut::<2, 2>(6, 12).fill_with_identity();
         let mut geometric = chain.transpose() * (curvature * chain);
         // The base's wrench -Aᵀ w, A = Ad(G⁻¹), turns with η: δ(Aᵀ) w = -Aᵀ X(w) η.
-        let wrench =
-            gradient.relative.tr_mul(&SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu));
+        let wrench = gradient.relative.tr_mul(&SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu));
         let [base, _] = self.offset_adjoints();
-        let turning = (relative_adjoint(relative) * base).transpose()
-            * (coadjoint_matrix(&wrench) * variation);
+        let turning =
+            (relative_adjoint(relative) * base).transpose() * (coadjoint_matrix(&wrench) * variation);
         let mut view = geometric.fixed_view_mut::<6, 12>(0, 0);
         view += turning;
         (rows, geometric)
@@ -194,8 +186,7 @@ impl AttachedJoint {
         }
         let mut gradient = Gradient::zeros();
         self.joint.gradient(&Relative::at_start(&motion), &own, &mut gradient);
-        let wrench =
-            -gradient.relative.tr_mul(&SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu));
+        let wrench = -gradient.relative.tr_mul(&SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu));
         let tip = self.frames[1];
         let rotation = at.nodes[tip.node].frame.rotation * tip.offset.rotation;
         let (force, moment) = split(&wrench);

@@ -12,25 +12,38 @@ use super::{Curvature, Equations, Gradient, MOST_COORDINATES, Own, Relative};
 /// Names of three equations that hold two points together.
 pub const POINT_EQUATIONS: [&str; 3] = ["position 1", "position 2", "position 3"];
 
-/// Rows `row..row + 3`: the tip's point lies at the base's point.
+/// Rows `row..row + 3`: the tip's point lies at the base's point, c = Rᵀ x in the tip's axes. There the
+/// gradient of a tip that turns about a point of the ground stays constant.
 pub fn coincident(relative: &Relative, row: usize, out: &mut Equations) {
-    out[row..row + 3].copy_from_slice(relative.position.as_slice());
+    out[row..row + 3].copy_from_slice(relative.rotation.tr_mul(&relative.position).as_slice());
 }
 
-/// Change of [`coincident`] since the start of the step.
+/// Change of [`coincident`] since the start of the step: Rᵀx - R₀ᵀx₀ = ΔRᵀ x₀ + Rᵀ Δx.
 pub fn coincident_change(relative: &Relative, row: usize, out: &mut Equations) {
-    out[row..row + 3].copy_from_slice(relative.position_change.as_slice());
+    let start = relative.position - relative.position_change;
+    let change =
+        relative.rotation_change.tr_mul(&start) + relative.rotation.tr_mul(&relative.position_change);
+    out[row..row + 3].copy_from_slice(change.as_slice());
 }
 
-/// Gradient of [`coincident`]: δx = R η_u.
+/// Gradient of [`coincident`]: δ(Rᵀ x) = η_u + (Rᵀ x)~ η_θ.
 pub fn coincident_gradient(relative: &Relative, row: usize, out: &mut Gradient) {
-    out.relative.fixed_view_mut::<3, 3>(row, 0).copy_from(&relative.rotation);
+    let turning = skew(&relative.rotation.tr_mul(&relative.position));
+    for i in 0..3 {
+        out.relative[(row + i, i)] = 1.0;
+        for j in 0..3 {
+            out.relative[(row + i, 3 + j)] = turning[(i, j)];
+        }
+    }
 }
 
-/// Curvature of [`coincident`]: δ(Rᵀ μ) = (Rᵀ μ)~ η_θ.
+/// Curvature of [`coincident`]: the moment -(Rᵀ x)~ μ = μ̃ Rᵀ x.
 pub fn coincident_curvature(relative: &Relative, mu: &Vector3, out: &mut Curvature) {
-    let turning = skew(&relative.rotation.tr_mul(mu));
-    let mut view = out.fixed_view_mut::<3, 3>(0, 3);
+    let mu = skew(mu);
+    let turning = mu * skew(&relative.rotation.tr_mul(&relative.position));
+    let mut view = out.fixed_view_mut::<3, 3>(3, 0);
+    view += mu;
+    let mut view = out.fixed_view_mut::<3, 3>(3, 3);
     view += turning;
 }
 
@@ -102,8 +115,8 @@ impl JointRotation {
 
     /// Change of [`Self::matches`]: QᵀR - Q₀ᵀR₀ = ΔQᵀ R₀ + Qᵀ ΔR.
     pub fn matches_change(&self, relative: &Relative, row: usize, out: &mut Equations) {
-        let change = self.change.tr_mul(&relative.start_rotation())
-            + self.rotation.tr_mul(&relative.rotation_change);
+        let change =
+            self.change.tr_mul(&relative.start_rotation()) + self.rotation.tr_mul(&relative.rotation_change);
         out[row..row + 3].copy_from_slice(axial(&change).as_slice());
     }
 

@@ -9,7 +9,8 @@
 //! Equilibrium and constraints hold at the end of the step.
 
 use super::{
-    Combination, Coupling, RateOf, Scheme, SchemeError, SchemeKind, SchemeParameters, Stage, Weights, within,
+    Combination, Coupling, Increments, Scheme, SchemeError, SchemeKind, SchemeParameters, Stage, Weights,
+    within,
 };
 
 /// Registry entry of generalized-α.
@@ -70,13 +71,10 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
     let prediction = Combination { rate: 1.0, algorithmic: 0.5, ..Combination::default() };
     Scheme {
         name,
-        coupling: Coupling::Single(Weights {
-            rate: rate.increments[0],
-            curvature: curvature.increments[0],
-        }),
+        coupling: Coupling::Single(Weights { rate: rate.increments[0], curvature: curvature.increments[0] }),
         stages: vec![Stage { abscissa: 1.0, rate, curvature, prediction }],
         algorithmic: memory,
-        rate_of: RateOf::Twist,
+        increments: Increments::FromStart,
         memory_delay: alpha_m - alpha_f,
         dynamic: true,
     }

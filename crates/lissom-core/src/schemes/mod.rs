@@ -62,13 +62,15 @@ pub struct Stage {
     pub prediction: Combination,
 }
 
-/// What q' means for a rotating frame.
+/// What a scheme's increments z mean for a frame H that turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum RateOf {
-    /// The body-frame twist: the scheme is stated on the Lie group.
-    Twist,
-    /// The rate of the increment ψ, with H = H_start exp ψ: the scheme is stated in local coordinates.
-    Increment,
+pub enum Increments {
+    /// H = H_start exp z, and q' is the body twist: the scheme is stated on the Lie group.
+    FromStart,
+    /// H = H_start exp(c q'_start) exp z, the departure from going on as at the start, c the stage's
+    /// abscissa. q' is the rate of z: the scheme is stated in these local coordinates. They stay small
+    /// however fast the frame turns, and both stages see nearly the same tangent.
+    Departure,
 }
 
 /// Derivatives of rate and curvature with respect to the increment.
@@ -106,8 +108,8 @@ pub struct Scheme {
     pub stages: Vec<Stage>,
     /// The scheme's memory at the end of the step.
     pub algorithmic: Combination,
-    /// What q' means for a rotating frame.
-    pub rate_of: RateOf,
+    /// What the increments mean.
+    pub increments: Increments,
     /// How the linear systems come apart.
     pub coupling: Coupling,
     /// The memory starts as the acceleration this long after the start of the first step, in steps.
@@ -151,8 +153,7 @@ pub struct SchemeKind {
 }
 
 /// All schemes for dynamics, one line each.
-pub static KINDS: &[SchemeKind] =
-    &[radau_iia::KIND, generalized_alpha::KIND, generalized_alpha::HHT_KIND];
+pub static KINDS: &[SchemeKind] = &[radau_iia::KIND, generalized_alpha::KIND, generalized_alpha::HHT_KIND];
 
 /// The scheme kind of that name.
 pub fn kind(name: &str) -> Option<&'static SchemeKind> {
@@ -160,11 +161,7 @@ pub fn kind(name: &str) -> Option<&'static SchemeKind> {
 }
 
 /// `value`, if it lies between the limits.
-fn within(
-    parameter: &'static str,
-    value: f64,
-    (lowest, highest): (f64, f64),
-) -> Result<f64, SchemeError> {
+fn within(parameter: &'static str, value: f64, (lowest, highest): (f64, f64)) -> Result<f64, SchemeError> {
     if (lowest..=highest).contains(&value) {
         Ok(value)
     } else {

@@ -1,6 +1,6 @@
 //! Statics: equilibrium without inertia and rates at the end of each load step.
 
-use super::{Combination, Coupling, RateOf, Scheme, Stage, Weights};
+use super::{Combination, Coupling, Increments, Scheme, Stage, Weights};
 
 /// The scheme with rate and curvature zero.
 pub fn statics() -> Scheme {
@@ -13,7 +13,7 @@ pub fn statics() -> Scheme {
             prediction: Combination::default(),
         }],
         algorithmic: Combination::default(),
-        rate_of: RateOf::Twist,
+        increments: Increments::FromStart,
         coupling: Coupling::Single(Weights { rate: 0.0, curvature: 0.0 }),
         memory_delay: 0.0,
         dynamic: false,

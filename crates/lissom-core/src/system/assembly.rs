@@ -4,12 +4,11 @@
 //!
 //! where the weight w of the augmented Lagrangian term is somebody else's choice.
 
-use lissom_motion::Vector6;
 use nalgebra::SMatrix;
 
-use super::batch::through_chart;
+use super::batch::{Chart, through_chart};
 use super::layout::LOCKED;
-use super::state::Kinematics;
+use super::state::{Kinematics, MotionChange};
 use super::{Drive, System};
 use crate::elements::{MOST_UNKNOWNS, Tangents};
 use crate::joints::attached::{AttachedJoint, Increments, LOCAL};
@@ -114,19 +113,18 @@ impl System {
         }
     }
 
-    /// Linearisation at `point`. With `charts`, derivatives are taken with respect to the increments
-    /// since the start of the step, else with respect to body variations at `point`.
-    pub fn linearize(&self, point: &Point<'_>, charts: bool, out: &mut Linearization) {
+    /// Linearisation at `point` with respect to the unknowns of `chart`.
+    pub fn linearize(&self, point: &Point<'_>, chart: Chart<'_>, out: &mut Linearization) {
         out.clear();
-        let charts = charts.then_some(point.increments.nodes);
         let mut scratch = std::mem::replace(&mut out.scratch, Tangents::new(0));
         for batch in &self.batches {
-            batch.linearize(point.at, charts, &mut scratch, out);
+            batch.linearize(point.at, chart, &mut scratch, out);
         }
         out.scratch = scratch;
-        for ((joint, rows), positions) in self.joints.iter().zip(&self.joint_rows).zip(&self.joint_positions) {
+        for ((joint, rows), positions) in self.joints.iter().zip(&self.joint_rows).zip(&self.joint_positions)
+        {
             let free = Local { equations: joint.equations(), size: rows.len() };
-            joint_linearization(joint, positions, free, point, charts, out);
+            joint_linearization(joint, positions, free, point, chart, out);
         }
         for positions in &self.joint_positions[self.joints.len()..] {
             out.gram[positions[0] as usize] += 1.0;
@@ -137,7 +135,7 @@ impl System {
 
     /// Ḃ v + ∂²c/∂t² by multiplier: what the constraints' second time derivative holds besides B v̇.
     pub fn constraint_accelerations(&self, at: &Kinematics, out: &mut [f64]) {
-        let still = vec![Vector6::zeros(); at.nodes.len()];
+        let still = vec![MotionChange::none(); at.nodes.len()];
         let unchanged = vec![0.0; at.coordinates.len()];
         let increments = Increments { start: at, nodes: &still, coordinates: &unchanged };
         for joint in &self.joints {
@@ -225,7 +223,7 @@ fn joint_linearization(
     positions: &[u32],
     local: Local,
     point: &Point<'_>,
-    charts: Option<&[Vector6]>,
+    chart: Chart<'_>,
     out: &mut Linearization,
 ) {
     let configuration = joint.configuration(&point.increments);
@@ -248,7 +246,7 @@ fn joint_linearization(
             gradient[i * LOCAL + j] = rows[(i, j)];
         }
     }
-    if let Some(increments) = charts {
+    if let Chart::Increments(increments) = chart {
         for (side, frame) in joint.frames.iter().enumerate() {
             for matrix in [&mut gradient[..], &mut stiffness[..], &mut augmented[..]] {
                 through_chart(matrix, LOCAL, 6 * side, &increments[frame.node]);

@@ -2,12 +2,12 @@
 
 use std::any::Any;
 
-use lissom_motion::{Matrix6, Vector6};
+use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 use lissom_solver::Pattern;
 
 use super::assembly::Linearization;
 use super::layout::{LOCKED, Layout};
-use super::state::Kinematics;
+use super::state::{Kinematics, NodeMotion};
 use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
 
 /// All elements of one kind.
@@ -30,13 +30,22 @@ pub(crate) trait AnyBatch: Send + Sync {
     /// Free rows of each item.
     fn cliques(&self) -> Vec<Vec<usize>>;
     fn forces(&self, at: &Kinematics, out: &mut [f64]);
-    fn linearize(&self, at: &Kinematics, charts: Charts<'_>, scratch: &mut Tangents, out: &mut Linearization);
+    fn linearize(&self, at: &Kinematics, chart: Chart<'_>, scratch: &mut Tangents, out: &mut Linearization);
     fn energy(&self, at: &Kinematics) -> Energy;
     fn as_any_mut(&mut self) -> &mut dyn Any;
 }
 
-/// Tangent operators of the nodes' increments, where the unknowns are these increments.
-pub(crate) type Charts<'a> = Option<&'a [Vector6]>;
+/// Which unknowns derivatives are taken with respect to.
+#[derive(Clone, Copy, Debug)]
+pub enum Chart<'a> {
+    /// Body variations at the point of linearisation.
+    Body,
+    /// Increments ψ of each node from the start of the step, H = H_start exp ψ: δh = T(ψ) δψ.
+    Increments(&'a [Vector6]),
+    /// Departures ψ̂ from going on with each node's twist V, at ψ̂ = 0: δV = δψ̂' + ad_V δψ̂ and
+    /// δV̇ = δψ̂'' + ad_V δψ̂'.
+    Departures(&'a [NodeMotion]),
+}
 
 impl<E: Element> Batch<E> {
     pub(crate) fn new() -> Self {
@@ -70,8 +79,9 @@ impl<E: Element> AnyBatch for Batch<E> {
             for &node in item.nodes() {
                 self.rows.extend_from_slice(layout.rows_of_node(node));
             }
-            self.rows
-                .extend(item.coordinates().iter().map(|&coordinate| layout.row_of_coordinate(coordinate) as u32));
+            self.rows.extend(
+                item.coordinates().iter().map(|&coordinate| layout.row_of_coordinate(coordinate) as u32),
+            );
             self.starts.push(self.rows.len());
         }
     }
@@ -103,14 +113,23 @@ impl<E: Element> AnyBatch for Batch<E> {
         }
     }
 
-    fn linearize(&self, at: &Kinematics, charts: Charts<'_>, scratch: &mut Tangents, out: &mut Linearization) {
+    fn linearize(&self, at: &Kinematics, chart: Chart<'_>, scratch: &mut Tangents, out: &mut Linearization) {
         for (index, item) in self.items.iter().enumerate() {
             let rows = self.item_rows(index);
             scratch.clear(rows.len());
             item.linearize(at, scratch);
-            if let Some(increments) = charts {
-                for (k, &node) in item.nodes().iter().enumerate() {
-                    through_chart(&mut scratch.stiffness, rows.len(), 6 * k, &increments[node]);
+            for (k, &node) in item.nodes().iter().enumerate() {
+                match chart {
+                    Chart::Body => {}
+                    Chart::Increments(increments) => {
+                        through_chart(&mut scratch.stiffness, rows.len(), 6 * k, &increments[node]);
+                    }
+                    Chart::Departures(start) => {
+                        let turning = lie_bracket_matrix(&start[node].twist);
+                        let Tangents { stiffness, damping, mass, .. } = scratch;
+                        add_columns(stiffness, damping, rows.len(), 6 * k, &turning);
+                        add_columns(damping, mass, rows.len(), 6 * k, &turning);
+                    }
                 }
             }
             let positions = &self.positions[self.position_starts[index]..self.position_starts[index + 1]];
@@ -138,6 +157,15 @@ impl<E: Element> AnyBatch for Batch<E> {
     }
 }
 
+/// Adds to six columns of `matrix` those of `other` times `factor`.
+fn add_columns(matrix: &mut [f64], other: &[f64], size: usize, column: usize, factor: &Matrix6) {
+    for (row, source) in matrix.chunks_exact_mut(size).zip(other.chunks_exact(size)) {
+        for j in 0..6 {
+            row[column + j] += (0..6).map(|i| source[column + i] * factor[(i, j)]).sum::<f64>();
+        }
+    }
+}
+
 /// Positions in the pattern of the dense local matrix over `rows`, row by row.
 pub(crate) fn positions_of(pattern: &Pattern, rows: &[u32]) -> Vec<u32> {
     let mut positions = Vec::with_capacity(rows.len() * rows.len());
@@ -146,9 +174,8 @@ pub(crate) fn positions_of(pattern: &Pattern, rows: &[u32]) -> Vec<u32> {
             let position = if row == LOCKED || column == LOCKED {
                 LOCKED
             } else {
-                pattern
-                    .position(row as usize, column as usize)
-                    .expect("the pattern was made from these rows") as u32
+                pattern.position(row as usize, column as usize).expect("the pattern was made from these rows")
+                    as u32
             };
             positions.push(position);
         }

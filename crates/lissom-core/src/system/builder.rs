@@ -241,8 +241,7 @@ impl Builder {
             .flat_map(|batch| batch.cliques())
             .chain(joint_rows.iter().map(|rows| free_rows(rows)))
             .collect();
-        let pattern =
-            Arc::new(Pattern::from_cliques(layout.size(), cliques.iter().map(Vec::as_slice)));
+        let pattern = Arc::new(Pattern::from_cliques(layout.size(), cliques.iter().map(Vec::as_slice)));
         for batch in &mut self.batches {
             batch.locate(&pattern);
         }
@@ -303,10 +302,7 @@ impl Builder {
             rows
         });
         let drives = self.drives.iter().map(|drive| {
-            vec![
-                layout.coordinate_rows[drive.prescribed.coordinate],
-                (first + drive.multiplier) as u32,
-            ]
+            vec![layout.coordinate_rows[drive.prescribed.coordinate], (first + drive.multiplier) as u32]
         });
         joints.chain(drives).collect()
     }
@@ -332,8 +328,7 @@ impl Builder {
         let multipliers = layout.coordinate_count;
         for joint in &self.joints {
             let first = multipliers + joint.first_multiplier;
-            let mut hosts: Vec<usize> =
-                joint.frames.iter().filter_map(|frame| of_node[frame.node]).collect();
+            let mut hosts: Vec<usize> = joint.frames.iter().filter_map(|frame| of_node[frame.node]).collect();
             hosts.extend(joint.coordinates.iter().map(|&coordinate| first_coordinate + coordinate));
             hosts.dedup();
             groups.push(Group { unknowns: (first..first + joint.equations()).collect(), hosts });

@@ -9,9 +9,10 @@ pub(crate) mod state;
 use std::sync::Arc;
 
 pub use assembly::{Linearization, Point};
+pub use batch::Chart;
 pub use builder::{BuildError, Builder, Placement};
 pub use layout::{Freedoms, LOCKED, Layout};
-pub use state::{CoordinateId, CoordinateMotion, Kinematics, NodeId, NodeMotion, State};
+pub use state::{CoordinateId, CoordinateMotion, Kinematics, MotionChange, NodeId, NodeMotion, State};
 
 use lissom_motion::Vector3;
 use lissom_solver::Structure;

@@ -1,6 +1,6 @@
 //! Where everything is and how it moves, in SI. Knows neither topology nor time step.
 
-use lissom_motion::{Motion, Vector3, Vector6};
+use lissom_motion::{Matrix3, Motion, Vector3, Vector6, rotation_exponential_minus_identity};
 
 /// Index of a node.
 pub type NodeId = usize;
@@ -52,6 +52,50 @@ impl NodeMotion {
 /// Translation and rotation parts of a twist or wrench.
 pub(crate) fn split(screw: &Vector6) -> (Vector3, Vector3) {
     (Vector3::new(screw[0], screw[1], screw[2]), Vector3::new(screw[3], screw[4], screw[5]))
+}
+
+/// A change of motion H⁻¹ H' = (E, p), kept as E - I and p so that small changes keep their digits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionChange {
+    /// E - I.
+    pub turn: Matrix3,
+    /// p [m].
+    pub shift: Vector3,
+}
+
+impl MotionChange {
+    /// No change.
+    pub fn none() -> Self {
+        Self { turn: Matrix3::zeros(), shift: Vector3::zeros() }
+    }
+
+    /// exp ψ.
+    pub fn exponential(psi: &Vector6) -> Self {
+        let theta = split(psi).1;
+        Self {
+            turn: rotation_exponential_minus_identity(&theta),
+            shift: Motion::displacement_of_point(psi, &Vector3::zeros()),
+        }
+    }
+
+    /// This change, then `next` seen from the changed frame: (E₁ E₂ - I, p₁ + E₁ p₂).
+    #[must_use]
+    pub fn then(&self, next: &Self) -> Self {
+        Self {
+            turn: self.turn + next.turn + self.turn * next.turn,
+            shift: self.shift + next.shift + self.turn * next.shift,
+        }
+    }
+
+    /// The same change of a frame carried at `offset`: O⁻¹ (E, p) O.
+    #[must_use]
+    pub fn carried_at(&self, offset: &Motion) -> Self {
+        let axes = offset.rotation.matrix();
+        Self {
+            turn: axes.tr_mul(&(self.turn * axes)),
+            shift: axes.tr_mul(&(self.shift + self.turn * offset.position)),
+        }
+    }
 }
 
 /// A scalar algebraic coordinate and its rates.

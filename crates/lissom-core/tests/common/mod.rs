@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use lissom_core::joints::attached::Increments;
 use lissom_core::registry::{Constant, Parameter, ParameterType, Parameters, TimeFunction, Value};
-use lissom_core::system::{Kinematics, LOCKED, Layout, Point, State, System};
+use lissom_core::system::{Kinematics, LOCKED, Layout, MotionChange, Point, State, System};
 use lissom_motion::{Motion, Vector3, Vector6};
 
 /// A small generator of numbers in -1 … 1 that is the same on every machine.
@@ -57,12 +57,12 @@ pub fn sample_parameters(parameters: &[Parameter], flag: bool, random: &mut Rand
     for parameter in parameters {
         let value = match parameter.holds {
             ParameterType::Number => Value::Number(random.number()),
-            ParameterType::Positive | ParameterType::NotNegative => {
-                Value::Number(1.5 + random.number())
-            }
+            ParameterType::Positive | ParameterType::NotNegative => Value::Number(1.5 + random.number()),
             ParameterType::Vector | ParameterType::Direction => Value::Vector(random.vector()),
             ParameterType::Flag => Value::Flag(flag),
-            ParameterType::Function => Value::Function(if flag { Arc::new(Wave) } else { Arc::new(Constant(0.6)) }),
+            ParameterType::Function => {
+                Value::Function(if flag { Arc::new(Wave) } else { Arc::new(Constant(0.6)) })
+            }
             ParameterType::Choice(words) => Value::Text(words[0].to_owned()),
         };
         result.insert(parameter.name, value);
@@ -75,6 +75,7 @@ pub struct Configuration {
     pub start: Kinematics,
     pub at: Kinematics,
     pub node_increments: Vec<Vector6>,
+    pub changes: Vec<MotionChange>,
     pub coordinate_increments: Vec<f64>,
     pub multipliers: Vec<f64>,
     pub violations: Vec<f64>,
@@ -114,7 +115,8 @@ impl Configuration {
         let multipliers = state.multipliers.iter().map(|_| random.number()).collect();
         let mut violations = vec![0.0; state.multipliers.len()];
         system.violations(&start, &mut violations);
-        Self { start, at, node_increments, coordinate_increments, multipliers, violations }
+        let changes = node_increments.iter().map(MotionChange::exponential).collect();
+        Self { start, at, node_increments, changes, coordinate_increments, multipliers, violations }
     }
 
     pub fn point(&self, augmentation: f64) -> Point<'_> {
@@ -122,7 +124,7 @@ impl Configuration {
             at: &self.at,
             increments: Increments {
                 start: &self.start,
-                nodes: &self.node_increments,
+                nodes: &self.changes,
                 coordinates: &self.coordinate_increments,
             },
             multipliers: &self.multipliers,
@@ -147,6 +149,7 @@ impl Configuration {
                     moved.at.nodes[node].frame = frame;
                     moved.node_increments[node] = frame.relative_to(&start).logarithm();
                 }
+                moved.changes[node] = MotionChange::exponential(&moved.node_increments[node]);
             }
             Unknown::Coordinate(coordinate) => {
                 moved.at.coordinates[coordinate].value += change;
@@ -174,6 +177,7 @@ impl Configuration {
             start: self.start.clone(),
             at: self.at.clone(),
             node_increments: self.node_increments.clone(),
+            changes: self.changes.clone(),
             coordinate_increments: self.coordinate_increments.clone(),
             multipliers: self.multipliers.clone(),
             violations: self.violations.clone(),

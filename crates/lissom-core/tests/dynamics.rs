@@ -1,0 +1,219 @@
+//! Whole systems in time: orders of convergence, energy, drift, statics.
+
+mod common;
+
+use lissom_core::analysis::{Settings, Simulation};
+use lissom_core::elements::beam::SectionLaw;
+use lissom_core::elements::beam_line::{BeamLineDescription, add_beam_line};
+use lissom_core::elements::inertia::Inertia;
+use lissom_core::elements::{Attached, LOADS};
+use lissom_core::joints;
+use lissom_core::newton::Limits;
+use lissom_core::registry::{Parameters, Value};
+use lissom_core::scaling::ScalingChoice;
+use lissom_core::schemes::{Scheme, generalized_alpha, radau_iia, statics};
+use lissom_core::system::{Builder, Freedoms, Placement, State, System};
+use lissom_motion::{Matrix3, Matrix6, Motion, Vector3, Vector6};
+
+fn joint_kind(name: &str) -> &'static joints::JointKind {
+    joints::KINDS.iter().find(|kind| kind.name == name).expect("registered")
+}
+
+fn simulation((system, state): (System, State), scheme: Scheme, step_size: f64) -> Simulation {
+    let settings = Settings {
+        scheme,
+        step_size,
+        scaling: ScalingChoice::default(),
+        limits: Limits { tolerance: 1e-10, max_iterations: 25 },
+        solver: lissom_solver::kind("sparse").expect("registered"),
+    };
+    Simulation::new(system, state, settings).expect("consistent")
+}
+
+/// The heavy top [Brüls, Cardona and Arnold 2012]: fixed point at the origin.
+fn top() -> (System, State) {
+    let mut builder = Builder::new();
+    builder.set_gravity(Vector3::new(0.0, 0.0, -9.81));
+    let center = Vector3::new(0.0, 1.0, 0.0);
+    let node = builder.add_node("top", Motion::translation(center), Freedoms::Full);
+    let inertia = Matrix3::from_diagonal(&Vector3::new(0.234_375, 0.468_75, 0.234_375));
+    builder.add_inertia(node, &Inertia::of_rigid_body(15.0, &Vector3::zeros(), &inertia));
+    let spin = Vector3::new(0.0, 150.0, -4.615_38);
+    let velocity = spin.cross(&center);
+    builder.set_twist(node, Vector6::new(velocity.x, velocity.y, velocity.z, spin.x, spin.y, spin.z));
+    let placement =
+        Placement { nodes: [builder.ground(), node], at: Vector3::zeros(), axis: None, second_axis: None };
+    builder.add_joint("pivot", joint_kind("spherical"), &placement, &Parameters::new()).expect("valid");
+    builder.build(0.0).expect("valid")
+}
+
+fn run(simulation: &mut Simulation, steps: usize) {
+    for _ in 0..steps {
+        simulation.step().expect("converges");
+    }
+}
+
+#[test]
+fn heavy_top_reaches_the_reference() {
+    let steps = 8000;
+    let mut simulation = simulation(top(), radau_iia::two_stages(), 1.0 / f64::from(steps));
+    run(&mut simulation, steps as usize);
+    let node = simulation.state().kinematics.nodes[1];
+    let reference = Vector3::new(1.733_439_640_983_86e-1, 6.400_885_920_705_69e-1, -7.484_907_911_335_81e-1);
+    let error = (node.frame.position - reference).norm();
+    println!("radau top error {error:e}, totals {:?}", simulation.totals());
+    assert!(error < 2e-5);
+}
+
+/// Position, velocity and multiplier of the top at 0.05 s.
+fn top_at(scheme: Scheme, steps: usize) -> [Vector3; 3] {
+    let mut simulation = simulation(top(), scheme, 0.05 / steps as f64);
+    run(&mut simulation, steps);
+    let state = simulation.state();
+    let node = &state.kinematics.nodes[1];
+    let multipliers = Vector3::from_column_slice(&state.multipliers);
+    [node.frame.position, node.velocity_at(&Vector3::zeros()), multipliers]
+}
+
+#[test]
+fn schemes_have_their_orders_for_position_velocity_and_multiplier() {
+    let reference = top_at(radau_iia::two_stages(), 4096);
+    let schemes: [(&str, Scheme, [f64; 3], usize); 3] = [
+        ("generalized-alpha", generalized_alpha::with_spectral_radius(0.8).expect("valid"), [2.0; 3], 256),
+        ("hht", generalized_alpha::hht(-0.3).expect("valid"), [2.0; 3], 256),
+        ("radau", radau_iia::two_stages(), [3.0, 2.0, 1.0], 64),
+    ];
+    for (name, scheme, orders, steps) in schemes {
+        let errors = [steps, 2 * steps].map(|steps| {
+            let result = top_at(scheme.clone(), steps);
+            [0, 1, 2].map(|i| (result[i] - reference[i]).norm())
+        });
+        for i in 0..3 {
+            let order = (errors[0][i] / errors[1][i]).log2();
+            println!("{name} {i}: errors {:e} {:e}, order {order:.2}", errors[0][i], errors[1][i]);
+            assert!(order > orders[i] - 0.15, "{name}: order {order} of quantity {i}");
+        }
+    }
+}
+
+fn law(stiffness: [f64; 6]) -> SectionLaw {
+    SectionLaw { stiffness: Matrix6::from_diagonal(&Vector6::from_row_slice(&stiffness)), damping: 0.0 }
+}
+
+fn straight(s: f64, length: f64) -> Motion {
+    Motion::translation(Vector3::new(s * length, 0.0, 0.0))
+}
+
+#[test]
+fn cantilever_rolls_up_to_a_circle() {
+    let mut builder = Builder::new();
+    let (length, bending) = (10.0, 86.9e3);
+    let line = add_beam_line(
+        &mut builder,
+        &BeamLineDescription {
+            name: "beam",
+            elements: 8,
+            order: 3,
+            frame: &|s| straight(s, length),
+            law: &|_| law([1770e3, 1770e3, 1770e3, 8.16e3, bending, 215e3]),
+            mass: &|_| Matrix6::identity(),
+            ends: [None, None],
+        },
+    );
+    let placement = Placement {
+        nodes: [builder.ground(), line.nodes[0]],
+        at: Vector3::zeros(),
+        axis: None,
+        second_axis: None,
+    };
+    builder.add_joint("root", joint_kind("clamp"), &placement, &Parameters::new()).expect("valid");
+    let end = *line.nodes.last().expect("there");
+    let moment = Vector3::new(0.0, -2.0 * std::f64::consts::PI * bending / length, 0.0);
+    let load = LOADS.iter().find(|kind| kind.name == "moment").expect("registered");
+    #[derive(Debug)]
+    struct Ramp;
+    impl lissom_core::registry::TimeFunction for Ramp {
+        fn value(&self, time: f64) -> f64 {
+            time
+        }
+        fn first_derivative(&self, _: f64) -> f64 {
+            1.0
+        }
+        fn second_derivative(&self, _: f64) -> f64 {
+            0.0
+        }
+    }
+    let parameters = Parameters::new()
+        .with("vector", Value::Vector(moment))
+        .with("scale", Value::Function(std::sync::Arc::new(Ramp)));
+    (load.build)(&mut builder, Attached::OneNode(end, Vector3::zeros()), &parameters).expect("valid");
+    let steps = 10;
+    let mut simulation = simulation(builder.build(0.0).expect("valid"), statics::statics(), 0.1);
+    run(&mut simulation, steps);
+    let tip = simulation.state().kinematics.nodes[end].frame.position;
+    println!("tip {tip:?} totals {:?}", simulation.totals());
+    assert!(tip.norm() < 1e-8, "{tip:?}");
+}
+
+#[test]
+fn free_flexible_pendulum_keeps_its_energy_as_the_scheme_promises() {
+    for (scheme, allowed) in [
+        (generalized_alpha::with_spectral_radius(1.0).expect("valid"), 1e-2),
+        (generalized_alpha::hht(-0.05).expect("valid"), 2e-2),
+        (radau_iia::two_stages(), 2e-2),
+    ] {
+        let mut builder = Builder::new();
+        builder.set_gravity(Vector3::new(0.0, -9.81, 0.0));
+        let radius = 0.005_f64;
+        let area = std::f64::consts::PI * radius * radius;
+        let inertia = area * radius * radius / 4.0;
+        let line = add_beam_line(
+            &mut builder,
+            &BeamLineDescription {
+                name: "rope",
+                elements: 4,
+                order: 3,
+                frame: &|s| straight(s, 1.0),
+                law: &|_| {
+                    law([5e6, 5e6 / 3.0, 5e6 / 3.0, 0.0, 5e6, 5e6]
+                        .map(|e| e * area)
+                        .iter()
+                        .enumerate()
+                        .map(|(k, &value)| match k {
+                            3 => 5e6 / 3.0 * 2.0 * inertia,
+                            4 | 5 => 5e6 * inertia,
+                            _ => value,
+                        })
+                        .collect::<Vec<_>>()
+                        .try_into()
+                        .expect("six"))
+                },
+                mass: &|_| {
+                    Matrix6::from_diagonal(&Vector6::new(
+                        1100.0 * area,
+                        1100.0 * area,
+                        1100.0 * area,
+                        1100.0 * 2.0 * inertia,
+                        1100.0 * inertia,
+                        1100.0 * inertia,
+                    ))
+                },
+                ends: [None, None],
+            },
+        );
+        let placement = Placement {
+            nodes: [builder.ground(), line.nodes[0]],
+            at: Vector3::zeros(),
+            axis: None,
+            second_axis: None,
+        };
+        builder.add_joint("pivot", joint_kind("spherical"), &placement, &Parameters::new()).expect("valid");
+        let name = scheme.name.clone();
+        let mut simulation = simulation(builder.build(0.0).expect("valid"), scheme, 1e-3);
+        let start = simulation.system().energy(&simulation.state().kinematics).total();
+        run(&mut simulation, 500);
+        let end = simulation.system().energy(&simulation.state().kinematics);
+        println!("{name}: {start} -> {end:?} {:?}", simulation.totals());
+        assert!((end.total() - start).abs() < allowed * end.kinetic, "{name}");
+    }
+}
