@@ -10,6 +10,7 @@ const TINY: f64 = 1.0 / 16.0;
 const SMALL: f64 = 1.0;
 const TINY_TERMS: usize = 7;
 const SMALL_TERMS: usize = 10;
+const MEDIUM_TERMS: usize = 14;
 const TERMS: usize = 20;
 
 /// From here on the closed form of the values is more accurate than their series,
@@ -98,7 +99,7 @@ pub(crate) fn exponential_coefficients<const ORDERS: usize>(q: f64) -> [[f64; 2]
     } else if q < SMALL {
         series(&SERIES[..SMALL_TERMS], q)
     } else if q < CLOSED_VALUES_FROM {
-        series(&SERIES, q)
+        series(&SERIES[..MEDIUM_TERMS], q)
     } else {
         large_angle(q)
     }
@@ -202,6 +203,7 @@ const REMAINDER: [f64; 20] = [
 ];
 const REMAINDER_TERMS: usize = 16;
 const SMALL_REMAINDER_TERMS: usize = 6;
+const TINY_REMAINDER_TERMS: usize = 4;
 
 /// `REMAINDER_SERIES[j][m]` is the coefficient of `qʲ` in the `m`-th derivative of the remainder.
 const REMAINDER_SERIES: [[f64; 4]; REMAINDER_TERMS] = {
@@ -228,13 +230,13 @@ pub(crate) fn inverse_coefficients<const ORDERS: usize>(q: f64) -> [f64; ORDERS]
     if q > POLES_UP_TO {
         return inverse_closed_form(q);
     }
-    let terms = if q < SMALL { SMALL_REMAINDER_TERMS } else { REMAINDER_TERMS };
-    let mut sum = [0.0; ORDERS];
-    for row in REMAINDER_SERIES[..terms].iter().rev() {
-        for m in 0..ORDERS {
-            sum[m] = sum[m] * q + row[m];
-        }
-    }
+    let mut sum = if q < TINY {
+        remainder(&REMAINDER_SERIES[..TINY_REMAINDER_TERMS], q)
+    } else if q < SMALL {
+        remainder(&REMAINDER_SERIES[..SMALL_REMAINDER_TERMS], q)
+    } else {
+        remainder(&REMAINDER_SERIES, q)
+    };
     for pole in POLES {
         let mut distance = pole - q;
         if distance == 0.0 {
@@ -245,6 +247,17 @@ pub(crate) fn inverse_coefficients<const ORDERS: usize>(q: f64) -> [f64; ORDERS]
         for m in 0..ORDERS {
             sum[m] += term;
             term *= inverse * (m + 1) as f64;
+        }
+    }
+    sum
+}
+
+#[inline]
+fn remainder<const ORDERS: usize>(table: &[[f64; 4]], q: f64) -> [f64; ORDERS] {
+    let mut sum = [0.0; ORDERS];
+    for row in table.iter().rev() {
+        for m in 0..ORDERS {
+            sum[m] = sum[m] * q + row[m];
         }
     }
     sum

@@ -20,6 +20,9 @@ pub struct Rotation {
 const ARC_TANGENT: [f64; 9] =
     [1.0, 1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0];
 const ARC_TANGENT_UP_TO: f64 = 1.0 / 64.0;
+/// Below this `x²` the first terms of the series are enough.
+const ARC_TANGENT_SHORT_UP_TO: f64 = 1.0 / 1024.0;
+const ARC_TANGENT_SHORT: usize = 6;
 /// Smallest sine of the angle between two directions that still span a plane.
 const PARALLEL: f64 = 1e-10;
 
@@ -50,16 +53,18 @@ impl Rotation {
     #[inline]
     pub fn logarithm(&self) -> Vector3 {
         let Self { scalar, vector } = self.with_positive_scalar();
-        let (s, w) = (vector.norm_squared(), scalar * scalar);
-        if s < ARC_TANGENT_UP_TO * w {
-            let x = -s / w;
-            let mut sum = 0.0;
-            for coefficient in ARC_TANGENT.iter().rev() {
-                sum = sum * x + coefficient;
-            }
-            vector * (2.0 * sum / scalar)
+        let square = vector.norm_squared();
+        if square < ARC_TANGENT_UP_TO * scalar * scalar {
+            let inverse = 1.0 / scalar;
+            let x = -square * inverse * inverse;
+            let quotient = if -x < ARC_TANGENT_SHORT_UP_TO {
+                polynomial(&ARC_TANGENT[..ARC_TANGENT_SHORT], x)
+            } else {
+                polynomial(&ARC_TANGENT, x)
+            };
+            vector * (2.0 * quotient * inverse)
         } else {
-            let sine = s.sqrt();
+            let sine = square.sqrt();
             vector * (2.0 * sine.atan2(scalar) / sine)
         }
     }
@@ -67,9 +72,11 @@ impl Rotation {
     /// The same rotation with the quaternion that has a positive scalar part.
     #[inline]
     fn with_positive_scalar(self) -> Self {
-        if self.scalar > 0.0 {
-            return self;
-        }
+        if self.scalar > 0.0 { self } else { self.negated_or_half_turn() }
+    }
+
+    #[cold]
+    fn negated_or_half_turn(self) -> Self {
         let first = self.vector.iter().copied().find(|&component| component != 0.0).unwrap_or(0.0);
         if self.scalar < 0.0 || first < 0.0 {
             Self { scalar: -self.scalar, vector: -self.vector }
@@ -222,6 +229,11 @@ impl Rotation {
             Self { scalar: w, vector: Vector3::new(x, y, z) }.normalized()
         })
     }
+}
+
+#[inline]
+fn polynomial(coefficients: &[f64], x: f64) -> f64 {
+    coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
 }
 
 /// The unit vector along `v`; `None` if `v` is zero or not finite.

@@ -9,12 +9,14 @@ use crate::dual::{Dual, DualVector};
 use crate::operator::{self, Pair};
 use crate::{Matrix3, Matrix6, Vector3, Vector6};
 
+#[inline]
 fn tangent_pairs<const ORDERS: usize, const PAIRS: usize>(q: Dual) -> [Pair; PAIRS] {
     const { assert!(ORDERS == PAIRS + 1, "a dual value takes one derivative more") };
     let k = exponential_coefficients::<ORDERS>(q.real).map(|[b, c]| [-b, c]);
     std::array::from_fn(|m| Pair::lift(k[m], k[m + 1], q))
 }
 
+#[inline]
 fn inverse_pairs<const ORDERS: usize, const PAIRS: usize>(q: Dual) -> [Pair; PAIRS] {
     const { assert!(ORDERS == PAIRS + 1, "a dual value takes one derivative more") };
     let e = inverse_coefficients::<ORDERS>(q.real);
@@ -22,11 +24,13 @@ fn inverse_pairs<const ORDERS: usize, const PAIRS: usize>(q: Dual) -> [Pair; PAI
     std::array::from_fn(|m| Pair::lift([linear(m), e[m]], [0.0, e[m + 1]], q))
 }
 
+#[inline]
 fn tangent_value(d: DualVector) -> Pair {
     let [value] = tangent_pairs::<2, 1>(d.dot(d));
     value
 }
 
+#[inline]
 fn inverse_value(d: DualVector) -> Pair {
     let [value] = inverse_pairs::<2, 1>(d.dot(d));
     value
@@ -100,6 +104,7 @@ impl ScrewTangent {
     }
 }
 
+#[inline]
 fn rotation_argument(theta: &Vector3) -> DualVector {
     DualVector { real: *theta, dual: Vector3::zeros() }
 }
