@@ -80,8 +80,8 @@ proptest! {
         prop_assert!((r.apply(&v) - r.matrix() * v).amax() < 2e-15);
         prop_assert!((r.apply_inverse(&v) - r.matrix().transpose() * v).amax() < 2e-15);
         prop_assert!((r.inverse().apply(&v) - r.apply_inverse(&v)).amax() < 2e-15);
-        prop_assert!(error(&(r.matrix().transpose() * r.matrix()), &Matrix3::identity(), 1.0) < 2e-15);
-        prop_assert!((r.matrix().determinant() - 1.0).abs() < 3e-15);
+        prop_assert!(error(&(r.matrix().transpose() * r.matrix()), &Matrix3::identity(), 1.0) < 4e-15);
+        prop_assert!((r.matrix().determinant() - 1.0).abs() < 5e-15);
     }
 
     #[test]
@@ -123,9 +123,9 @@ proptest! {
         let (axis, reference) = (translation_part(&a), rotation_part(&a) * 10.0_f64.powi(size));
         prop_assume!(axis.cross(&reference).norm() > 1e-3 * reference.norm());
         let rotation = Rotation::from_axis_and_reference(&axis, &reference).unwrap();
-        prop_assert!((rotation.apply(&Vector3::x()) - axis.normalize()).amax() < 1e-15);
+        prop_assert!((rotation.apply(&Vector3::x()) - axis.normalize()).amax() < 2e-15);
         let in_body = rotation.apply_inverse(&reference) / reference.norm();
-        prop_assert!(in_body.z.abs() < 1e-15 && in_body.y > 0.0);
+        prop_assert!(in_body.z.abs() < 2e-15 && in_body.y > 0.0);
     }
 
     #[test]
