@@ -90,7 +90,7 @@ impl ScrewTangent {
         operator::gradient(self.d, self.value, self.slope, a, w).to_wrench()
     }
 
-    /// `∂(Tᵀ w)/∂d`, symmetric in no general sense.
+    /// `∂(Tᵀ w)/∂d`: rows (force; moment), columns (translation; rotation); not symmetric.
     pub fn transpose_derivative(&self, w: &Vector6) -> Matrix6 {
         let (value, slope) = (self.value.transposed(), self.slope.transposed());
         operator::derivative(self.d, value, slope, DualVector::from_wrench(w)).to_wrench_matrix()
