@@ -182,8 +182,9 @@ impl Rotation {
         if length.is_nan() || length <= PARALLEL {
             return None;
         }
-        let third = normal / length;
-        Self::from_columns(&first, &third.cross(&first), &third)
+        // A reference nearly along the axis leaves a normal not quite square to the axis; two more products are.
+        let second = normal.cross(&first).normalize();
+        Self::from_columns(&first, &second, &first.cross(&second))
     }
 
     /// The rotation by `angle` \[rad\] about the unit vector `axis`.
