@@ -1,0 +1,308 @@
+//! What is wrong with a model file: problems with the place they underline, gathered in a report.
+//! Knows texts and places, not what any key means.
+
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+
+/// A stretch of the model's text: byte offsets, the end excluded. Overrides count as text behind the file.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Span {
+    /// First byte.
+    pub start: usize,
+    /// One past the last byte.
+    pub end: usize,
+}
+
+impl From<Range<usize>> for Span {
+    fn from(range: Range<usize>) -> Self {
+        Self { start: range.start, end: range.end }
+    }
+}
+
+/// A value and the text it was read from.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Located<T> {
+    /// The value.
+    pub value: T,
+    /// Where it stands.
+    pub span: Span,
+}
+
+impl<T> Located<T> {
+    /// A value read at `span`.
+    pub fn new(value: T, span: Span) -> Self {
+        Self { value, span }
+    }
+
+    /// The same place with another value.
+    pub fn map<U>(self, change: impl FnOnce(T) -> U) -> Located<U> {
+        Located { value: change(self.value), span: self.span }
+    }
+}
+
+/// How bad a problem is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Severity {
+    /// The model cannot be used.
+    Error,
+    /// The model can be used, but may not be what was meant.
+    Warning,
+}
+
+/// One thing that is wrong, where, and what to do about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Problem {
+    /// Error or warning.
+    pub severity: Severity,
+    /// One sentence that names the part.
+    pub message: String,
+    /// The text to underline.
+    pub span: Span,
+    /// A few words below the underlined text; may be empty.
+    pub label: String,
+    /// A remedy.
+    pub help: Option<String>,
+    /// Other text to underline, such as the first definition of a name.
+    pub also: Option<(Span, String)>,
+}
+
+impl Problem {
+    /// An error at `span`.
+    pub fn error(span: Span, message: impl Into<String>) -> Self {
+        let severity = Severity::Error;
+        Self { severity, message: message.into(), span, label: String::new(), help: None, also: None }
+    }
+
+    /// A warning at `span`.
+    pub fn warning(span: Span, message: impl Into<String>) -> Self {
+        Self { severity: Severity::Warning, ..Self::error(span, message) }
+    }
+
+    /// Adds words below the underlined text.
+    pub fn label(mut self, label: impl Into<String>) -> Self {
+        self.label = label.into();
+        self
+    }
+
+    /// Adds a remedy.
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    /// Adds a remedy, if there is one.
+    pub fn maybe_help(mut self, help: Option<String>) -> Self {
+        self.help = help.or(self.help);
+        self
+    }
+
+    /// Underlines another place as well.
+    pub fn also(mut self, span: Span, label: impl Into<String>) -> Self {
+        self.also = Some((span, label.into()));
+        self
+    }
+}
+
+/// One text of the model: the file, or one override.
+#[derive(Clone, Debug)]
+struct Piece {
+    source: NamedSource<Arc<str>>,
+    start: usize,
+    end: usize,
+}
+
+/// The texts a model was read from, laid end to end so that a [`Span`] finds its way back.
+#[derive(Clone, Debug, Default)]
+pub struct Sources {
+    pieces: Vec<Piece>,
+}
+
+impl Sources {
+    /// The text of one file.
+    pub fn new(name: &str, text: &str) -> Self {
+        let mut sources = Self::default();
+        sources.push(name, text);
+        sources
+    }
+
+    /// Adds a text and tells where it starts.
+    pub(crate) fn push(&mut self, name: &str, text: &str) -> usize {
+        let start = self.next_start();
+        let source = NamedSource::new(name, Arc::from(text)).with_language("TOML");
+        self.pieces.push(Piece { source, start, end: start + text.len() });
+        start
+    }
+
+    /// Where the next text will start.
+    pub(crate) fn next_start(&self) -> usize {
+        self.pieces.last().map_or(0, |piece| piece.end + 1)
+    }
+
+    /// The text at `span`, empty where there is none.
+    pub(crate) fn text(&self, span: Span) -> &str {
+        let Some(piece) = self.piece(span) else { return "" };
+        let local = local(span, piece);
+        piece.source.inner().get(local).unwrap_or("")
+    }
+
+    fn piece(&self, span: Span) -> Option<&Piece> {
+        let found = self.pieces.iter().find(|piece| span.start >= piece.start && span.start <= piece.end);
+        found.or(self.pieces.first())
+    }
+}
+
+fn local(span: Span, piece: &Piece) -> Range<usize> {
+    let length = piece.end - piece.start;
+    let start = span.start.saturating_sub(piece.start).min(length);
+    start..span.end.saturating_sub(piece.start).clamp(start, length)
+}
+
+/// A problem together with its text, ready to be shown.
+#[derive(Clone, Debug)]
+struct Shown {
+    problem: Problem,
+    piece: Option<Piece>,
+}
+
+impl fmt::Display for Shown {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.problem.message)
+    }
+}
+
+impl std::error::Error for Shown {}
+
+impl Diagnostic for Shown {
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(match self.problem.severity {
+            Severity::Error => miette::Severity::Error,
+            Severity::Warning => miette::Severity::Warning,
+        })
+    }
+
+    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
+        self.problem.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.piece.as_ref().map(|piece| &piece.source as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let piece = self.piece.as_ref()?;
+        let inside = |span: &Span| span.start >= piece.start && span.start <= piece.end;
+        let words = (!self.problem.label.is_empty()).then(|| self.problem.label.clone());
+        let first = LabeledSpan::new_primary_with_span(words, local(self.problem.span, piece));
+        let also = self.problem.also.iter().filter(move |(span, _)| inside(span));
+        let others =
+            also.map(|(span, words)| LabeledSpan::new_with_span(Some(words.clone()), local(*span, piece)));
+        Some(Box::new(std::iter::once(first).chain(others)))
+    }
+}
+
+/// All that is wrong with a model.
+#[derive(Clone, Debug)]
+pub struct Report {
+    name: String,
+    shown: Vec<Shown>,
+}
+
+impl Report {
+    /// A report of `problems` in the order of the text.
+    pub fn new(mut problems: Vec<Problem>, sources: &Sources) -> Self {
+        problems.sort_by_key(|problem| (problem.severity == Severity::Warning, problem.span));
+        problems.dedup();
+        let name = sources.pieces.first().map_or("model", |piece| piece.source.name()).to_owned();
+        let show = |problem: Problem| Shown { piece: sources.piece(problem.span).cloned(), problem };
+        Self { name, shown: problems.into_iter().map(show).collect() }
+    }
+
+    /// The problems, errors first, each group in the order of the text.
+    pub fn problems(&self) -> impl Iterator<Item = &Problem> {
+        self.shown.iter().map(|shown| &shown.problem)
+    }
+
+    /// Number of problems.
+    pub fn len(&self) -> usize {
+        self.shown.len()
+    }
+
+    /// Whether there is no problem.
+    pub fn is_empty(&self) -> bool {
+        self.shown.is_empty()
+    }
+
+    /// Whether there is an error among the problems.
+    pub fn has_errors(&self) -> bool {
+        self.problems().any(|problem| problem.severity == Severity::Error)
+    }
+
+    /// Every problem with file, line, underlined text and remedy, as a text for a terminal.
+    pub fn render(&self, colour: bool) -> String {
+        let theme = if colour { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
+        let handler = GraphicalReportHandler::new_themed(theme).with_width(110).with_links(false);
+        let mut text = String::new();
+        for shown in &self.shown {
+            // Writing to a string cannot fail; a problem that cannot be drawn is still named.
+            if handler.render_report(&mut text, shown).is_err() {
+                text.push_str(&shown.problem.message);
+            }
+            text.push('\n');
+        }
+        text
+    }
+}
+
+impl fmt::Display for Report {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let errors = self.problems().filter(|problem| problem.severity == Severity::Error).count();
+        let warnings = self.len() - errors;
+        let plural =
+            |count: usize, word: &str| format!("{count} {word}{}", if count == 1 { "" } else { "s" });
+        match (errors, warnings) {
+            (0, _) => write!(f, "{}: {}", self.name, plural(warnings, "warning")),
+            (_, 0) => write!(f, "{}: {}", self.name, plural(errors, "error")),
+            _ => write!(f, "{}: {}, {}", self.name, plural(errors, "error"), plural(warnings, "warning")),
+        }
+    }
+}
+
+impl std::error::Error for Report {}
+
+impl Diagnostic for Report {
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
+        Some(Box::new(self.shown.iter().map(|shown| shown as &dyn Diagnostic)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_span_behind_the_file_is_shown_in_its_override() {
+        let mut sources = Sources::new("a.toml", "x = 1\n");
+        let start = sources.push("--set", "analysis.step = 0");
+        let span = Span { start: start + 16, end: start + 17 };
+        assert_eq!(sources.text(span), "0");
+        let report = Report::new(vec![Problem::error(span, "bad").label("here").help("try")], &sources);
+        let text = report.render(false);
+        assert!(text.contains("[--set:1:17]") && text.contains("analysis.step = 0"), "{text}");
+        assert!(text.contains("here") && text.contains("help: try"), "{text}");
+        assert_eq!(report.to_string(), "a.toml: 1 error");
+    }
+
+    #[test]
+    fn errors_come_before_warnings_and_in_the_order_of_the_text() {
+        let at = |start| Span { start, end: start + 1 };
+        let problems =
+            vec![Problem::warning(at(0), "c"), Problem::error(at(4), "b"), Problem::error(at(2), "a")];
+        let report = Report::new(problems, &Sources::new("a.toml", "abcdefg"));
+        let order: Vec<_> = report.problems().map(|problem| problem.message.as_str()).collect();
+        assert_eq!(order, ["a", "b", "c"]);
+        assert_eq!(report.to_string(), "a.toml: 2 errors, 1 warning");
+    }
+}
