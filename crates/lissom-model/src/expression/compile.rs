@@ -1,0 +1,236 @@
+//! Reads an expression by descent over its precedence levels and writes the steps of a stack machine.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use super::token::{Placed, Token, tokens};
+use super::{Expression, ExpressionError, Function, STACK, Step, jet};
+use crate::suggest;
+
+/// Nesting that is still read; deeper texts are machine-made.
+const DEPTH: usize = 100;
+
+pub(super) fn compile(
+    text: &str,
+    variable: Option<&str>,
+    parameters: &BTreeMap<String, f64>,
+) -> Result<Vec<Step>, ExpressionError> {
+    let tokens = tokens(text)?;
+    if tokens.len() == 1 {
+        return error("the expression is empty", 0..text.len());
+    }
+    let mut reader = Reader { tokens, at: 0, steps: Vec::new(), variable, parameters, depth: 0 };
+    reader.sum()?;
+    match reader.next() {
+        (Token::End, _) => {}
+        (token, range) => {
+            let help = "write products with `*`, as in `2*t`".to_owned();
+            let message = format!("unexpected {} after a complete expression", describe(&token));
+            return Err(ExpressionError { message, help: Some(help), range });
+        }
+    }
+    let steps = fold(reader.steps);
+    let mut height = 0;
+    for step in &steps {
+        height = height + 1 - step.operands();
+        if height >= STACK {
+            return error("the expression is nested too deeply", 0..text.len());
+        }
+    }
+    Ok(steps)
+}
+
+fn error<T>(message: impl Into<String>, range: Range<usize>) -> Result<T, ExpressionError> {
+    Err(ExpressionError { message: message.into(), help: None, range })
+}
+
+fn describe(token: &Token<'_>) -> String {
+    match token {
+        Token::Number(value) => format!("number `{value}`"),
+        Token::Name(name) => format!("name `{name}`"),
+        Token::Sign(sign) => format!("`{sign}`"),
+        Token::End => "end".to_owned(),
+    }
+}
+
+struct Reader<'t, 'p> {
+    tokens: Vec<Placed<'t>>,
+    at: usize,
+    steps: Vec<Step>,
+    variable: Option<&'p str>,
+    parameters: &'p BTreeMap<String, f64>,
+    depth: usize,
+}
+
+impl<'t> Reader<'t, '_> {
+    fn peek(&self) -> &Token<'t> {
+        &self.tokens[self.at].0
+    }
+
+    /// The next token; the end is never passed.
+    fn next(&mut self) -> Placed<'t> {
+        let token = self.tokens[self.at].clone();
+        self.at = (self.at + 1).min(self.tokens.len() - 1);
+        token
+    }
+
+    fn take(&mut self, sign: char) -> bool {
+        let found = *self.peek() == Token::Sign(sign);
+        if found {
+            self.next();
+        }
+        found
+    }
+
+    fn sum(&mut self) -> Result<(), ExpressionError> {
+        self.product()?;
+        loop {
+            let step = match self.peek() {
+                Token::Sign('+') => Step::Add,
+                Token::Sign('-') => Step::Subtract,
+                _ => return Ok(()),
+            };
+            self.next();
+            self.product()?;
+            self.steps.push(step);
+        }
+    }
+
+    fn product(&mut self) -> Result<(), ExpressionError> {
+        self.signed()?;
+        loop {
+            let step = match self.peek() {
+                Token::Sign('*') => Step::Multiply,
+                Token::Sign('/') => Step::Divide,
+                _ => return Ok(()),
+            };
+            self.next();
+            self.signed()?;
+            self.steps.push(step);
+        }
+    }
+
+    /// A sign binds less than a power, so `-t^2` is `-(t^2)`.
+    fn signed(&mut self) -> Result<(), ExpressionError> {
+        self.depth += 1;
+        if self.depth > DEPTH {
+            return error("the expression is nested too deeply", self.tokens[self.at].1.clone());
+        }
+        if self.take('-') {
+            self.signed()?;
+            self.steps.push(Step::Negate);
+        } else if self.take('+') {
+            self.signed()?;
+        } else {
+            self.power()?;
+        }
+        self.depth -= 1;
+        Ok(())
+    }
+
+    /// Powers group to the right.
+    fn power(&mut self) -> Result<(), ExpressionError> {
+        self.value()?;
+        if self.take('^') {
+            self.signed()?;
+            self.steps.push(Step::Power);
+        }
+        Ok(())
+    }
+
+    fn value(&mut self) -> Result<(), ExpressionError> {
+        let (token, range) = self.next();
+        match token {
+            Token::Number(value) => self.steps.push(Step::Constant(value)),
+            Token::Name(name) => match Function::named(name) {
+                Some(function) => self.call(function, range)?,
+                None => self.name(name, range)?,
+            },
+            Token::Sign('(') => {
+                self.sum()?;
+                self.close()?;
+            }
+            other => {
+                return error(format!("expected a value, found {}", describe(&other)), range);
+            }
+        }
+        Ok(())
+    }
+
+    fn close(&mut self) -> Result<(), ExpressionError> {
+        if self.take(')') {
+            return Ok(());
+        }
+        let (found, range) = self.tokens[self.at].clone();
+        error(format!("expected a closing parenthesis `)`, found {}", describe(&found)), range)
+    }
+
+    fn name(&mut self, name: &str, range: Range<usize>) -> Result<(), ExpressionError> {
+        let step = if Some(name) == self.variable {
+            Some(Step::Variable)
+        } else if name == "pi" {
+            Some(Step::Constant(std::f64::consts::PI))
+        } else {
+            self.parameters.get(name).map(|value| Step::Constant(*value))
+        };
+        if let Some(step) = step {
+            self.steps.push(step);
+            return Ok(());
+        }
+        if *self.peek() == Token::Sign('(') {
+            let help = suggest::help(name, jet::NAMES.iter().map(|(known, _)| *known));
+            return Err(ExpressionError { message: format!("unknown function `{name}`"), help, range });
+        }
+        let known = self.variable.into_iter().chain(["pi"]).chain(self.parameters.keys().map(String::as_str));
+        let help = suggest::help(name, known);
+        Err(ExpressionError { message: format!("unknown name `{name}`"), help, range })
+    }
+
+    fn call(&mut self, function: Function, name: Range<usize>) -> Result<(), ExpressionError> {
+        if !self.take('(') {
+            let (found, range) = self.tokens[self.at].clone();
+            let message =
+                format!("a function takes its argument in parentheses, but here is {}", describe(&found));
+            let help = Some("write for example `sin(2*t)`".to_owned());
+            return Err(ExpressionError { message, help, range });
+        }
+        self.sum()?;
+        let mut count = 1;
+        while self.take(',') {
+            self.sum()?;
+            count += 1;
+            if function.arguments() == 2 {
+                self.steps.push(Step::Call2(function));
+            }
+        }
+        self.close()?;
+        let range = name.start..self.tokens[self.at - 1].1.end;
+        let wanted = function.arguments();
+        if function.takes_many() && count >= 2 {
+            return Ok(());
+        }
+        if count != wanted {
+            return error(format!("this function takes {wanted} argument(s), not {count}"), range);
+        }
+        if wanted == 1 {
+            self.steps.push(Step::Call(function));
+        }
+        Ok(())
+    }
+}
+
+/// Replaces every step on constants by its result.
+fn fold(steps: Vec<Step>) -> Vec<Step> {
+    let mut folded: Vec<Step> = Vec::with_capacity(steps.len());
+    for step in steps {
+        let operands = step.operands();
+        folded.push(step);
+        let from = folded.len() - 1 - operands.min(folded.len() - 1);
+        let constant = |step: &Step| matches!(step, Step::Constant(_));
+        if operands > 0 && folded[from..folded.len() - 1].iter().all(constant) {
+            let value = Expression { steps: folded.split_off(from) }.jet(0.0).value;
+            folded.push(Step::Constant(value));
+        }
+    }
+    folded
+}
