@@ -1,0 +1,200 @@
+//! The reference line of a beam: straight, circular arc, or a curve given by expressions, and the frames along it.
+//! Knows no elements and no sections.
+
+use lissom_motion::{Matrix3, Vector3};
+
+use crate::expression::Expression;
+
+/// A line, run through by a fraction `s` from 0 to 1.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Line {
+    /// From one point to another.
+    Straight {
+        /// Place at `s = 0` [m].
+        from: Vector3,
+        /// Place at `s = 1` [m].
+        to: Vector3,
+    },
+    /// A circular arc; `s` is proportional to the arc length.
+    Arc {
+        /// Centre [m].
+        center: Vector3,
+        /// From the centre to the start [m].
+        radius: Vector3,
+        /// Perpendicular to `radius`, of the same length, towards the end [m].
+        side: Vector3,
+        /// Opening angle [rad].
+        angle: f64,
+    },
+    /// Three expressions of `s` [m].
+    Curve(Box<[Expression; 3]>),
+}
+
+/// Points that have no circle through them, or no distance from each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the three points lie on one line")]
+pub struct NoCircle;
+
+/// Sine of the angle below which two directions count as parallel.
+const PARALLEL: f64 = 1e-6;
+/// Points at which directions along a line are compared.
+const SAMPLES: u32 = 64;
+
+impl Line {
+    /// The arc from `from` through `through` to `to`.
+    ///
+    /// # Errors
+    /// If no circle goes through the points.
+    pub fn arc(from: Vector3, through: Vector3, to: Vector3) -> Result<Self, NoCircle> {
+        let (a, b) = (through - from, to - from);
+        let normal = a.cross(&b);
+        let smallest = a.norm().min(b.norm()).min((b - a).norm());
+        let largest = a.norm().max(b.norm());
+        let n2 = normal.norm_squared();
+        if !(smallest > 1e-9 * largest && n2.sqrt() > 1e-9 * largest * smallest) {
+            return Err(NoCircle);
+        }
+        // Circumcentre of the triangle 0, a, b: (|a|² b - |b|² a) × (a × b) / (2 |a × b|²).
+        let centre = (b * a.norm_squared() - a * b.norm_squared()).cross(&normal) / (2.0 * n2);
+        let radius = -centre;
+        let side = normal.normalize().cross(&radius);
+        let end = b - centre;
+        // The normal is chosen so that the way from start over `through` to the end turns positively about it.
+        let angle = end.dot(&side).atan2(end.dot(&radius)).rem_euclid(std::f64::consts::TAU);
+        Ok(Self::Arc { center: from + centre, radius, side, angle })
+    }
+
+    /// Place at the fraction `s` [m].
+    pub fn position(&self, s: f64) -> Vector3 {
+        match self {
+            Self::Straight { from, to } => from + (to - from) * s,
+            Self::Arc { center, radius, side, angle } => {
+                center + radius * (angle * s).cos() + side * (angle * s).sin()
+            }
+            Self::Curve(curve) => Vector3::from_fn(|i, _| curve[i].jet(s).value),
+        }
+    }
+
+    /// Derivative of the place with respect to the fraction [m].
+    pub fn derivative(&self, s: f64) -> Vector3 {
+        match self {
+            Self::Straight { from, to } => to - from,
+            Self::Arc { radius, side, angle, .. } => {
+                (side * (angle * s).cos() - radius * (angle * s).sin()) * *angle
+            }
+            Self::Curve(curve) => Vector3::from_fn(|i, _| curve[i].jet(s).first),
+        }
+    }
+
+    /// Arc length [m].
+    pub fn length(&self) -> f64 {
+        match self {
+            Self::Straight { from, to } => (to - from).norm(),
+            Self::Arc { radius, angle, .. } => radius.norm() * angle,
+            // Simpson's rule on 200 intervals.
+            Self::Curve(_) => {
+                let speed = |i: u32| self.derivative(f64::from(i) / 400.0).norm();
+                let interval = |i: u32| speed(2 * i) + 4.0 * speed(2 * i + 1) + speed(2 * i + 2);
+                (0..200).map(interval).sum::<f64>() / 1200.0
+            }
+        }
+    }
+
+    /// The frame at `s`: columns are the axes 1 (along), 2 and 3, with axis 3 leaning to `up`, all turned by
+    /// `twist` [rad] about axis 1. `up` must not be parallel to the line.
+    pub fn frame(&self, s: f64, up: &Vector3, twist: f64) -> Matrix3 {
+        let along = self.derivative(s).normalize();
+        let third = (up - along * along.dot(up)).normalize();
+        let second = third.cross(&along);
+        let (sine, cosine) = twist.sin_cos();
+        Matrix3::from_columns(&[along, second * cosine + third * sine, third * cosine - second * sine])
+    }
+
+    /// Whether the line runs along `up` somewhere.
+    pub fn is_parallel_somewhere(&self, up: &Vector3) -> bool {
+        let up = up.normalize();
+        (0..=SAMPLES).any(|i| {
+            let tangent = self.derivative(f64::from(i) / f64::from(SAMPLES));
+            !(tangent.cross(&up).norm() > PARALLEL * tangent.norm())
+        })
+    }
+
+    /// Where the line stands still or has no place, if anywhere.
+    pub fn fault(&self) -> Option<f64> {
+        let bad = |s: &f64| {
+            let speed = self.derivative(*s).norm();
+            !(speed.is_finite() && speed > 0.0 && self.position(*s).norm().is_finite())
+        };
+        (0..=SAMPLES).map(|i| f64::from(i) / f64::from(SAMPLES)).find(bad)
+    }
+
+    /// Global z where the line does not run along it, else global y, else global x.
+    pub fn default_up(&self) -> Vector3 {
+        let choices = [Vector3::z(), Vector3::y(), Vector3::x()];
+        choices.into_iter().find(|up| !self.is_parallel_somewhere(up)).unwrap_or_else(Vector3::z)
+    }
+}
+
+/// Whether two directions are parallel.
+pub(crate) fn are_parallel(a: &Vector3, b: &Vector3) -> bool {
+    !(a.normalize().cross(&b.normalize()).norm() > PARALLEL)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn circle() -> Line {
+        let read = |text| Expression::parse(text, Some("s"), &BTreeMap::new()).unwrap();
+        Line::Curve(Box::new([read("100*sin(pi/4*s)"), read("100*(1-cos(pi/4*s))"), read("0")]))
+    }
+
+    #[test]
+    fn an_arc_and_the_same_curve_agree() {
+        let curve = circle();
+        let arc = Line::arc(curve.position(0.0), curve.position(0.3), curve.position(1.0)).unwrap();
+        for i in 0..=10 {
+            let s = f64::from(i) / 10.0;
+            assert!((arc.position(s) - curve.position(s)).norm() < 1e-10);
+            assert!((arc.derivative(s) - curve.derivative(s)).norm() < 1e-10);
+        }
+        assert!((arc.length() - 25.0 * std::f64::consts::PI).abs() < 1e-10);
+        assert!((curve.length() - arc.length()).abs() < 1e-9);
+    }
+
+    #[test]
+    fn an_arc_may_be_more_than_half_a_circle() {
+        let (x, y) = (Vector3::x(), Vector3::y());
+        let arc = Line::arc(x, -x, -y).unwrap();
+        assert!((arc.length() - 1.5 * std::f64::consts::PI).abs() < 1e-12);
+        assert_eq!(Line::arc(x, 2.0 * x, 3.0 * x), Err(NoCircle));
+        assert_eq!(Line::arc(x, y, x), Err(NoCircle));
+    }
+
+    #[test]
+    fn default_up_avoids_the_line() {
+        let to = |to| Line::Straight { from: Vector3::zeros(), to };
+        assert_eq!(to(Vector3::x()).default_up(), Vector3::z());
+        assert_eq!(to(Vector3::z()).default_up(), Vector3::y());
+        assert!(to(Vector3::zeros()).fault().is_some());
+        assert!(circle().fault().is_none());
+    }
+
+    proptest! {
+        #[test]
+        fn frames_are_rotations_that_lean_to_up(s in 0.0..1.0_f64, twist in -0.5..0.5_f64) {
+            let up = Vector3::new(0.3, -0.2, 1.0);
+            let frame = circle().frame(s, &up, twist);
+            prop_assert!((frame.transpose() * frame - Matrix3::identity()).norm() < 1e-14);
+            prop_assert!((frame.determinant() - 1.0).abs() < 1e-14);
+            let untwisted = circle().frame(s, &up, 0.0);
+            prop_assert!(untwisted.column(1).dot(&up).abs() < 1e-14 && untwisted.column(2).dot(&up) > 0.0);
+            // Positive twist turns axis 2 towards axis 3.
+            prop_assert!((untwisted.column(2).dot(&frame.column(1)) - twist.sin()).abs() < 1e-14);
+        }
+    }
+}
