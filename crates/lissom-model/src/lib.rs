@@ -1,1 +1,22 @@
-//! Placeholder.
+//! Model files in, results out.
+//!
+//! A TOML text becomes a validated plain-data [`Document`](document::Document), or a [`Report`] that names every
+//! mistake with its place and a remedy. Results leave as tables, summaries and plots. No physics is done here.
+
+mod context;
+pub mod document;
+pub mod expression;
+mod function_values;
+pub mod functions;
+mod keys;
+pub mod line;
+mod reader;
+pub mod registry;
+mod report;
+pub mod sections;
+mod suggest;
+mod text;
+mod values;
+
+pub use document::Document;
+pub use report::{Located, Problem, Report, Severity, Sources, Span};

@@ -1,0 +1,124 @@
+//! What the decoders share: the names of a model, its parameters and points, and the list of problems.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+
+use lissom_core::registry::Function;
+use lissom_motion::Vector3;
+
+use crate::report::{Problem, Sources, Span};
+use crate::suggest;
+use crate::text::{Node, Table, in_order};
+
+/// Shared by all decoders of one model.
+pub(crate) struct Context<'a> {
+    pub(crate) sources: &'a Sources,
+    root: &'a Table,
+    problems: RefCell<Vec<Problem>>,
+    pub(crate) parameters: RefCell<BTreeMap<String, f64>>,
+    /// Known points; without a place where the place itself is wrong.
+    pub(crate) points: RefCell<BTreeMap<String, Option<Vector3>>>,
+    /// Functions of time to try out once the times of the analysis are known, with their owners.
+    pub(crate) functions: RefCell<Vec<(Function, Span, String)>>,
+}
+
+impl<'a> Context<'a> {
+    pub(crate) fn new(sources: &'a Sources, root: &'a Table) -> Self {
+        Self {
+            sources,
+            root,
+            problems: RefCell::default(),
+            parameters: RefCell::default(),
+            points: RefCell::default(),
+            functions: RefCell::default(),
+        }
+    }
+
+    /// Notes a problem.
+    pub(crate) fn tell(&self, problem: Problem) {
+        self.problems.borrow_mut().push(problem);
+    }
+
+    /// Notes an error and gives nothing.
+    pub(crate) fn fail<T>(
+        &self,
+        span: Span,
+        message: impl Into<String>,
+        help: impl Into<String>,
+    ) -> Option<T> {
+        self.tell(Problem::error(span, message).help(help));
+        None
+    }
+
+    pub(crate) fn into_problems(self) -> Vec<Problem> {
+        self.problems.into_inner()
+    }
+
+    /// The value and the key of a word at the top.
+    pub(crate) fn top(&self, word: &str) -> Option<(&'a Node, Span)> {
+        self.root.get(word).map(|entry| (&entry.node, entry.key))
+    }
+
+    /// All words at the top.
+    pub(crate) fn tops(&self) -> Vec<(&'a str, Span, &'a Node)> {
+        in_order(self.root)
+    }
+
+    fn table(&self, table: &str) -> Option<&'a Table> {
+        self.root.get(table).and_then(|entry| entry.node.table())
+    }
+
+    /// Names in a table of named entries, in the order of the text.
+    pub(crate) fn names(&self, table: &str) -> Vec<(&'a str, Span)> {
+        self.entries(table).into_iter().map(|(name, span, _)| (name, span)).collect()
+    }
+
+    /// Entries of a table of named entries, in the order of the text.
+    pub(crate) fn entries(&self, table: &str) -> Vec<(&'a str, Span, &'a Node)> {
+        self.table(table).map(in_order).unwrap_or_default()
+    }
+
+    /// The entry called `name`.
+    pub(crate) fn entry(&self, table: &str, name: &str) -> Option<&'a Node> {
+        self.table(table)?.get(name).map(|entry| &entry.node)
+    }
+
+    /// Whether `table` has an entry called `name`.
+    pub(crate) fn has(&self, table: &str, name: &str) -> bool {
+        self.entry(table, name).is_some()
+    }
+
+    /// Whether `name` is in `table`; if not, notes an error at `span`.
+    pub(crate) fn is_known(&self, table: &'static str, name: &str, span: Span, what: &str) -> bool {
+        let known = self.has(table, name);
+        // A table that is none has been complained about.
+        if !known && self.top(table).is_none_or(|(node, _)| node.table().is_some()) {
+            let names = self.names(table);
+            let single = singular(table);
+            let problem =
+                Problem::error(span, format!("{what} names {single} `{name}`, which does not exist"));
+            let help = suggest::help(name, names.iter().map(|(known, _)| *known))
+                .unwrap_or_else(|| format!("add a table [{table}.{name}]"));
+            self.tell(problem.label(format!("no such {single}")).help(help));
+        }
+        known
+    }
+}
+
+/// One entry of a table, in words.
+pub(crate) fn singular(table: &str) -> &'static str {
+    match table {
+        "materials" => "material",
+        "sections" => "section",
+        "points" => "point",
+        "beams" => "beam",
+        "bodies" => "body",
+        "point_masses" => "point mass",
+        "joints" => "joint",
+        "springs" => "spring",
+        "loads" => "load",
+        "outputs" => "output",
+        "parameters" => "parameter",
+        _ => "entry",
+    }
+}

@@ -1,0 +1,178 @@
+//! What a model file wants computed, and how.
+
+use lissom_core::registry::{Parameter, Parameters};
+
+use super::decode::of_kind;
+use crate::context::Context;
+use crate::keys::Shape;
+use crate::reader::Reader;
+use crate::registry::{ChoiceEntry, Registry};
+use crate::report::{Located, Problem, Span};
+
+/// What is computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AnalysisKind {
+    /// Motion in time.
+    Dynamics {
+        /// Time step [s].
+        step: Located<f64>,
+    },
+    /// Equilibrium under loads that grow with the time.
+    Statics {
+        /// Number of load steps.
+        steps: usize,
+    },
+}
+
+/// How the equations are scaled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Scaling {
+    /// By the time step and representative mass, damping and stiffness.
+    Physical,
+    /// By the time step, with the factor one for the constraints.
+    Unit,
+    /// Not at all.
+    None,
+}
+
+/// What is computed, and how.
+#[derive(Clone, Debug)]
+pub struct Analysis {
+    /// Dynamics or statics.
+    pub kind: AnalysisKind,
+    /// Word of the time integration scheme, if the registry has any and time is integrated.
+    pub scheme: Option<Located<String>>,
+    /// Parameters of the scheme that were given.
+    pub parameters: Parameters,
+    /// First time [s].
+    pub start: f64,
+    /// Last time [s].
+    pub end: f64,
+    /// How the equations are scaled.
+    pub scaling: Scaling,
+    /// Whether the augmented Lagrangian term is added.
+    pub augmented: bool,
+    /// Factor of the augmented term.
+    pub penalty: f64,
+    /// Word of the linear solver, if the registry has any.
+    pub solver: Option<Located<String>>,
+    /// Tolerance of Newton's iteration in scaled units.
+    pub tolerance: f64,
+    /// Most iterations of a step.
+    pub max_iterations: usize,
+    /// Steps from one record to the next.
+    pub output_every: usize,
+    /// The word `analysis`.
+    pub span: Span,
+}
+
+/// The range of a scheme's parameter, where its type does not tell.
+pub(super) fn range_of(parameter: &str) -> Option<Shape> {
+    match parameter {
+        // HHT: unconditionally stable and second order from -1/3 to 0.
+        "alpha" => Some(Shape::Between(-1.0 / 3.0, 0.0)),
+        "spectral_radius" => Some(Shape::Between(0.0, 1.0)),
+        _ => None,
+    }
+}
+
+pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Analysis> {
+    let (node, name) = context.top("analysis")?;
+    let (reader, word) = of_kind(context, "analysis", (node, "[analysis]".to_owned(), name), registry)?;
+    let number = |key: &str, default: f64| match reader.node(key) {
+        None => Some(Located::new(default, name)),
+        Some(_) => reader.number(key),
+    };
+    let dynamics = word == "dynamics";
+    let kind = if dynamics {
+        reader.number("step").map(|step| AnalysisKind::Dynamics { step })
+    } else {
+        Some(AnalysisKind::Statics { steps: reader.count("steps").map_or(10, |steps| steps.value) })
+    };
+    let start = number("start", 0.0);
+    let end = if reader.has("end") { reader.number("end") } else { Some(Located::new(1.0, name)) };
+    let scaling = reader.choice("scaling").map_or(Scaling::Physical, |word| match word.value {
+        "unit" => Scaling::Unit,
+        "none" => Scaling::None,
+        _ => Scaling::Physical,
+    });
+    let scheme = dynamics.then(|| chosen(&reader, "scheme", &registry.schemes)).flatten();
+    let parameters =
+        if dynamics { scheme_parameters(&reader, scheme.as_ref(), registry) } else { Parameters::new() };
+    let solver = chosen(&reader, "solver", &registry.solvers);
+    let (penalty, tolerance) = (number("penalty", 1.0), number("tolerance", 1e-8));
+    let count = |key: &str, default| reader.count(key).map_or(default, |count| count.value);
+    let analysis = Analysis {
+        scheme,
+        parameters,
+        scaling,
+        augmented: reader.flag("augmented").is_none_or(|flag| flag.value),
+        penalty: penalty?.value,
+        solver,
+        tolerance: tolerance?.value,
+        max_iterations: count("max_iterations", 20),
+        output_every: count("output_every", 1),
+        span: name,
+        start: start.as_ref()?.value,
+        end: end.as_ref()?.value,
+        kind: kind?,
+    };
+    check_times(context, &analysis, end?.span);
+    Some(analysis)
+}
+
+fn check_times(context: &Context<'_>, analysis: &Analysis, end: Span) {
+    let duration = analysis.end - analysis.start;
+    if !(duration > 0.0 && duration.is_finite()) {
+        let message =
+            format!("the analysis ends at {} s, not after its start at {} s", analysis.end, analysis.start);
+        context.fail::<()>(end, message, "`end` must be greater than `start`");
+    } else if let AnalysisKind::Dynamics { step } = &analysis.kind
+        && step.value > duration
+    {
+        let message = format!("the time step {} s is longer than the analysis of {duration} s", step.value);
+        context.fail::<()>(step.span, message, "choose a smaller `step` or a later `end`");
+    }
+}
+
+/// The word that was chosen, or the first of the table.
+fn chosen(reader: &Reader<'_, '_>, key: &str, table: &[ChoiceEntry]) -> Option<Located<String>> {
+    if reader.has(key) {
+        return reader.choice(key).map(|word| word.map(str::to_owned));
+    }
+    table.first().map(|entry| Located::new(entry.name.to_owned(), reader.name))
+}
+
+/// The parameters of the chosen scheme; those of others are told.
+fn scheme_parameters(
+    reader: &Reader<'_, '_>,
+    scheme: Option<&Located<String>>,
+    registry: &Registry,
+) -> Parameters {
+    let Some(scheme) = scheme else { return Parameters::new() };
+    let of = |name: &str| registry.schemes.iter().find(|entry| entry.name == name);
+    let own: &[Parameter] = of(&scheme.value).map_or(&[], |entry| entry.parameters);
+    for parameter in registry.schemes.iter().flat_map(|entry| entry.parameters) {
+        let given =
+            reader.node(parameter.name).filter(|_| !own.iter().any(|known| known.name == parameter.name));
+        if let Some(node) = given {
+            let owners = registry
+                .schemes
+                .iter()
+                .filter(|entry| entry.parameters.iter().any(|known| known.name == parameter.name))
+                .map(|entry| entry.name);
+            let message = format!("the scheme `{}` has no parameter `{}`", scheme.value, parameter.name);
+            let problem = Problem::error(node.span, message).also(scheme.span, "this scheme");
+            let help = format!(
+                "it belongs to {}: leave it out, or choose that scheme",
+                crate::suggest::list(owners)
+            );
+            reader.context.tell(problem.help(help));
+        }
+    }
+    for parameter in own.iter().filter(|parameter| parameter.required && !reader.has(parameter.name)) {
+        let message = format!("the scheme `{}` lacks `{}`", scheme.value, parameter.name);
+        reader.context.fail::<()>(scheme.span, message, format!("add it: {}", parameter.summary));
+    }
+    reader.parameters(own).0
+}

@@ -1,0 +1,312 @@
+//! Beams of a model file: their lines, which may hang on each other, and the sections along them.
+
+use std::collections::BTreeMap;
+
+use lissom_motion::Vector3;
+
+use super::decode::each;
+use super::places::PlaceOrNode;
+use super::{Beam, Body, NodeReference, PointMass, Station};
+use crate::context::Context;
+use crate::expression::Expression;
+use crate::keys::{Shape, required};
+use crate::line::Line;
+use crate::reader::Reader;
+use crate::report::{Located, Problem, Span};
+use crate::text::{Node, Value};
+
+/// A beam whose ends are not placed yet.
+struct Draft {
+    name: Located<String>,
+    form: Form,
+    line_span: Span,
+    stations: Vec<Station>,
+    elements: Located<usize>,
+    order: usize,
+    up: Option<Located<Vector3>>,
+    twist: Expression,
+}
+
+enum Form {
+    Ends { from: PlaceOrNode, through: Option<Located<Vector3>>, to: PlaceOrNode },
+    Curve(Box<[Expression; 3]>),
+}
+
+pub(super) fn beams(context: &Context<'_>, bodies: &[Body], point_masses: &[PointMass]) -> Vec<Beam> {
+    let drafts: Vec<Draft> = each(context, "beams", |reader, name| {
+        let form = form(reader, name);
+        let stations = stations(reader);
+        let (elements, order, up) = (reader.count("elements"), reader.count("order"), reader.vector("up"));
+        let twist = match reader.node("twist") {
+            None => Some(Expression::of_constant(0.0)),
+            Some(node) => reader.context.profile(node, &reader.words("twist")),
+        };
+        let line_span = reader.node("curve").or(reader.node("to")).map_or(reader.name, |node| node.span);
+        Some(Draft {
+            name: Located::new(name.to_owned(), reader.name),
+            form: form?,
+            line_span,
+            stations: stations?,
+            elements: elements?,
+            order: order.map_or(3, |order| order.value),
+            up,
+            twist: twist?,
+        })
+    });
+    let mut fixed = BTreeMap::new();
+    for body in bodies {
+        fixed.insert(body.name.value.clone(), body.position);
+    }
+    for mass in point_masses {
+        fixed.insert(mass.name.value.clone(), mass.position);
+    }
+    place(context, drafts, &fixed)
+}
+
+fn form(reader: &Reader<'_, '_>, name: &str) -> Option<Form> {
+    let context = reader.context;
+    if let Some(node) = reader.node("curve") {
+        if let Some(other) = ["from", "to", "through"].iter().find_map(|key| reader.node(key)) {
+            let message = format!("{} has both a curve and ends", reader.what);
+            return context.fail(other.span, message, "leave out `curve`, or `from`, `to` and `through`");
+        }
+        let what = reader.words("curve");
+        let list = context.list(node, 3, &what)?;
+        let read: Vec<Option<Expression>> = list.iter().map(|entry| context.profile(entry, &what)).collect();
+        let read: Vec<Expression> = read.into_iter().collect::<Option<_>>()?;
+        return Some(Form::Curve(Box::new(read.try_into().ok()?)));
+    }
+    let end = |key| {
+        let Some(node) = reader.node(key) else {
+            let message = format!("{} lacks `{key}`", reader.what);
+            let help = "give `from` and `to`, or a `curve` of three expressions of s";
+            return context.fail(reader.name, message, help);
+        };
+        let end = context.place_or_node(node, &reader.words(key))?;
+        match &end {
+            PlaceOrNode::Node(node) if node.value == NodeReference::Ground => {
+                let message = format!("{} cannot start or end at `ground`, which is no place", reader.what);
+                context.fail(
+                    node.span,
+                    message,
+                    "name a point here and add a joint of kind \"clamp\" to the ground",
+                )
+            }
+            PlaceOrNode::Node(node) if matches!(&node.value, NodeReference::Beam { beam, .. } if beam == name) =>
+            {
+                let message = format!("{} takes its end from itself", reader.what);
+                context.fail(node.span, message, "name a point or a node of another part")
+            }
+            _ => Some(end),
+        }
+    };
+    let (from, to) = (end("from"), end("to"));
+    let through = match reader.node("through") {
+        None => None,
+        Some(node) => Some(context.place(node, &reader.words("through"))?),
+    };
+    Some(Form::Ends { from: from?, through, to: to? })
+}
+
+fn stations(reader: &Reader<'_, '_>) -> Option<Vec<Station>> {
+    let context = reader.context;
+    let Some(node) = reader.node("stations") else {
+        if reader.has("section") {
+            return reader.name_in("section").map(|section| vec![Station { at: 0.0, section }]);
+        }
+        let message = format!("{} lacks `section`", reader.what);
+        return context.fail(
+            reader.name,
+            message,
+            "add `section = \"…\"`, or `stations` for a varying section",
+        );
+    };
+    if reader.has("section") {
+        let message = format!("{} has both `section` and `stations`", reader.what);
+        return context.fail(node.span, message, "leave one out");
+    }
+    let what = reader.words("stations");
+    let Value::List(list) = &node.value else {
+        return context.wrong_type(node, &what, "a list of { at = …, section = \"…\" }");
+    };
+    let read: Vec<Option<(Station, Span)>> = list.iter().map(|entry| station(reader, entry, &what)).collect();
+    let read: Vec<(Station, Span)> = read.into_iter().collect::<Option<_>>()?;
+    let help = "the first is at 0, the last at 1, and each is behind the one before";
+    for pair in read.windows(2) {
+        if let [(before, _), (after, place)] = pair
+            && after.at <= before.at
+        {
+            let message = format!("{what} must ascend, but {} comes after {}", after.at, before.at);
+            return context.fail(*place, message, help);
+        }
+    }
+    let ends = read.first().map(|(first, _)| first.at).zip(read.last().map(|(last, _)| last.at));
+    if read.len() < 2 || ends != Some((0.0, 1.0)) {
+        return context.fail(node.span, format!("{what} must go from 0 to 1"), help);
+    }
+    Some(read.into_iter().map(|(station, _)| station).collect())
+}
+
+fn station<'c>(reader: &Reader<'c, '_>, node: &'c Node, what: &str) -> Option<(Station, Span)> {
+    let keys = vec![
+        required("at", Shape::Between(0.0, 1.0), "", "fraction of the beam"),
+        required("section", Shape::Name("sections"), "", "name of a section"),
+    ];
+    let inner = Reader::open(reader.context, node, (format!("an entry of {what}"), node.span), keys)?;
+    let (at, section) = (inner.number("at"), inner.name_in("section"));
+    let at = at?;
+    Some((Station { at: at.value, section: section? }, at.span))
+}
+
+impl Context<'_> {
+    /// A number or an expression of `s`, finite from 0 to 1.
+    fn profile(&self, node: &Node, what: &str) -> Option<Expression> {
+        let expression = self.expression(node, Some("s"), what)?;
+        let bad = (0..=32).map(|i| f64::from(i) / 32.0).find(|s| !expression.jet(*s).value.is_finite());
+        let Some(s) = bad else { return Some(expression) };
+        self.fail(node.span, format!("{what} is not a finite number at s = {s}"), "s runs from 0 to 1")
+    }
+}
+
+/// Places beams whose ends are known, until nothing moves any more: then the rest hangs on itself.
+fn place(context: &Context<'_>, mut drafts: Vec<Draft>, fixed: &BTreeMap<String, Vector3>) -> Vec<Beam> {
+    let order: Vec<String> = drafts.iter().map(|draft| draft.name.value.clone()).collect();
+    let mut lines: BTreeMap<String, Option<Line>> = BTreeMap::new();
+    let mut beams = Vec::new();
+    loop {
+        let count = drafts.len();
+        let mut waiting = Vec::new();
+        for draft in drafts {
+            let known = |end: &PlaceOrNode| match end {
+                PlaceOrNode::Node(Located { value: NodeReference::Beam { beam, .. }, .. }) => {
+                    // A beam that could not even be drafted has been complained about.
+                    lines.contains_key(beam) || !order.contains(beam)
+                }
+                _ => true,
+            };
+            let ready = match &draft.form {
+                Form::Ends { from, to, .. } => known(from) && known(to),
+                Form::Curve(_) => true,
+            };
+            if ready {
+                let line = line(context, &draft, &lines, fixed);
+                lines.insert(draft.name.value.clone(), line.clone());
+                beams.extend(line.and_then(|line| finish(context, draft, line)));
+            } else {
+                waiting.push(draft);
+            }
+        }
+        if waiting.is_empty() || waiting.len() == count {
+            circle(context, &waiting);
+            break;
+        }
+        drafts = waiting;
+    }
+    beams.sort_by_key(|beam: &Beam| order.iter().position(|name| *name == beam.name.value));
+    beams
+}
+
+fn circle(context: &Context<'_>, waiting: &[Draft]) {
+    let Some(first) = waiting.first() else { return };
+    let names: Vec<&str> = waiting.iter().map(|draft| draft.name.value.as_str()).collect();
+    let message =
+        format!("the beams {} take their ends from each other in a circle", crate::suggest::list(names));
+    context.fail::<()>(first.name.span, message, "give one of them ends at points");
+}
+
+fn line(
+    context: &Context<'_>,
+    draft: &Draft,
+    lines: &BTreeMap<String, Option<Line>>,
+    fixed: &BTreeMap<String, Vector3>,
+) -> Option<Line> {
+    let what = format!("beam `{}`", draft.name.value);
+    let at = |end: &PlaceOrNode| match end {
+        PlaceOrNode::Place(place) => Some(place.value),
+        PlaceOrNode::Node(node) => match &node.value {
+            NodeReference::Ground => None,
+            NodeReference::Body(name) | NodeReference::PointMass(name) => fixed.get(name).copied(),
+            NodeReference::Beam { beam, fraction } => {
+                lines.get(beam)?.as_ref().map(|line| line.position(*fraction))
+            }
+        },
+    };
+    let line = match &draft.form {
+        Form::Curve(curve) => Line::Curve(curve.clone()),
+        Form::Ends { from, through, to } => {
+            let (from, to) = (at(from)?, at(to)?);
+            if (to - from).norm() <= 1e-12 * from.norm().max(to.norm()) {
+                let message = format!("{what} has no length: it starts and ends at the same place");
+                return context.fail(draft.line_span, message, "give `from` and `to` different places");
+            }
+            match through {
+                None => Line::Straight { from, to },
+                Some(through) => match Line::arc(from, through.value, to) {
+                    Ok(arc) => arc,
+                    Err(error) => {
+                        let message = format!("{what} is no circular arc: {error}");
+                        return context.fail(
+                            through.span,
+                            message,
+                            "leave out `through` for a straight beam",
+                        );
+                    }
+                },
+            }
+        }
+    };
+    if let Some(s) = line.fault() {
+        let message =
+            format!("{what} has no direction at s = {s}: its curve stands still or is not finite there");
+        return context.fail(
+            draft.line_span,
+            message,
+            "the curve must move on everywhere from s = 0 to s = 1",
+        );
+    }
+    Some(line)
+}
+
+fn finish(context: &Context<'_>, draft: Draft, line: Line) -> Option<Beam> {
+    let up = match draft.up {
+        None => line.default_up(),
+        Some(up) if line.is_parallel_somewhere(&up.value) => {
+            let message = format!("`up` of beam `{}` is parallel to the beam", draft.name.value);
+            let problem = Problem::error(up.span, message).label("along the beam");
+            context.tell(
+                problem.help("axis 3 leans to `up`: choose a direction across the beam, or leave it out"),
+            );
+            return None;
+        }
+        Some(up) => up.value,
+    };
+    let node = |end: PlaceOrNode| match end {
+        PlaceOrNode::Place(_) => None,
+        PlaceOrNode::Node(node) => Some(node),
+    };
+    let (shared_start, shared_end) = match draft.form {
+        Form::Ends { from, to, .. } => (node(from), node(to)),
+        Form::Curve(_) => (None, None),
+    };
+    for shared in shared_start.iter().chain(&shared_end) {
+        if let NodeReference::PointMass(name) = &shared.value {
+            let message =
+                format!("beam `{}` cannot share the node of the point mass `{name}`", draft.name.value);
+            let help =
+                "a point mass does not turn: end the beam at a point and add a joint of kind \"spherical\"";
+            return context.fail(shared.span, message, help);
+        }
+    }
+    Some(Beam {
+        name: draft.name,
+        stations: draft.stations,
+        line,
+        line_span: draft.line_span,
+        shared_start,
+        shared_end,
+        elements: draft.elements,
+        order: draft.order,
+        up,
+        twist: draft.twist,
+    })
+}

@@ -1,0 +1,104 @@
+//! Rigid bodies, point masses and the initial motion of a model file.
+
+use lissom_motion::{Matrix3, Rotation, Vector3};
+
+use super::decode::each;
+use super::tables::variants;
+use super::{Body, InitialMotion, Plane, PointMass};
+use crate::context::Context;
+use crate::line::are_parallel;
+use crate::reader::Reader;
+use crate::registry::Registry;
+use crate::report::Located;
+
+pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
+    each(context, "bodies", |reader, name| {
+        let (mass, inertia) = (reader.number("mass"), reader.inertia("inertia"));
+        let (position, axes) = (position(reader), axes(reader));
+        let (velocity, angular_velocity) = (reader.vector("velocity"), reader.vector("angular_velocity"));
+        let center_of_mass = reader.vector("center_of_mass").map_or(Vector3::zeros(), |center| center.value);
+        Some(Body {
+            name: Located::new(name.to_owned(), reader.name),
+            mass: mass?.value,
+            inertia: inertia?.value,
+            position: position?,
+            axes: axes?,
+            center_of_mass,
+            velocity,
+            angular_velocity,
+        })
+    })
+}
+
+/// The place `position`, the origin where it is not given.
+fn position(reader: &Reader<'_, '_>) -> Option<Vector3> {
+    match reader.node("position") {
+        None => Some(Vector3::zeros()),
+        Some(node) => reader.context.place(node, &reader.words("position")).map(|place| place.value),
+    }
+}
+
+/// Body axes as columns, from a rotation vector or from the first two axes.
+fn axes(reader: &Reader<'_, '_>) -> Option<Matrix3> {
+    let Some(node) = reader.node("axes") else {
+        let rotation = reader.vector("rotation").map_or(Vector3::zeros(), |vector| vector.value);
+        return Some(Rotation::exponential(&rotation).matrix());
+    };
+    let (context, what) = (reader.context, reader.words("axes"));
+    if reader.has("rotation") {
+        let message = format!("{} has both `rotation` and `axes`", reader.what);
+        return context.fail(node.span, message, "leave one out");
+    }
+    let list = context.list(node, 2, &what)?;
+    let first = context.direction(&list[0], &format!("the first of {what}"));
+    let second = context.direction(&list[1], &format!("the second of {what}"));
+    let (first, second) = (first?, second?);
+    if are_parallel(&first, &second) {
+        return context.fail(node.span, format!("{what} are parallel"), "give two directions that differ");
+    }
+    let one = first.normalize();
+    let three = one.cross(&second).normalize();
+    let exact = one.dot(&second.normalize()).abs() < 1e-6;
+    if !exact {
+        let message = format!("{what} must be perpendicular to each other");
+        return context.fail(node.span, message, "give the first and the second axis of the body");
+    }
+    Some(Matrix3::from_columns(&[one, three.cross(&one), three]))
+}
+
+pub(super) fn point_masses(context: &Context<'_>) -> Vec<PointMass> {
+    each(context, "point_masses", |reader, name| {
+        let (mass, position, velocity) = (reader.number("mass"), position(reader), reader.vector("velocity"));
+        let plane = reader.choice("plane").map(|plane| match plane.value {
+            "xy" => Plane::Xy,
+            "yz" => Plane::Yz,
+            _ => Plane::Zx,
+        });
+        if let (Some(plane), Some(velocity)) = (plane, &velocity) {
+            let across = match plane {
+                Plane::Xy => velocity.value.z,
+                Plane::Yz => velocity.value.x,
+                Plane::Zx => velocity.value.y,
+            };
+            if across != 0.0 {
+                let message = format!("the velocity of {} leaves its plane", reader.what);
+                let help = "the component across the plane must be 0";
+                return context.fail(velocity.span, message, help);
+            }
+        }
+        let name = Located::new(name.to_owned(), reader.name);
+        Some(PointMass { name, mass: mass?.value, position: position?, plane, velocity })
+    })
+}
+
+pub(super) fn initial(context: &Context<'_>) -> Option<InitialMotion> {
+    let (node, name) = context.top("initial").filter(|(node, _)| node.table().is_some())?;
+    let form = variants("initial", &Registry::default()).all.into_iter().next()?;
+    let reader = Reader::open(context, node, ("[initial]".to_owned(), name), form.keys)?;
+    let vector = |key| reader.vector(key).map_or(Vector3::zeros(), |vector| vector.value);
+    let about = match reader.node("about") {
+        None => Vector3::zeros(),
+        Some(node) => context.place(node, &reader.words("about"))?.value,
+    };
+    Some(InitialMotion { velocity: vector("velocity"), angular_velocity: vector("angular_velocity"), about })
+}

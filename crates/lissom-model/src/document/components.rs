@@ -1,0 +1,130 @@
+//! Joints, springs and loads of a model file: what they are attached to, and the parameters of their kind.
+
+use lissom_motion::Vector3;
+
+use super::connections::Places;
+use super::decode::each_of_kind;
+use super::{Attachment, Component, NodeReference};
+use crate::context::Context;
+use crate::line::are_parallel;
+use crate::reader::Reader;
+use crate::registry::{ActsOn, FrameRule, KindEntry, Registry};
+use crate::report::{Located, Problem};
+use crate::text::Value;
+
+pub(super) fn read(
+    context: &Context<'_>,
+    table: &'static str,
+    registry: &Registry,
+    places: &Places,
+) -> Vec<Component> {
+    let kinds: &[KindEntry] = match table {
+        "joints" => &registry.joints,
+        "springs" => &registry.springs,
+        _ => &registry.loads,
+    };
+    each_of_kind(context, table, registry, |reader, name, word| {
+        let entry = kinds.iter().find(|entry| entry.name == word)?;
+        let (parameters, parameter_spans) = reader.parameters(entry.parameters);
+        let attachment = attachment(reader, name, entry.acts_on, registry, places);
+        let kind = reader.text("kind")?.map(str::to_owned);
+        let name = Located::new(name.to_owned(), reader.name);
+        Some(Component { name, kind, attachment: attachment?, parameters, parameter_spans })
+    })
+}
+
+fn attachment(
+    reader: &Reader<'_, '_>,
+    name: &str,
+    acts_on: ActsOn,
+    registry: &Registry,
+    places: &Places,
+) -> Option<Attachment> {
+    // A part that could not be read has no place; its own error is enough.
+    let at = |key: &str, node: &Located<NodeReference>| match reader.node(key) {
+        Some(place) => reader.context.place(place, &reader.words(key)).map(|place| place.value),
+        None => places.of(&node.value),
+    };
+    match acts_on {
+        ActsOn::TwoNodes(rule) => {
+            let nodes = two_nodes(reader);
+            let (axis, second_axis) = axes(reader, rule)?;
+            let (base, tip) = nodes?;
+            // The ground has no place of its own: where it is the tip, the base node's place is meant.
+            let place = if tip.value == NodeReference::Ground { at("at", &base) } else { at("at", &tip) };
+            Some(Attachment::TwoNodes { at: place?, base, tip, axis, second_axis })
+        }
+        ActsOn::TwoPlaces => {
+            let (base, tip) = two_nodes(reader)?;
+            let (at_base, at_tip) = (at("at_base", &base), at("at_tip", &tip));
+            Some(Attachment::TwoPlaces { at_base: at_base?, at_tip: at_tip?, base, tip })
+        }
+        ActsOn::OneNode => {
+            let on = reader.node("on").and_then(|node| reader.context.node(node, &reader.words("on")))?;
+            if on.value == NodeReference::Ground {
+                let message = format!("{} acts on the ground, which does not move", reader.what);
+                return reader.context.fail(on.span, message, "name the node of a body or beam");
+            }
+            Some(Attachment::OneNode { at: at("at", &on)?, on })
+        }
+        ActsOn::JointCoordinate => joint_coordinate(reader, name, registry),
+    }
+}
+
+fn two_nodes(reader: &Reader<'_, '_>) -> Option<(Located<NodeReference>, Located<NodeReference>)> {
+    let context = reader.context;
+    let node = |key| reader.node(key).and_then(|node| context.node(node, &reader.words(key)));
+    let (base, tip) = (node("base"), node("tip"));
+    let (base, tip) = (base?, tip?);
+    if base.value == tip.value {
+        let message = format!("{} leads from a node to the same node", reader.what);
+        let problem = Problem::error(tip.span, message).label("the same").also(base.span, "base");
+        context.tell(problem.help("`base` and `tip` must be different nodes"));
+        return None;
+    }
+    Some((base, tip))
+}
+
+type Axes = (Option<Located<Vector3>>, Option<Located<Vector3>>);
+
+/// The directions the frame rule asks for; `None` where one of them is wrong or missing.
+fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
+    match rule {
+        FrameRule::None => Some((None, None)),
+        FrameRule::Axis => Some((Some(reader.vector("axis")?), None)),
+        FrameRule::TwoAxes => {
+            let (first, second) = (reader.vector("axis"), reader.vector("second_axis"));
+            let (first, second) = (first?, second?);
+            if are_parallel(&first.value, &second.value) {
+                let message = format!("the two axes of {} are parallel", reader.what);
+                let problem =
+                    Problem::error(second.span, message).label("parallel").also(first.span, "first axis");
+                reader.context.tell(problem.help("give two directions that differ"));
+                return None;
+            }
+            Some((Some(first), Some(second)))
+        }
+    }
+}
+
+fn joint_coordinate(reader: &Reader<'_, '_>, name: &str, registry: &Registry) -> Option<Attachment> {
+    let joint = reader.name_in("joint")?;
+    let context = reader.context;
+    // Only a joint can name itself: springs live in a table of their own.
+    let is_joint = context.names("joints").contains(&(name, reader.name));
+    if is_joint && joint.value == name {
+        let message = format!("{} acts on itself", reader.what);
+        return context.fail(joint.span, message, "name the joint whose coordinate it prescribes");
+    }
+    let word = &context.entry("joints", &joint.value)?.table()?.get("kind")?.node;
+    let Value::Text(kind) = &word.value else { return None };
+    let entry = registry.joints.iter().find(|entry| entry.name == kind)?;
+    if matches!(entry.acts_on, ActsOn::TwoNodes(FrameRule::Axis | FrameRule::TwoAxes)) {
+        return Some(Attachment::JointCoordinate { joint });
+    }
+    let message = format!("{} acts on `{}`, which has no relative coordinate", reader.what, joint.value);
+    let problem = Problem::error(joint.span, message).label("no coordinate");
+    let problem = problem.also(word.span, format!("a {kind} joint"));
+    context.tell(problem.help("name a joint with an axis, such as a revolute one"));
+    None
+}

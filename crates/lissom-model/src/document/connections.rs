@@ -1,0 +1,143 @@
+//! Checks across tables: where nodes are, what hangs on what, and functions that fail during the analysis.
+
+use std::collections::BTreeMap;
+
+use lissom_motion::Vector3;
+
+use super::{AnalysisKind, Attachment, Beam, Body, Component, Document, NodeReference, PointMass};
+use crate::context::Context;
+use crate::line::Line;
+use crate::report::{Located, Problem};
+
+/// Where the nodes of the parts are.
+pub(super) struct Places {
+    points: BTreeMap<String, Vector3>,
+    lines: BTreeMap<String, Line>,
+}
+
+pub(super) fn places(beams: &[Beam], bodies: &[Body], point_masses: &[PointMass]) -> Places {
+    let lines = beams.iter().map(|beam| (beam.name.value.clone(), beam.line.clone())).collect();
+    let bodies = bodies.iter().map(|body| (body.name.value.clone(), body.position));
+    let masses = point_masses.iter().map(|mass| (mass.name.value.clone(), mass.position));
+    Places { points: bodies.chain(masses).collect(), lines }
+}
+
+impl Places {
+    /// Place of a node; the origin for the ground.
+    pub(super) fn of(&self, node: &NodeReference) -> Option<Vector3> {
+        match node {
+            NodeReference::Ground => Some(Vector3::zeros()),
+            NodeReference::Body(name) | NodeReference::PointMass(name) => self.points.get(name).copied(),
+            NodeReference::Beam { beam, fraction } => {
+                self.lines.get(beam).map(|line| line.position(*fraction))
+            }
+        }
+    }
+}
+
+/// What can only be seen with the whole model at hand.
+pub(super) fn check(context: &Context<'_>, document: &Document) {
+    free_parts(context, document);
+    functions(context, document);
+    unused(context, document);
+}
+
+/// Groups of parts that hang together; the ground is a part.
+#[derive(Default)]
+struct Groups<'d> {
+    parent: BTreeMap<&'d str, &'d str>,
+}
+
+impl<'d> Groups<'d> {
+    fn root(&self, mut part: &'d str) -> &'d str {
+        while let Some(parent) = self.parent.get(part) {
+            part = parent;
+        }
+        part
+    }
+
+    fn join(&mut self, a: &'d str, b: &'d str) {
+        let (a, b) = (self.root(a), self.root(b));
+        if a != b {
+            self.parent.insert(a, b);
+        }
+    }
+}
+
+const GROUND: &str = "ground";
+
+fn part_of(node: &NodeReference) -> &str {
+    match node {
+        NodeReference::Ground => GROUND,
+        NodeReference::Body(name) | NodeReference::PointMass(name) => name,
+        NodeReference::Beam { beam, .. } => beam,
+    }
+}
+
+/// A part without any connection moves freely: possible in dynamics, but seldom meant; singular in statics.
+fn free_parts(context: &Context<'_>, document: &Document) {
+    let mut groups = Groups::default();
+    for component in document.joints.iter().chain(&document.springs) {
+        if let Attachment::TwoNodes { base, tip, .. } | Attachment::TwoPlaces { base, tip, .. } =
+            &component.attachment
+        {
+            groups.join(part_of(&base.value), part_of(&tip.value));
+        }
+    }
+    for beam in &document.beams {
+        for shared in beam.shared_start.iter().chain(&beam.shared_end) {
+            groups.join(&beam.name.value, part_of(&shared.value));
+        }
+    }
+    let parts: Vec<&Located<String>> = (document.beams.iter().map(|beam| &beam.name))
+        .chain(document.bodies.iter().map(|body| &body.name))
+        .chain(document.point_masses.iter().map(|mass| &mass.name))
+        .collect();
+    let statics = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
+    let named: usize =
+        ["beams", "bodies", "point_masses"].iter().map(|table| context.names(table).len()).sum();
+    let read = |table, read: &[Component]| context.names(table).len() == read.len();
+    // With a part or joint that could not be read, connections are missing that were meant.
+    if parts.len() != named || !read("joints", &document.joints) || !read("springs", &document.springs) {
+        return;
+    }
+    for part in &parts {
+        let root = groups.root(&part.value);
+        let alone = parts.iter().all(|other| other.value == part.value || groups.root(&other.value) != root);
+        let free = root != groups.root(GROUND);
+        if free && statics {
+            let message = format!("`{}` is not connected to the ground: it has no equilibrium", part.value);
+            context.fail::<()>(part.span, message, "add a joint or spring that leads to \"ground\"");
+        } else if free && alone && parts.len() > 1 {
+            let problem =
+                Problem::warning(part.span, format!("`{}` is not connected to anything", part.value));
+            context.tell(
+                problem.label("moves freely").help("add a joint, or ignore this if it is meant to fly"),
+            );
+        }
+    }
+}
+
+/// Tries every function of time during the analysis.
+fn functions(context: &Context<'_>, document: &Document) {
+    let (start, end) = (document.analysis.start, document.analysis.end);
+    for (function, span, what) in context.functions.borrow().iter() {
+        let times = (0..=64).map(|i| start + (end - start) * f64::from(i) / 64.0);
+        if let Some(time) = times.into_iter().find(|time| !function.value(*time).is_finite()) {
+            let message = format!("{what} is not a finite number at t = {time}");
+            context.fail::<()>(*span, message, format!("the analysis runs from {start} to {end} s"));
+        }
+    }
+}
+
+/// Sections and materials that nothing names are probably slips.
+fn unused(context: &Context<'_>, document: &Document) {
+    for section in &document.sections {
+        let name = &section.name;
+        let named = |beam: &Beam| beam.stations.iter().any(|station| station.section.value == name.value);
+        if document.beams.len() == context.names("beams").len() && !document.beams.iter().any(named) {
+            let problem = Problem::warning(name.span, format!("no beam has the section `{}`", name.value));
+            context.tell(problem.label("not used").help("name it in a beam, or remove it"));
+        }
+    }
+}

@@ -1,0 +1,270 @@
+//! The order in which the tables of a model file are read and checked.
+
+use std::collections::BTreeMap;
+
+use lissom_motion::Vector3;
+
+use super::tables::{self, Holds, variants};
+use super::{Document, analysis, beams, bodies, components, connections, materials, outputs};
+use crate::context::{Context, singular};
+use crate::expression;
+use crate::reader::Reader;
+use crate::registry::Registry;
+use crate::report::{Problem, Report, Severity, Span};
+use crate::suggest;
+use crate::text::{self, Node, Value};
+
+impl Document {
+    /// Reads a model file's text. `file_name` is for messages only.
+    ///
+    /// # Errors
+    /// If anything is wrong: a report of all mistakes that could be found.
+    pub fn parse(text: &str, file_name: &str, registry: &Registry) -> Result<Self, Report> {
+        Self::parse_with(text, file_name, registry, &[])
+    }
+
+    /// Reads a model file's text with `overrides` of the form (path, value), such as
+    /// `("analysis.step", "1e-4")`; a value that is no TOML counts as a text.
+    ///
+    /// # Errors
+    /// As [`Document::parse`]; also for overrides whose path leads nowhere.
+    pub fn parse_with(
+        text: &str,
+        file_name: &str,
+        registry: &Registry,
+        overrides: &[(String, String)],
+    ) -> Result<Self, Report> {
+        let tree = text::read(text, file_name, overrides);
+        if !tree.problems.is_empty() {
+            return Err(Report::new(tree.problems, &tree.sources));
+        }
+        let context = Context::new(&tree.sources, &tree.root);
+        let document = decode(&context, registry);
+        let problems = context.into_problems();
+        if problems.iter().any(|problem| problem.severity == Severity::Error) {
+            return Err(Report::new(problems, &tree.sources));
+        }
+        let warnings = Report::new(problems, &tree.sources);
+        match document {
+            Some(document) => Ok(Self { warnings, sources: tree.sources, ..document }),
+            // Every decoder that gives nothing has told why; this is for the case that one forgot.
+            None => {
+                let problem = Problem::error(Span::default(), "the model could not be read");
+                Err(Report::new(vec![problem], &tree.sources))
+            }
+        }
+    }
+}
+
+fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
+    // A file of another version may have other words: nothing else is worth telling.
+    version(context)?;
+    check_words(context);
+    check_names(context);
+    let title = title(context);
+    let parameters = parameters(context);
+    let points = points(context);
+    let gravity =
+        context.top("gravity").map_or(Some(Vector3::zeros()), |(node, _)| context.vector(node, "`gravity`"));
+    let materials = materials::materials(context);
+    let sections = materials::sections(context, registry, &materials);
+    let bodies = bodies::bodies(context);
+    let point_masses = bodies::point_masses(context);
+    let beams = beams::beams(context, &bodies, &point_masses);
+    let places = connections::places(&beams, &bodies, &point_masses);
+    let joints = components::read(context, "joints", registry, &places);
+    let springs = components::read(context, "springs", registry, &places);
+    let loads = components::read(context, "loads", registry, &places);
+    let initial = bodies::initial(context);
+    let outputs = outputs::outputs(context, registry);
+    let analysis = analysis::analysis(context, registry);
+    let document = Document {
+        title,
+        gravity: gravity?,
+        parameters,
+        materials,
+        sections,
+        points,
+        beams,
+        bodies,
+        point_masses,
+        joints,
+        springs,
+        loads,
+        initial,
+        outputs,
+        analysis: analysis?,
+        warnings: Report::new(Vec::new(), context.sources),
+        sources: context.sources.clone(),
+    };
+    connections::check(context, &document);
+    Some(document)
+}
+
+/// The version decides how the file is read, so it is checked before anything else.
+fn version(context: &Context<'_>) -> Option<()> {
+    let Some((node, _)) = context.top("lissom") else {
+        let problem =
+            Problem::error(Span::default(), "the file does not say which version of the format it has");
+        let help = format!("write `lissom = {}` in the first line", tables::VERSION);
+        context.tell(problem.label("before this").help(help));
+        return None;
+    };
+    let found = match node.value {
+        Value::Number(number) if number.fract() == 0.0 => Some(number),
+        _ => None,
+    };
+    if found == Some(tables::VERSION as f64) {
+        return Some(());
+    }
+    let message = match found {
+        Some(found) => format!("version {found} of the format is not supported"),
+        None => "the version of the format must be a whole number".to_owned(),
+    };
+    let help = format!("this program reads version {0}: write `lissom = {0}`", tables::VERSION);
+    context.fail(node.span, message, help)
+}
+
+/// Words at the top, and whether each holds a table or a value as it must.
+fn check_words(context: &Context<'_>) {
+    for (word, span, node) in context.tops() {
+        let Some(top) = tables::tops().find(|top| top.name == word) else {
+            let help = suggest::help(word, tables::tops().map(|top| top.name));
+            let problem = Problem::error(span, format!("`{word}` is not a word of a model file"));
+            context.tell(problem.label("unknown").maybe_help(help));
+            continue;
+        };
+        if !matches!(top.holds, Holds::Value(_)) && node.table().is_none() {
+            context.wrong_type::<()>(node, &format!("`{word}`"), "a table");
+        }
+    }
+    for top in tables::tops().filter(|top| top.required && context.top(top.name).is_none()) {
+        let message = format!("the model lacks [{}]", top.name);
+        let problem = Problem::error(Span::default(), message).help(format!("add it: {}", top.summary));
+        context.tell(problem);
+    }
+    let parts = ["beams", "bodies", "point_masses"];
+    if parts.iter().all(|table| context.entries(table).is_empty()) {
+        let problem =
+            Problem::error(Span::default(), "the model is empty: it has no beam, body or point mass");
+        context.tell(problem.help("add for example a table [bodies.top] with mass and inertia"));
+    }
+}
+
+/// Names must be usable in references such as `beam.end`, and parts must differ from each other.
+fn check_names(context: &Context<'_>) {
+    let usable = |name: &str| {
+        !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' '))
+    };
+    for top in tables::tops().filter(|top| tables::has_named_entries(top.name)) {
+        for (name, span) in context.names(top.name) {
+            if !usable(name) {
+                let message = format!("`{name}` cannot be the name of a {}", singular(top.name));
+                context.fail::<()>(span, message, "names are made of letters, digits, `_`, `-` and blanks");
+            }
+        }
+    }
+    let mut parts: BTreeMap<&str, (Span, &str)> = BTreeMap::new();
+    for table in ["beams", "bodies", "point_masses"] {
+        for (name, span) in context.names(table) {
+            if name == "ground" {
+                let message = format!("a {} cannot be called `ground`", singular(table));
+                context.fail::<()>(span, message, "`ground` is the fixed frame; choose another name");
+            }
+            if let Some((first, other)) = parts.insert(name, (span, singular(table))) {
+                let message = format!("the {} `{name}` has the name of a {other}", singular(table));
+                let problem = Problem::error(span, message).label("again").also(first, "first here");
+                context.tell(problem.help("beams, bodies and point masses need different names"));
+            }
+        }
+    }
+}
+
+fn title(context: &Context<'_>) -> Option<String> {
+    let (node, _) = context.top("title")?;
+    match &node.value {
+        Value::Text(text) => Some(text.clone()),
+        _ => context.wrong_type(node, "`title`", "a text"),
+    }
+}
+
+/// A parameter may name those above it.
+fn parameters(context: &Context<'_>) -> BTreeMap<String, f64> {
+    for (name, span, node) in context.entries("parameters") {
+        let what = format!("parameter `{name}`");
+        if expression::is_reserved(name) {
+            let message = format!("a parameter cannot be called `{name}`");
+            context.fail::<()>(span, message, "expressions give this word another meaning");
+            continue;
+        }
+        // A wrong parameter stays known, or every expression that names it would be wrong as well.
+        let value = context.number(node, &what).unwrap_or(1.0);
+        context.parameters.borrow_mut().insert(name.to_owned(), value);
+    }
+    context.parameters.borrow().clone()
+}
+
+fn points(context: &Context<'_>) -> BTreeMap<String, Vector3> {
+    for (name, _, node) in context.entries("points") {
+        let place = context.vector(node, &format!("point `{name}`"));
+        context.points.borrow_mut().insert(name.to_owned(), place);
+    }
+    let points = context.points.borrow();
+    points.iter().filter_map(|(name, place)| place.map(|place| (name.clone(), place))).collect()
+}
+
+/// Reads every entry of a table that has a single form.
+pub(super) fn each<'c, 'a, T>(
+    context: &'c Context<'a>,
+    table: &'static str,
+    read: impl Fn(&Reader<'c, 'a>, &str) -> Option<T>,
+) -> Vec<T>
+where
+    'a: 'c,
+{
+    let mut all = Vec::new();
+    for (name, span, node) in context.entries(table) {
+        let words = format!("{} `{name}`", singular(table));
+        let forms = variants(table, &Registry::default());
+        let Some(form) = forms.all.into_iter().next() else { continue };
+        let reader = Reader::open(context, node, (words, span), form.keys);
+        all.extend(reader.and_then(|reader| read(&reader, name)));
+    }
+    all
+}
+
+/// Reads every entry of a table whose form is chosen by a word.
+pub(super) fn each_of_kind<'c, 'a, T>(
+    context: &'c Context<'a>,
+    table: &'static str,
+    registry: &Registry,
+    read: impl Fn(&Reader<'c, 'a>, &str, &str) -> Option<T>,
+) -> Vec<T>
+where
+    'a: 'c,
+{
+    let mut all = Vec::new();
+    for (name, span, node) in context.entries(table) {
+        let words = format!("{} `{name}`", singular(table));
+        all.extend(
+            of_kind(context, table, (node, words, span), registry)
+                .and_then(|(reader, word)| read(&reader, name, word)),
+        );
+    }
+    all
+}
+
+/// Opens a table whose form is chosen by a word, and gives the word.
+pub(super) fn of_kind<'c, 'a>(
+    context: &'c Context<'a>,
+    table: &str,
+    (node, words, span): (&'c Node, String, Span),
+    registry: &Registry,
+) -> Option<(Reader<'c, 'a>, &'static str)> {
+    let forms = variants(table, registry);
+    let tag = forms.tag?;
+    let chosen = crate::reader::tag(context, node, tag, &forms.words(), (&words, span))?;
+    let form = forms.all.into_iter().find(|form| form.word == chosen.value)?;
+    let reader = Reader::open(context, node, (words, span), form.keys)?;
+    Some((reader, form.word))
+}

@@ -1,0 +1,174 @@
+//! Materials and cross sections of a model file.
+
+use lissom_motion::{Matrix3, Matrix6, Vector3};
+
+use super::decode::{each, each_of_kind};
+use super::{Material, Section};
+use crate::context::Context;
+use crate::keys::{Shape as Holds, optional, required};
+use crate::reader::Reader;
+use crate::registry::Registry;
+use crate::report::{Located, Problem};
+use crate::sections::{Isotropic, SectionProperties, Shape, Shear, ShearTheory, mass_matrix};
+use crate::suggest;
+use crate::text::Value;
+
+pub(super) fn materials(context: &Context<'_>) -> Vec<Material> {
+    each(context, "materials", |reader, name| {
+        let (young, density) = (reader.number("E"), reader.number("density"));
+        let shear = shear_modulus(reader, young.as_ref().map(|young| young.value));
+        let constants = Isotropic { young: young?.value, shear: shear?, density: density?.value };
+        Some(Material { name: Located::new(name.to_owned(), reader.name), constants })
+    })
+}
+
+/// From `G`, or from `nu` by `G = E/(2(1 + ν))`.
+fn shear_modulus(reader: &Reader<'_, '_>, young: Option<f64>) -> Option<f64> {
+    let (given, poisson) = (reader.number("G"), reader.number("nu"));
+    match (reader.node("G"), reader.node("nu")) {
+        (Some(_), Some(nu)) => {
+            let message = format!("{} has both `G` and `nu`", reader.what);
+            let help = "one of them follows from the other: leave one out";
+            return reader.context.fail(nu.span, message, help);
+        }
+        (None, None) => {
+            let message = format!("{} lacks `nu`", reader.what);
+            return reader.context.fail(
+                reader.name,
+                message,
+                "add `nu = …` (Poisson's ratio) or `G = …` [Pa]",
+            );
+        }
+        _ => {}
+    }
+    if let Some(poisson) = poisson {
+        if poisson.value > -1.0 && poisson.value <= 0.5 {
+            return young.map(|young| young / (2.0 * (1.0 + poisson.value)));
+        }
+        let message = format!(
+            "Poisson's ratio of {} must be above -1 and not above 0.5, not {}",
+            reader.what, poisson.value
+        );
+        return reader.context.fail(poisson.span, message, "metals have about 0.3");
+    }
+    let given = given?;
+    let poisson = young? / (2.0 * given.value) - 1.0;
+    if !(poisson > -1.0 && poisson <= 0.5 + 1e-9) {
+        let message = format!("`E` and `G` of {} mean a Poisson's ratio of {poisson:.3}", reader.what);
+        return reader.context.fail(given.span, message, "G must be at least E/3: check the units of both");
+    }
+    Some(given.value)
+}
+
+pub(super) fn sections(context: &Context<'_>, registry: &Registry, materials: &[Material]) -> Vec<Section> {
+    each_of_kind(context, "sections", registry, |reader, name, form| {
+        let damping = reader.number("damping");
+        let properties =
+            if form == "general" { general(reader) } else { homogeneous(reader, form, materials) };
+        let properties =
+            SectionProperties { damping: damping.map_or(0.0, |damping| damping.value), ..properties? };
+        Some(Section { name: Located::new(name.to_owned(), reader.name), properties })
+    })
+}
+
+fn homogeneous(reader: &Reader<'_, '_>, form: &str, materials: &[Material]) -> Option<SectionProperties> {
+    let material = reader.name_in("material");
+    let shear = shear(reader);
+    let length = |key| reader.number(key).map(|number| number.value);
+    let shape = match form {
+        "rectangle" => {
+            let (width, height) = (length("width"), length("height"));
+            Shape::Rectangle { width: width?, height: height? }
+        }
+        "circle" => Shape::Circle { radius: length("radius")? },
+        _ => {
+            let (outer, thickness) = (reader.number("outer_radius"), reader.number("thickness"));
+            let (outer, thickness) = (outer?, thickness?);
+            if thickness.value >= outer.value {
+                let message = format!(
+                    "the thickness {} of {} must be less than its outer radius {}",
+                    thickness.value, reader.what, outer.value
+                );
+                let problem = Problem::error(thickness.span, message).also(outer.span, "outer radius");
+                let help = "for a solid shaft write shape = \"circle\" with its radius";
+                reader.context.tell(problem.label("too thick").help(help));
+                return None;
+            }
+            Shape::Tube { outer_radius: outer.value, thickness: thickness.value }
+        }
+    };
+    let (material, shear) = (material?, shear?);
+    let material = materials.iter().find(|known| known.name.value == material.value)?;
+    let properties = SectionProperties::homogeneous(&shape, &material.constants, shear);
+    let usable =
+        |matrix: &Matrix6| matrix.iter().all(|entry| entry.is_finite()) && matrix.diagonal().min() > 0.0;
+    if usable(&properties.stiffness) && usable(&properties.mass) {
+        return Some(properties);
+    }
+    let message = format!("{} has a stiffness or mass beyond all numbers", reader.what);
+    reader.context.fail(reader.name, message, "check the units of its sides and of its material")
+}
+
+fn shear(reader: &Reader<'_, '_>) -> Option<Shear> {
+    let Some(node) = reader.node("shear") else { return Some(Shear::Theory(ShearTheory::Cowper)) };
+    let what = reader.words("shear");
+    let context = reader.context;
+    let (k2, k3) = match &node.value {
+        Value::Text(word) if word == "cowper" => return Some(Shear::Theory(ShearTheory::Cowper)),
+        Value::Text(word) if word == "renton" => return Some(Shear::Theory(ShearTheory::Renton)),
+        Value::Text(word) if suggest::nearest(word, ["cowper", "renton"]).is_some() => {
+            let problem = Problem::error(node.span, format!("{what} names no theory"));
+            context.tell(problem.maybe_help(suggest::help(word, ["cowper", "renton"])));
+            return None;
+        }
+        Value::List(_) => {
+            let [k2, k3] = context.numbers::<2>(node, &what)?;
+            (k2, k3)
+        }
+        _ => {
+            let both = context.number(node, &what)?;
+            (both, both)
+        }
+    };
+    if k2 > 0.0 && k3 > 0.0 {
+        return Some(Shear::Given(k2, k3));
+    }
+    context.fail(node.span, format!("{what} must be greater than zero"), "5/6 is common for a rectangle")
+}
+
+fn general(reader: &Reader<'_, '_>) -> Option<SectionProperties> {
+    let stiffness = reader
+        .node("stiffness")
+        .and_then(|node| reader.context.definite_matrix(node, &reader.words("stiffness")));
+    let mass = reader.node("mass").and_then(|node| match &node.value {
+        Value::Table(_) => described_mass(reader, node),
+        _ => reader.context.definite_matrix(node, &reader.words("mass")),
+    });
+    Some(SectionProperties { stiffness: stiffness?, mass: mass?, damping: 0.0 })
+}
+
+fn described_mass<'c>(reader: &Reader<'c, '_>, node: &'c crate::text::Node) -> Option<Matrix6> {
+    let keys = vec![
+        required("per_length", Holds::Positive, "kg/m", "mass per length"),
+        required("inertia", Holds::Inertia, "kg m", "[J11, J22, J33] per length about the centre of mass"),
+        optional("center", Holds::Vector, "m", "[c2, c3]: centre of mass across the beam"),
+    ];
+    let inner = Reader::open(reader.context, node, (reader.words("mass"), node.span), keys)?;
+    let per_length = inner.number("per_length");
+    let inertia = inner.node("inertia").and_then(|node| slice_inertia(&inner, node));
+    let center = match inner.node("center") {
+        None => Some([0.0, 0.0]),
+        Some(node) => reader.context.numbers::<2>(node, &inner.words("center")),
+    };
+    Some(mass_matrix(per_length?.value, &inertia?, center?))
+}
+
+/// The inertia of a slice: it has no thickness, so that `J11 = J22 + J33`; any positive numbers are taken.
+fn slice_inertia(inner: &Reader<'_, '_>, node: &crate::text::Node) -> Option<Matrix3> {
+    let what = inner.words("inertia");
+    let moments = inner.context.vector(node, &what)?;
+    if moments.min() > 0.0 {
+        return Some(Matrix3::from_diagonal(&Vector3::new(moments.x, moments.y, moments.z)));
+    }
+    inner.context.fail(node.span, format!("{what} must be three positive numbers"), "give [J11, J22, J33]")
+}

@@ -1,0 +1,310 @@
+//! The model file as plain data: everything named, checked and in SI, with the places of names and values kept
+//! for later complaints. Knows no system, no unknowns and no time scheme.
+
+pub(crate) mod analysis;
+mod beams;
+mod bodies;
+mod components;
+mod connections;
+mod decode;
+mod materials;
+mod outputs;
+mod places;
+pub(crate) mod tables;
+
+use std::collections::BTreeMap;
+
+use lissom_core::registry::Parameters;
+use lissom_motion::{Matrix3, Vector3};
+
+use crate::expression::Expression;
+use crate::line::Line;
+use crate::report::{Located, Problem, Report, Sources, Span};
+use crate::sections::{Isotropic, SectionProperties};
+
+pub use analysis::{Analysis, AnalysisKind, Scaling};
+pub use outputs::{Output, OutputKind, OutputSource};
+pub use tables::VERSION;
+
+/// A model as it was written, checked.
+#[derive(Clone, Debug)]
+pub struct Document {
+    /// One line about the model.
+    pub title: Option<String>,
+    /// Acceleration of gravity [m/s²], zero by default.
+    pub gravity: Vector3,
+    /// Numbers by name.
+    pub parameters: BTreeMap<String, f64>,
+    /// Materials in the order of the file, as all that follow.
+    pub materials: Vec<Material>,
+    /// Cross sections.
+    pub sections: Vec<Section>,
+    /// Places by name [m].
+    pub points: BTreeMap<String, Vector3>,
+    /// Flexible beams.
+    pub beams: Vec<Beam>,
+    /// Rigid bodies.
+    pub bodies: Vec<Body>,
+    /// Point masses.
+    pub point_masses: Vec<PointMass>,
+    /// Joints.
+    pub joints: Vec<Component>,
+    /// Springs.
+    pub springs: Vec<Component>,
+    /// Loads.
+    pub loads: Vec<Component>,
+    /// A rigid motion of all parts at the start.
+    pub initial: Option<InitialMotion>,
+    /// What is recorded.
+    pub outputs: Vec<Output>,
+    /// What is computed.
+    pub analysis: Analysis,
+    /// What may not be meant as it is written.
+    pub warnings: Report,
+    sources: Sources,
+}
+
+impl Document {
+    /// A report of problems found later, underlined in the model's text.
+    pub fn report(&self, problems: Vec<Problem>) -> Report {
+        Report::new(problems, &self.sources)
+    }
+
+    /// The section called `name`.
+    pub fn section(&self, name: &str) -> Option<&Section> {
+        self.sections.iter().find(|section| section.name.value == name)
+    }
+
+    /// The beam called `name`.
+    pub fn beam(&self, name: &str) -> Option<&Beam> {
+        self.beams.iter().find(|beam| beam.name.value == name)
+    }
+
+    /// Place of a node at the start [m]; the ground's is the origin.
+    pub fn node_position(&self, node: &NodeReference) -> Option<Vector3> {
+        match node {
+            NodeReference::Ground => Some(Vector3::zeros()),
+            NodeReference::Body(name) => {
+                self.bodies.iter().find(|body| body.name.value == *name).map(|body| body.position)
+            }
+            NodeReference::PointMass(name) => {
+                self.point_masses.iter().find(|mass| mass.name.value == *name).map(|mass| mass.position)
+            }
+            NodeReference::Beam { beam, fraction } => {
+                self.beam(beam).map(|beam| beam.line.position(*fraction))
+            }
+        }
+    }
+}
+
+/// An isotropic elastic material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Name.
+    pub name: Located<String>,
+    /// Its constants.
+    pub constants: Isotropic,
+}
+
+/// A cross section.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Name.
+    pub name: Located<String>,
+    /// Stiffness, mass and damping.
+    pub properties: SectionProperties,
+}
+
+/// A section at a place along a beam.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Station {
+    /// Fraction of the beam, 0 to 1.
+    pub at: f64,
+    /// Name of the section there.
+    pub section: Located<String>,
+}
+
+/// A flexible beam.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Beam {
+    /// Name.
+    pub name: Located<String>,
+    /// Sections from 0 to 1, linear between; a single one for a uniform beam.
+    pub stations: Vec<Station>,
+    /// Reference line.
+    pub line: Line,
+    /// Where the line is described.
+    pub line_span: Span,
+    /// Node of another part that is this beam's first node.
+    pub shared_start: Option<Located<NodeReference>>,
+    /// Node of another part that is this beam's last node.
+    pub shared_end: Option<Located<NodeReference>>,
+    /// Number of elements.
+    pub elements: Located<usize>,
+    /// Polynomial order: elements of `order + 1` nodes.
+    pub order: usize,
+    /// Direction that local axis 3 leans to; nowhere parallel to the line.
+    pub up: Vector3,
+    /// Turn about the tangent [rad], an expression of the fraction `s`.
+    pub twist: Expression,
+}
+
+impl Beam {
+    /// Axes 1, 2 and 3 at the fraction `s`, as columns.
+    pub fn frame(&self, s: f64) -> Matrix3 {
+        self.line.frame(s, &self.up, self.twist.jet(s).value)
+    }
+
+    /// Section properties at the fraction `s`, from the sections of `document`.
+    pub fn properties(&self, document: &Document, s: f64) -> Option<SectionProperties> {
+        let of =
+            |station: &Station| document.section(&station.section.value).map(|section| section.properties);
+        let next =
+            self.stations.partition_point(|station| station.at <= s).clamp(1, self.stations.len().max(1));
+        let before = self.stations.get(next - 1)?;
+        match self.stations.get(next) {
+            None => of(before),
+            Some(after) => Some(of(before)?.towards(&of(after)?, (s - before.at) / (after.at - before.at))),
+        }
+    }
+}
+
+/// A rigid body.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Body {
+    /// Name.
+    pub name: Located<String>,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Inertia about the centre of mass in body axes [kg m²].
+    pub inertia: Matrix3,
+    /// Place of the reference frame [m].
+    pub position: Vector3,
+    /// Body axes as columns in global axes.
+    pub axes: Matrix3,
+    /// Centre of mass in body axes [m].
+    pub center_of_mass: Vector3,
+    /// Velocity of the reference point at the start, global axes [m/s]; `None` leaves it to the initial motion.
+    pub velocity: Option<Located<Vector3>>,
+    /// Angular velocity at the start, body axes [rad/s]; `None` leaves it to the initial motion.
+    pub angular_velocity: Option<Located<Vector3>>,
+}
+
+/// A plane of the global axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Plane {
+    /// x and y.
+    Xy,
+    /// y and z.
+    Yz,
+    /// z and x.
+    Zx,
+}
+
+/// A mass without extension.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PointMass {
+    /// Name.
+    pub name: Located<String>,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Place at the start [m].
+    pub position: Vector3,
+    /// The plane it stays in; free in space when `None`.
+    pub plane: Option<Plane>,
+    /// Velocity at the start, global axes [m/s]; `None` leaves it to the initial motion.
+    pub velocity: Option<Located<Vector3>>,
+}
+
+/// A node of the model, by name.
+#[derive(Clone, Debug, PartialEq)]
+pub enum NodeReference {
+    /// The fixed frame.
+    Ground,
+    /// The reference frame of a body.
+    Body(String),
+    /// A point mass.
+    PointMass(String),
+    /// A place along a beam.
+    Beam {
+        /// Name of the beam.
+        beam: String,
+        /// Fraction: 0 for its start, 1 for its end.
+        fraction: f64,
+    },
+}
+
+/// What a joint, spring or load is attached to.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Attachment {
+    /// Two nodes at one location.
+    TwoNodes {
+        /// The node it starts from.
+        base: Located<NodeReference>,
+        /// The node it leads to.
+        tip: Located<NodeReference>,
+        /// Location at the start [m]; the tip node's place by default.
+        at: Vector3,
+        /// Direction at the start, global axes, not normalised.
+        axis: Option<Located<Vector3>>,
+        /// Second direction at the start, global axes, not parallel to the first, not normalised.
+        second_axis: Option<Located<Vector3>>,
+    },
+    /// Two nodes, each at its own location.
+    TwoPlaces {
+        /// The node it starts from.
+        base: Located<NodeReference>,
+        /// The node it leads to.
+        tip: Located<NodeReference>,
+        /// Location on the base at the start [m]; the node's place by default.
+        at_base: Vector3,
+        /// Location on the tip at the start [m]; the node's place by default.
+        at_tip: Vector3,
+    },
+    /// One node.
+    OneNode {
+        /// The node.
+        on: Located<NodeReference>,
+        /// Location at the start [m]; the node's place by default.
+        at: Vector3,
+    },
+    /// The relative coordinate of a joint.
+    JointCoordinate {
+        /// Name of the joint.
+        joint: Located<String>,
+    },
+}
+
+/// A joint, spring or load of a registered kind.
+#[derive(Clone, Debug)]
+pub struct Component {
+    /// Name.
+    pub name: Located<String>,
+    /// Word of its kind.
+    pub kind: Located<String>,
+    /// What it is attached to.
+    pub attachment: Attachment,
+    /// The parameters of its kind that were given.
+    pub parameters: Parameters,
+    /// Where each of them stands.
+    pub parameter_spans: Vec<(String, Span)>,
+}
+
+impl Component {
+    /// Where the parameter `name` stands, or the component's own name.
+    pub fn span_of(&self, name: &str) -> Span {
+        let found = self.parameter_spans.iter().find(|(known, _)| known == name);
+        found.map_or(self.name.span, |(_, span)| *span)
+    }
+}
+
+/// A rigid motion given to every part at the start, in global axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InitialMotion {
+    /// Velocity of the point `about` [m/s].
+    pub velocity: Vector3,
+    /// Angular velocity [rad/s].
+    pub angular_velocity: Vector3,
+    /// A point of the motion [m].
+    pub about: Vector3,
+}

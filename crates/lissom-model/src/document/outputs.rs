@@ -1,0 +1,165 @@
+//! What a model file wants recorded.
+
+use lissom_motion::Vector3;
+
+use super::NodeReference;
+use super::decode::each_of_kind;
+use crate::context::Context;
+use crate::registry::Registry;
+use crate::report::Located;
+
+/// A recorded quantity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OutputKind {
+    /// Place of a node or of a point it carries [m].
+    Position,
+    /// Change of place since the start [m].
+    Displacement,
+    /// Rotation vector since the start [rad].
+    Rotation,
+    /// Velocity [m/s], global axes.
+    Velocity,
+    /// Angular velocity [rad/s], global axes.
+    AngularVelocity,
+    /// Acceleration [m/s²], global axes.
+    Acceleration,
+    /// Axial and shear forces in a beam [N], local axes.
+    SectionForce,
+    /// Torsion and bending moments in a beam [N m], local axes.
+    SectionMoment,
+    /// Force and moment of a joint on its tip [N, N m], global axes.
+    Reaction,
+    /// Relative coordinate of a joint [rad or m].
+    Relative,
+    /// Energies of the whole model [J].
+    Energy,
+}
+
+impl OutputKind {
+    /// All of them, in the order of the manual.
+    pub const ALL: [Self; 11] = [
+        Self::Position,
+        Self::Displacement,
+        Self::Rotation,
+        Self::Velocity,
+        Self::AngularVelocity,
+        Self::Acceleration,
+        Self::SectionForce,
+        Self::SectionMoment,
+        Self::Reaction,
+        Self::Relative,
+        Self::Energy,
+    ];
+
+    /// Word in the model file.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Position => "position",
+            Self::Displacement => "displacement",
+            Self::Rotation => "rotation",
+            Self::Velocity => "velocity",
+            Self::AngularVelocity => "angular_velocity",
+            Self::Acceleration => "acceleration",
+            Self::SectionForce => "section_force",
+            Self::SectionMoment => "section_moment",
+            Self::Reaction => "reaction",
+            Self::Relative => "relative",
+            Self::Energy => "energy",
+        }
+    }
+
+    /// One sentence.
+    pub fn summary(self) -> &'static str {
+        match self {
+            Self::Position => "Place of a node or of a point it carries.",
+            Self::Displacement => "Change of place since the start.",
+            Self::Rotation => "Rotation vector since the start.",
+            Self::Velocity => "Velocity of a node or of a point it carries.",
+            Self::AngularVelocity => "Angular velocity of a node.",
+            Self::Acceleration => "Acceleration of a node or of a point it carries.",
+            Self::SectionForce => "Axial and shear forces in a beam, local axes.",
+            Self::SectionMoment => "Torsion and bending moments in a beam, local axes.",
+            Self::Reaction => "Force and moment of a joint on its tip.",
+            Self::Relative => "Relative coordinate of a joint.",
+            Self::Energy => "Kinetic, strain, gravity and total energy of the model.",
+        }
+    }
+
+    /// Whether it belongs to any node.
+    pub(crate) fn is_of_node(self) -> bool {
+        !(self.is_of_beam() || self.is_of_joint() || self == Self::Energy)
+    }
+
+    /// Whether it belongs to a place on a beam.
+    pub(crate) fn is_of_beam(self) -> bool {
+        matches!(self, Self::SectionForce | Self::SectionMoment)
+    }
+
+    /// Whether it belongs to a joint.
+    pub(crate) fn is_of_joint(self) -> bool {
+        matches!(self, Self::Reaction | Self::Relative)
+    }
+
+    /// Whether a point carried by the node may be named.
+    pub(crate) fn takes_point(self) -> bool {
+        matches!(self, Self::Position | Self::Displacement | Self::Velocity | Self::Acceleration)
+    }
+}
+
+/// Whose quantity is recorded.
+#[derive(Clone, Debug, PartialEq)]
+pub enum OutputSource {
+    /// A node, at its own place or at a point [m] (place at the start) that it carries.
+    Node {
+        /// The node.
+        node: Located<NodeReference>,
+        /// The point.
+        point: Option<Vector3>,
+    },
+    /// A joint, by name.
+    Joint(Located<String>),
+    /// The whole model.
+    Model,
+}
+
+/// One recorded quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Output {
+    /// Name.
+    pub name: Located<String>,
+    /// Quantity.
+    pub kind: OutputKind,
+    /// Whose.
+    pub source: OutputSource,
+}
+
+pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output> {
+    each_of_kind(context, "outputs", registry, |reader, name, word| {
+        let kind = OutputKind::ALL.into_iter().find(|kind| kind.name() == word)?;
+        let source = if kind.is_of_joint() {
+            OutputSource::Joint(reader.name_in("of")?)
+        } else if kind == OutputKind::Energy {
+            OutputSource::Model
+        } else {
+            let node = context.node(reader.node("of")?, &reader.words("of"))?;
+            if kind.is_of_beam() && !matches!(node.value, NodeReference::Beam { .. }) {
+                let message = format!("{} is of a node that is not on a beam", reader.what);
+                return context.fail(node.span, message, "name a place on a beam, such as \"beam@0.5\"");
+            }
+            let point = match kind.takes_point().then(|| reader.node("point")).flatten() {
+                None => None,
+                Some(place) => Some(context.place(place, &reader.words("point"))?.value),
+            };
+            if matches!(node.value, NodeReference::PointMass(_)) && point.is_some() {
+                let message = format!("{} names a point, but a point mass carries none", reader.what);
+                return context.fail(
+                    reader.node("point").map_or(node.span, |point| point.span),
+                    message,
+                    "leave out `point`",
+                );
+            }
+            OutputSource::Node { node, point }
+        };
+        Some(Output { name: Located::new(name.to_owned(), reader.name), kind, source })
+    })
+}

@@ -1,0 +1,130 @@
+//! Places and nodes as they are named in a model file.
+
+use lissom_motion::Vector3;
+
+use super::NodeReference;
+use crate::context::Context;
+use crate::report::{Located, Problem, Span};
+use crate::suggest;
+use crate::text::Node;
+use crate::text::Value;
+
+/// A place, or a node that has one.
+#[derive(Clone, Debug)]
+pub(super) enum PlaceOrNode {
+    Place(Located<Vector3>),
+    Node(Located<NodeReference>),
+}
+
+impl Context<'_> {
+    /// The name of a point, or three numbers.
+    pub(super) fn place(&self, node: &Node, what: &str) -> Option<Located<Vector3>> {
+        let place = match &node.value {
+            Value::Text(name) => {
+                let known = self.points.borrow().get(name.as_str()).copied();
+                match known {
+                    Some(place) => place?,
+                    None => {
+                        self.is_known("points", name, node.span, what);
+                        return None;
+                    }
+                }
+            }
+            Value::List(_) => self.vector(node, what)?,
+            _ => return self.wrong_type(node, what, "the name of a point, or three numbers"),
+        };
+        Some(Located::new(place, node.span))
+    }
+
+    /// The name of a point, three numbers, or a node of a part.
+    pub(super) fn place_or_node(&self, node: &Node, what: &str) -> Option<PlaceOrNode> {
+        if let Value::Text(name) = &node.value
+            && !self.points.borrow().contains_key(name.as_str())
+        {
+            if self.looks_like_node(name) {
+                return self.node(node, what).map(PlaceOrNode::Node);
+            }
+            let points = self.names("points");
+            let nodes = self.node_names();
+            let known = points.iter().map(|(name, _)| *name).chain(nodes.iter().map(String::as_str));
+            let message = format!("{what} names `{name}`, which is neither a point nor a node");
+            let help = suggest::help(name, known);
+            self.tell(Problem::error(node.span, message).label("unknown").maybe_help(help));
+            return None;
+        }
+        self.place(node, what).map(PlaceOrNode::Place)
+    }
+
+    fn looks_like_node(&self, name: &str) -> bool {
+        let part = name.split(['.', '@']).next().unwrap_or(name);
+        let parts = ["beams", "bodies", "point_masses"];
+        name == "ground" || name.contains(['.', '@']) || parts.iter().any(|table| self.has(table, part))
+    }
+
+    /// A node named in a text.
+    pub(super) fn node(&self, node: &Node, what: &str) -> Option<Located<NodeReference>> {
+        let Value::Text(text) = &node.value else {
+            return self.wrong_type(
+                node,
+                what,
+                "the name of a node, such as \"ground\", \"body\" or \"beam.end\"",
+            );
+        };
+        self.node_named(text, node.span, what).map(|found| Located::new(found, node.span))
+    }
+
+    fn node_named(&self, text: &str, span: Span, what: &str) -> Option<NodeReference> {
+        if text == "ground" {
+            return Some(NodeReference::Ground);
+        }
+        if self.has("bodies", text) {
+            return Some(NodeReference::Body(text.to_owned()));
+        }
+        if self.has("point_masses", text) {
+            return Some(NodeReference::PointMass(text.to_owned()));
+        }
+        if self.has("beams", text) {
+            let message = format!("{what} names the beam `{text}`, which is a line, not a node");
+            let help = format!("say which node: \"{text}.start\", \"{text}.end\" or \"{text}@0.5\"");
+            return self.fail(span, message, help);
+        }
+        let (beam, fraction) =
+            match (text.strip_suffix(".start"), text.strip_suffix(".end"), text.split_once('@')) {
+                (Some(beam), ..) => (beam, Some(0.0)),
+                (_, Some(beam), _) => (beam, Some(1.0)),
+                (_, _, Some((beam, fraction))) => (beam, fraction.trim().parse::<f64>().ok()),
+                _ => (text, None),
+            };
+        let inside = fraction.filter(|fraction| (0.0..=1.0).contains(fraction));
+        match inside {
+            Some(fraction) if self.has("beams", beam) => {
+                Some(NodeReference::Beam { beam: beam.to_owned(), fraction })
+            }
+            None if self.has("beams", beam) => {
+                let message = format!("{what} names `{text}`, which is no place on the beam `{beam}`");
+                self.fail(span, message, "the fraction after `@` goes from 0 (start) to 1 (end)")
+            }
+            _ => {
+                let known = self.node_names();
+                let help = suggest::help(text, known.iter().map(String::as_str));
+                let problem =
+                    Problem::error(span, format!("{what} names the node `{text}`, which does not exist"));
+                let other = "nodes are \"ground\", the names of bodies and point masses, and \"beam.start\", \
+                             \"beam.end\", \"beam@0.5\"";
+                self.tell(problem.label("no such node").help(other).maybe_help(help));
+                None
+            }
+        }
+    }
+
+    fn node_names(&self) -> Vec<String> {
+        let mut names = vec!["ground".to_owned()];
+        for table in ["bodies", "point_masses"] {
+            names.extend(self.names(table).into_iter().map(|(name, _)| name.to_owned()));
+        }
+        for (beam, _) in self.names("beams") {
+            names.extend([format!("{beam}.start"), format!("{beam}.end")]);
+        }
+        names
+    }
+}

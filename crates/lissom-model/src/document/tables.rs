@@ -1,0 +1,366 @@
+//! The tables of a model file and their keys, in one place: what the decoder asks for, what the schema says.
+
+use std::borrow::Cow;
+
+use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
+use crate::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry, Registry};
+
+/// What stands at the top of a model file under one word.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Holds {
+    /// A value.
+    Value(Shape),
+    /// Values by name.
+    Values(Shape),
+    /// One table.
+    Table,
+    /// Tables by name.
+    Entries,
+}
+
+/// A word at the top of a model file.
+pub(crate) struct Top {
+    pub(crate) name: &'static str,
+    pub(crate) holds: Holds,
+    pub(crate) required: bool,
+    pub(crate) summary: &'static str,
+}
+
+const fn top(name: &'static str, holds: Holds, required: bool, summary: &'static str) -> Top {
+    Top { name, holds, required, summary }
+}
+
+/// The newest version of the format.
+pub const VERSION: usize = 1;
+
+/// All the words at the top.
+pub(crate) static TOP: [Top; 15] = [
+    top("lissom", Holds::Value(Shape::Count(1, VERSION)), true, "Version of the file format."),
+    top("title", Holds::Value(Shape::Text), false, "One line about the model."),
+    top("gravity", Holds::Value(Shape::Vector), false, "Acceleration of gravity [m/s²]; none when left out."),
+    top("parameters", Holds::Values(Shape::Number), false, "Numbers that expressions may name."),
+    top("materials", Holds::Entries, false, "Isotropic elastic materials."),
+    top("sections", Holds::Entries, false, "Cross sections; axis 1 along the beam, 2 and 3 across."),
+    top("points", Holds::Values(Shape::Vector), false, "Named places [m]."),
+    top("beams", Holds::Entries, false, "Flexible beams."),
+    top("bodies", Holds::Entries, false, "Rigid bodies."),
+    top("point_masses", Holds::Entries, false, "Masses without extension."),
+    top("joints", Holds::Entries, false, "What holds nodes together."),
+    top("springs", Holds::Entries, false, "What pulls nodes or joints back."),
+    top("loads", Holds::Entries, false, "Forces and moments from outside."),
+    top("initial", Holds::Table, false, "A rigid motion of all parts at the start."),
+    top("outputs", Holds::Entries, false, "What is recorded."),
+];
+
+/// The table of the analysis, apart because the model is useless without it.
+pub(crate) static ANALYSIS: Top = top("analysis", Holds::Table, true, "What is computed, and how.");
+
+/// Every word at the top, the analysis last.
+pub(crate) fn tops() -> impl Iterator<Item = &'static Top> {
+    TOP.iter().chain([&ANALYSIS])
+}
+
+/// Whether users choose the words inside this table.
+pub(crate) fn has_named_entries(name: &str) -> bool {
+    TOP.iter().any(|top| top.name == name && matches!(top.holds, Holds::Values(_) | Holds::Entries))
+}
+
+/// One form of a table.
+pub(crate) struct Variant {
+    /// The word that chooses it.
+    pub(crate) word: &'static str,
+    pub(crate) summary: &'static str,
+    pub(crate) keys: Vec<Key>,
+}
+
+/// The forms of a table, and the key whose word chooses among them, if there are several.
+pub(crate) struct Variants {
+    pub(crate) tag: Option<&'static str>,
+    pub(crate) all: Vec<Variant>,
+}
+
+impl Variants {
+    /// The words that choose.
+    pub(crate) fn words(&self) -> Vec<&'static str> {
+        self.all.iter().map(|variant| variant.word).collect()
+    }
+}
+
+/// The forms of the tables under the word `name`.
+pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
+    let (tag, all) = match name {
+        "materials" => (None, vec![single(material())]),
+        "sections" => (Some("shape"), sections()),
+        "beams" => (None, vec![single(beam())]),
+        "bodies" => (None, vec![single(body())]),
+        "point_masses" => (None, vec![single(point_mass())]),
+        "joints" => (Some("kind"), kinds(&registry.joints)),
+        "springs" => (Some("kind"), kinds(&registry.springs)),
+        "loads" => (Some("kind"), kinds(&registry.loads)),
+        "initial" => (None, vec![single(initial())]),
+        "outputs" => (Some("kind"), outputs()),
+        "analysis" => (Some("kind"), analyses(registry)),
+        _ => (None, Vec::new()),
+    };
+    Variants { tag, all }
+}
+
+fn single(keys: Vec<Key>) -> Variant {
+    Variant { word: "", summary: "", keys }
+}
+
+fn material() -> Vec<Key> {
+    vec![
+        required("E", Shape::Positive, "Pa", "Young's modulus"),
+        optional("nu", Shape::Number, "", "Poisson's ratio; give it or `G`"),
+        optional("G", Shape::Positive, "Pa", "shear modulus; give it or `nu`"),
+        required("density", Shape::Positive, "kg/m³", "mass per volume"),
+    ]
+}
+
+fn sections() -> Vec<Variant> {
+    let form = |word, summary, mut own: Vec<Key>| {
+        let mut keys =
+            vec![required("shape", choice(&["rectangle", "circle", "tube", "general"]), "", "its shape")];
+        if word != "general" {
+            keys.push(required("material", Shape::Name("materials"), "", "name of a material"));
+            let words =
+                "shear coefficient: one or two numbers (along 2 and 3), \"cowper\" (default) or \"renton\"";
+            own.push(optional("shear", Shape::Shear, "", words));
+        }
+        keys.append(&mut own);
+        let damping = "damping in proportion to the stiffness";
+        keys.push(optional("damping", Shape::NotNegative, "s", damping));
+        Variant { word, summary, keys }
+    };
+    let order = "6 x 6 or its diagonal: axial, shear 2, shear 3, torsion, bending 2, bending 3";
+    vec![
+        form(
+            "rectangle",
+            "Solid rectangle.",
+            vec![
+                required("width", Shape::Positive, "m", "side along axis 2"),
+                required("height", Shape::Positive, "m", "side along axis 3"),
+            ],
+        ),
+        form("circle", "Solid circle.", vec![required("radius", Shape::Positive, "m", "radius")]),
+        form(
+            "tube",
+            "Circular tube.",
+            vec![
+                required("outer_radius", Shape::Positive, "m", "outer radius"),
+                required("thickness", Shape::Positive, "m", "thickness of the wall"),
+            ],
+        ),
+        form(
+            "general",
+            "Given by its stiffness and mass.",
+            vec![
+                required("stiffness", Shape::Stiffness, "N, N m²", order),
+                required(
+                    "mass",
+                    Shape::SectionMass,
+                    "kg/m, kg m",
+                    "6 x 6, or { per_length, inertia = [J11, J22, J33], center = [c2, c3] }",
+                ),
+            ],
+        ),
+    ]
+}
+
+fn beam() -> Vec<Key> {
+    vec![
+        optional("section", Shape::Name("sections"), "", "name of a section; give it or `stations`"),
+        optional(
+            "stations",
+            Shape::Stations,
+            "",
+            "[{ at = 0, section = \"a\" }, …, { at = 1, … }], linear between",
+        ),
+        optional(
+            "from",
+            Shape::PlaceOrNode,
+            "m",
+            "start: a point, or a node of another part, which is shared",
+        ),
+        optional("to", Shape::PlaceOrNode, "m", "end: a point, or a node of another part, which is shared"),
+        optional("through", Shape::Place, "m", "a point between: the beam is a circular arc"),
+        optional("curve", Shape::Curve, "m", "instead of from and to: three expressions of s in 0..1"),
+        required("elements", Shape::Count(1, 100_000), "", "number of elements"),
+        optional("order", Shape::Count(1, 3), "", "1, 2 or 3 (default): elements of 2, 3 or 4 nodes"),
+        optional("up", Shape::Direction, "", "direction that local axis 3 leans to"),
+        optional("twist", Shape::Profile, "rad", "turn about the tangent, a number or an expression of s"),
+    ]
+}
+
+fn body() -> Vec<Key> {
+    vec![
+        required("mass", Shape::Positive, "kg", "mass"),
+        required(
+            "inertia",
+            Shape::Inertia,
+            "kg m²",
+            "about the centre of mass, in body axes: 3 numbers or 3 x 3",
+        ),
+        optional("position", Shape::Place, "m", "place of the reference frame"),
+        optional("rotation", Shape::Vector, "rad", "rotation vector of the reference frame"),
+        optional("axes", Shape::Axes, "", "instead of rotation: first and second body axis"),
+        optional("center_of_mass", Shape::Vector, "m", "in body axes, from the reference point"),
+        optional("velocity", Shape::Vector, "m/s", "of the reference point at the start, global axes"),
+        optional("angular_velocity", Shape::Vector, "rad/s", "at the start, body axes"),
+    ]
+}
+
+fn point_mass() -> Vec<Key> {
+    vec![
+        required("mass", Shape::Positive, "kg", "mass"),
+        optional("position", Shape::Place, "m", "place at the start"),
+        optional("plane", choice(&["xy", "yz", "zx"]), "", "move in this plane only"),
+        optional("velocity", Shape::Vector, "m/s", "at the start, global axes"),
+    ]
+}
+
+fn kinds(table: &[KindEntry]) -> Vec<Variant> {
+    let words: Vec<&'static str> = table.iter().map(|entry| entry.name).collect();
+    let variant = |entry: &KindEntry| {
+        let mut keys = vec![required("kind", Shape::Choice(Cow::Owned(words.clone())), "", "its kind")];
+        keys.extend(attachment(entry.acts_on));
+        keys.extend(entry.parameters.iter().map(of_parameter));
+        Variant { word: entry.name, summary: entry.summary, keys }
+    };
+    table.iter().map(variant).collect()
+}
+
+fn attachment(acts_on: ActsOn) -> Vec<Key> {
+    let nodes = || {
+        vec![
+            required(
+                "base",
+                Shape::Node,
+                "",
+                "the node it starts from: \"ground\", \"body\", \"beam.end\" …",
+            ),
+            required("tip", Shape::Node, "", "the node it leads to"),
+        ]
+    };
+    let axis = |name, words| required(name, Shape::Direction, "", words);
+    match acts_on {
+        ActsOn::TwoNodes(rule) => {
+            let mut keys = nodes();
+            keys.push(optional("at", Shape::Place, "m", "location; default: the tip node's place"));
+            if rule != FrameRule::None {
+                keys.push(axis("axis", "direction at the start, global axes"));
+            }
+            if rule == FrameRule::TwoAxes {
+                keys.push(axis("second_axis", "second direction at the start, global axes"));
+            }
+            keys
+        }
+        ActsOn::TwoPlaces => {
+            let mut keys = nodes();
+            keys.push(optional(
+                "at_base",
+                Shape::Place,
+                "m",
+                "location on the base; default: the node's place",
+            ));
+            keys.push(optional(
+                "at_tip",
+                Shape::Place,
+                "m",
+                "location on the tip; default: the node's place",
+            ));
+            keys
+        }
+        ActsOn::OneNode => vec![
+            required("on", Shape::Node, "", "the node it acts on"),
+            optional("at", Shape::Place, "m", "location; default: the node's place"),
+        ],
+        ActsOn::JointCoordinate => {
+            vec![required(
+                "joint",
+                Shape::Name("joints"),
+                "",
+                "the joint whose relative coordinate it acts on",
+            )]
+        }
+    }
+}
+
+fn initial() -> Vec<Key> {
+    vec![
+        optional("velocity", Shape::Vector, "m/s", "velocity of the point `about`"),
+        optional("angular_velocity", Shape::Vector, "rad/s", "global axes"),
+        optional("about", Shape::Place, "m", "a point of the rigid motion; default the origin"),
+    ]
+}
+
+fn outputs() -> Vec<Variant> {
+    use super::OutputKind;
+    let words: Vec<&'static str> = OutputKind::ALL.iter().map(|kind| kind.name()).collect();
+    let variant = |kind: &OutputKind| {
+        let mut keys = vec![required("kind", Shape::Choice(Cow::Owned(words.clone())), "", "its kind")];
+        if kind.is_of_node() || kind.is_of_beam() {
+            keys.push(required("of", Shape::Node, "", "the node, as in \"beam@0.5\""));
+        }
+        if kind.is_of_joint() {
+            keys.push(required("of", Shape::Name("joints"), "", "the joint"));
+        }
+        if kind.takes_point() {
+            keys.push(optional("point", Shape::Place, "m", "a place at the start, carried by the node"));
+        }
+        Variant { word: kind.name(), summary: kind.summary(), keys }
+    };
+    OutputKind::ALL.iter().map(variant).collect()
+}
+
+fn analyses(registry: &Registry) -> Vec<Variant> {
+    let words = |table: &[ChoiceEntry]| Shape::Choice(table.iter().map(|entry| entry.name).collect());
+    let common = || {
+        vec![
+            required("kind", choice(&["dynamics", "statics"]), "", "dynamics or statics"),
+            optional("start", Shape::Number, "s", "first time, default 0"),
+            optional(
+                "scaling",
+                choice(&["physical", "unit", "none"]),
+                "",
+                "scale of the equations, default physical",
+            ),
+            optional("augmented", Shape::Flag, "", "with the augmented Lagrangian term, default true"),
+            optional("penalty", Shape::NotNegative, "", "factor of the augmented term, default 1"),
+            optional("solver", words(&registry.solvers), "", "linear solver"),
+            optional(
+                "tolerance",
+                Shape::Positive,
+                "",
+                "of Newton's iteration, in scaled units, default 1e-8",
+            ),
+            optional("max_iterations", Shape::Count(1, 10_000), "", "of Newton's iteration, default 20"),
+            optional(
+                "output_every",
+                Shape::Count(1, 1_000_000_000),
+                "",
+                "steps from record to record, default 1",
+            ),
+        ]
+    };
+    let mut dynamics = common();
+    dynamics.push(optional("scheme", words(&registry.schemes), "", "time integration scheme"));
+    dynamics.push(required("end", Shape::Number, "s", "last time"));
+    dynamics.push(required("step", Shape::Positive, "s", "time step"));
+    for parameter in registry.schemes.iter().flat_map(|scheme| scheme.parameters) {
+        if !dynamics.iter().any(|key| key.name == parameter.name) {
+            let mut key = of_parameter(parameter);
+            key.required = false;
+            key.holds = super::analysis::range_of(parameter.name).unwrap_or(key.holds);
+            dynamics.push(key);
+        }
+    }
+    let mut statics = common();
+    statics.push(optional("end", Shape::Number, "s", "last time, default 1"));
+    statics.push(optional("steps", Shape::Count(1, 1_000_000), "", "load steps, default 10"));
+    vec![
+        Variant { word: "dynamics", summary: "Motion in time.", keys: dynamics },
+        Variant { word: "statics", summary: "Equilibrium in load steps.", keys: statics },
+    ]
+}

@@ -1,0 +1,117 @@
+//! What the tables of a model file hold, key by key: the decoder, the schema and the manual read these.
+//! Knows words and types, no values.
+
+use std::borrow::Cow;
+
+use lissom_core::registry::{Parameter, ParameterType};
+
+/// What a key holds.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Shape {
+    /// A text.
+    Text,
+    /// A finite number. Every number may also be a text: an expression of the parameters.
+    Number,
+    /// A number greater than zero.
+    Positive,
+    /// A number not less than zero.
+    NotNegative,
+    /// A number from the first to the second, both included.
+    Between(f64, f64),
+    /// A whole number from the first to the second, both included.
+    Count(usize, usize),
+    /// True or false.
+    Flag,
+    /// Three numbers.
+    Vector,
+    /// Three numbers, not all zero.
+    Direction,
+    /// One of the words.
+    Choice(Cow<'static, [&'static str]>),
+    /// The name of an entry of a table.
+    Name(&'static str),
+    /// The name of a point, or three numbers.
+    Place,
+    /// The name of a point, three numbers, or a node of another part.
+    PlaceOrNode,
+    /// A node: `ground`, a body, a point mass, `beam.start`, `beam.end` or `beam@fraction`.
+    Node,
+    /// A number, an expression of the time `t`, or a table.
+    Function,
+    /// A number, or an expression of `s`.
+    Profile,
+    /// Three numbers or expressions of `s`.
+    Curve,
+    /// Two vectors.
+    Axes,
+    /// Three numbers, or a 3 x 3 matrix.
+    Inertia,
+    /// Six numbers, or a 6 x 6 matrix.
+    Stiffness,
+    /// A 6 x 6 matrix, or a table of mass per length, inertia and centre.
+    SectionMass,
+    /// A number, two numbers, or the name of a theory.
+    Shear,
+    /// A list of sections and where they are.
+    Stations,
+    /// A list of pairs of numbers.
+    Rows,
+    /// Anything, such as what belongs to an unknown kind.
+    Any,
+}
+
+/// One key of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Key {
+    /// Word in the model file.
+    pub(crate) name: &'static str,
+    /// What it holds.
+    pub(crate) holds: Shape,
+    /// Whether it must be given.
+    pub(crate) required: bool,
+    /// Unit, as in `kg/m³`; empty for none.
+    pub(crate) unit: &'static str,
+    /// One sentence.
+    pub(crate) summary: &'static str,
+}
+
+/// A key that must be given.
+pub(crate) const fn required(
+    name: &'static str,
+    holds: Shape,
+    unit: &'static str,
+    summary: &'static str,
+) -> Key {
+    Key { name, holds, required: true, unit, summary }
+}
+
+/// A key that may be left out.
+pub(crate) const fn optional(
+    name: &'static str,
+    holds: Shape,
+    unit: &'static str,
+    summary: &'static str,
+) -> Key {
+    Key { name, holds, required: false, unit, summary }
+}
+
+/// A choice among fixed words.
+pub(crate) const fn choice(words: &'static [&'static str]) -> Shape {
+    Shape::Choice(Cow::Borrowed(words))
+}
+
+/// The key of a registered parameter.
+pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
+    let holds = match parameter.holds {
+        ParameterType::Number => Shape::Number,
+        ParameterType::Positive => Shape::Positive,
+        ParameterType::NotNegative => Shape::NotNegative,
+        ParameterType::Vector => Shape::Vector,
+        ParameterType::Direction => Shape::Direction,
+        ParameterType::Flag => Shape::Flag,
+        ParameterType::Function => Shape::Function,
+        ParameterType::Choice(words) => choice(words),
+    };
+    let Parameter { name, required, unit, summary, .. } = *parameter;
+    Key { name, holds, required, unit, summary }
+}

@@ -1,0 +1,225 @@
+//! Reads one table key by key against its description: unknown and missing keys are told at once, and every
+//! value is checked for what its key holds.
+
+use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Value as Held};
+use lissom_motion::{Matrix3, Vector3};
+
+use crate::context::Context;
+use crate::keys::{Key, Shape};
+use crate::report::{Located, Problem, Span};
+use crate::suggest;
+use crate::text::{Node, Table, Value};
+
+/// One table being read.
+pub(crate) struct Reader<'c, 'a> {
+    pub(crate) context: &'c Context<'a>,
+    table: &'c Table,
+    /// The table in words, as in "beam `mast`".
+    pub(crate) what: String,
+    /// Its name in the text.
+    pub(crate) name: Span,
+    keys: Vec<Key>,
+}
+
+/// The word that decides which keys a table has, if it is one of `known`; otherwise the error is noted.
+pub(crate) fn tag<'n>(
+    context: &Context<'_>,
+    node: &'n Node,
+    key: &str,
+    known: &[&str],
+    (what, name): (&str, Span),
+) -> Option<Located<&'n str>> {
+    let Value::Table(table) = &node.value else {
+        return context.wrong_type(node, what, "a table");
+    };
+    let Some(value) = table.get(key).map(|entry| &entry.node) else {
+        let problem = Problem::error(name, format!("{what} lacks `{key}`")).label("here");
+        context.tell(problem.help(format!("choose one of {}", suggest::list(known.iter().copied()))));
+        return None;
+    };
+    let Value::Text(word) = &value.value else {
+        return context.wrong_type(value, &format!("`{key}` of {what}"), "a text");
+    };
+    if known.contains(&word.as_str()) {
+        return Some(Located::new(word.as_str(), value.span));
+    }
+    let problem = Problem::error(value.span, format!("{what} has an unknown {key} `{word}`"));
+    context.tell(problem.maybe_help(suggest::help(word, known.iter().copied())));
+    None
+}
+
+impl<'c, 'a> Reader<'c, 'a> {
+    /// Opens a table whose keys are known, and tells which ones are unknown or missing.
+    pub(crate) fn open(
+        context: &'c Context<'a>,
+        node: &'c Node,
+        (what, name): (String, Span),
+        keys: Vec<Key>,
+    ) -> Option<Self> {
+        let Value::Table(table) = &node.value else {
+            return context.wrong_type(node, &what, "a table");
+        };
+        for (word, entry) in table {
+            if !keys.iter().any(|known| known.name == word) {
+                let help = suggest::help(word, keys.iter().map(|known| known.name));
+                let problem = Problem::error(entry.key, format!("{what} has an unknown key `{word}`"));
+                context.tell(problem.label("unknown").maybe_help(help));
+            }
+        }
+        for key in keys.iter().filter(|key| key.required && !table.contains_key(key.name)) {
+            let problem = Problem::error(name, format!("{what} lacks `{}`", key.name)).label("here");
+            let unit = if key.unit.is_empty() { String::new() } else { format!(" [{}]", key.unit) };
+            context.tell(problem.help(format!("add `{} = …`{unit}: {}", key.name, key.summary)));
+        }
+        Some(Self { context, table, what, name, keys })
+    }
+
+    /// The value of `key`, if given.
+    pub(crate) fn node(&self, key: &str) -> Option<&'c Node> {
+        debug_assert!(self.keys.iter().any(|known| known.name == key), "`{key}` is not described");
+        self.table.get(key).map(|entry| &entry.node)
+    }
+
+    /// Whether `key` is given.
+    pub(crate) fn has(&self, key: &str) -> bool {
+        self.table.contains_key(key)
+    }
+
+    /// The key in words, as in "`E` of material `steel`".
+    pub(crate) fn words(&self, key: &str) -> String {
+        format!("`{key}` of {}", self.what)
+    }
+
+    fn shape(&self, key: &str) -> &Shape {
+        self.keys.iter().find(|known| known.name == key).map_or(&Shape::Any, |known| &known.holds)
+    }
+
+    /// A number in the range its key allows.
+    pub(crate) fn number(&self, key: &str) -> Option<Located<f64>> {
+        let node = self.node(key)?;
+        let what = self.words(key);
+        let value = self.context.number(node, &what)?;
+        let wanted = match *self.shape(key) {
+            Shape::Positive if value <= 0.0 => "greater than zero".to_owned(),
+            Shape::NotNegative if value < 0.0 => "zero or greater".to_owned(),
+            Shape::Between(least, most) if !(least..=most).contains(&value) => {
+                format!("from {least} to {most}")
+            }
+            _ => return Some(Located::new(value, node.span)),
+        };
+        self.context.fail(
+            node.span,
+            format!("{what} must be {wanted}, not {value}"),
+            format!("give a number {wanted}"),
+        )
+    }
+
+    /// A whole number in the range its key allows.
+    pub(crate) fn count(&self, key: &str) -> Option<Located<usize>> {
+        let node = self.node(key)?;
+        let what = self.words(key);
+        let value = self.context.number(node, &what)?;
+        let (least, most) = match *self.shape(key) {
+            Shape::Count(least, most) => (least, most),
+            _ => (0, usize::MAX >> 12),
+        };
+        if value.fract() == 0.0 && value >= least as f64 && value <= most as f64 {
+            return Some(Located::new(value as usize, node.span));
+        }
+        let wanted = format!("a whole number from {least} to {most}");
+        self.context.fail(
+            node.span,
+            format!("{what} must be {wanted}, not {value}"),
+            format!("give {wanted}"),
+        )
+    }
+
+    /// A text.
+    pub(crate) fn text(&self, key: &str) -> Option<Located<&'c str>> {
+        let node = self.node(key)?;
+        let Value::Text(text) = &node.value else {
+            return self.context.wrong_type(node, &self.words(key), "a text");
+        };
+        Some(Located::new(text.as_ref(), node.span))
+    }
+
+    /// One of the words its key allows.
+    pub(crate) fn choice(&self, key: &str) -> Option<Located<&'c str>> {
+        let text = self.text(key)?;
+        let Shape::Choice(known) = self.shape(key) else { return Some(text) };
+        if known.contains(&text.value) {
+            return Some(text);
+        }
+        let message = format!("{} cannot be `{}`", self.words(key), text.value);
+        let help = suggest::help(text.value, known.iter().copied());
+        self.context.tell(Problem::error(text.span, message).maybe_help(help));
+        None
+    }
+
+    /// The name of an entry of the table its key names.
+    pub(crate) fn name_in(&self, key: &str) -> Option<Located<String>> {
+        let text = self.text(key)?;
+        if let Shape::Name(table) = *self.shape(key)
+            && !self.context.is_known(table, text.value, text.span, &self.words(key))
+        {
+            return None;
+        }
+        Some(text.map(str::to_owned))
+    }
+
+    /// True or false.
+    pub(crate) fn flag(&self, key: &str) -> Option<Located<bool>> {
+        let node = self.node(key)?;
+        let Value::Flag(flag) = &node.value else {
+            return self.context.wrong_type(node, &self.words(key), "true or false");
+        };
+        Some(Located::new(*flag, node.span))
+    }
+
+    /// Three numbers; not all zero where the key asks for a direction.
+    pub(crate) fn vector(&self, key: &str) -> Option<Located<Vector3>> {
+        let node = self.node(key)?;
+        let what = self.words(key);
+        let vector = match self.shape(key) {
+            Shape::Direction => self.context.direction(node, &what)?,
+            _ => self.context.vector(node, &what)?,
+        };
+        Some(Located::new(vector, node.span))
+    }
+
+    /// An inertia matrix.
+    pub(crate) fn inertia(&self, key: &str) -> Option<Located<Matrix3>> {
+        let node = self.node(key)?;
+        Some(Located::new(self.context.inertia(node, &self.words(key))?, node.span))
+    }
+
+    /// A function of time.
+    pub(crate) fn function(&self, key: &str) -> Option<Located<Function>> {
+        let node = self.node(key)?;
+        Some(Located::new(self.context.function(node, &self.words(key))?, node.span))
+    }
+
+    /// The registered parameters that are given.
+    pub(crate) fn parameters(&self, table: &[Parameter]) -> (Parameters, Vec<(String, Span)>) {
+        let mut parameters = Parameters::new();
+        let mut places = Vec::new();
+        for Parameter { name, holds, .. } in table {
+            let value = match holds {
+                ParameterType::Number | ParameterType::Positive | ParameterType::NotNegative => {
+                    self.number(name).map(|number| Held::Number(number.value))
+                }
+                ParameterType::Vector | ParameterType::Direction => {
+                    self.vector(name).map(|vector| Held::Vector(vector.value))
+                }
+                ParameterType::Flag => self.flag(name).map(|flag| Held::Flag(flag.value)),
+                ParameterType::Function => self.function(name).map(|function| Held::Function(function.value)),
+                ParameterType::Choice(_) => self.choice(name).map(|word| Held::Text(word.value.to_owned())),
+            };
+            if let (Some(value), Some(node)) = (value, self.node(name)) {
+                parameters.insert(name, value);
+                places.push(((*name).to_owned(), node.span));
+            }
+        }
+        (parameters, places)
+    }
+}

@@ -1,0 +1,69 @@
+//! The kinds of joints, springs and loads, and the schemes and solvers, that a model file may name.
+//! The tables are an input of the decoder, so that this crate knows no mechanics.
+
+use lissom_core::registry::Parameter;
+
+/// The frame a joint between two nodes needs, besides its location.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FrameRule {
+    /// No direction matters.
+    None,
+    /// One direction: `axis`.
+    Axis,
+    /// Two directions: `axis` and `second_axis`, perpendicular or made so.
+    TwoAxes,
+}
+
+/// What a kind is attached to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ActsOn {
+    /// Nodes `base` and `tip` at one location `at`.
+    TwoNodes(FrameRule),
+    /// Nodes `base` and `tip`, each at its own location `at_base`, `at_tip`.
+    TwoPlaces,
+    /// One node `on` at location `at`.
+    OneNode,
+    /// The relative coordinate of `joint`.
+    JointCoordinate,
+}
+
+/// One kind of joint, spring or load.
+#[derive(Clone, Copy, Debug)]
+pub struct KindEntry {
+    /// Word in the model file.
+    pub name: &'static str,
+    /// One sentence.
+    pub summary: &'static str,
+    /// A minimal entry of a model file, without its heading.
+    pub sample: &'static str,
+    /// Parameters besides those that `acts_on` asks for.
+    pub parameters: &'static [Parameter],
+    /// What it is attached to.
+    pub acts_on: ActsOn,
+}
+
+/// One scheme or solver.
+#[derive(Clone, Copy, Debug)]
+pub struct ChoiceEntry {
+    /// Word in the model file.
+    pub name: &'static str,
+    /// One sentence.
+    pub summary: &'static str,
+    /// Parameters of its own in the table `[analysis]`.
+    pub parameters: &'static [Parameter],
+}
+
+/// All the tables.
+#[derive(Clone, Debug, Default)]
+pub struct Registry {
+    /// Kinds of `[joints.*]`.
+    pub joints: Vec<KindEntry>,
+    /// Kinds of `[springs.*]`.
+    pub springs: Vec<KindEntry>,
+    /// Kinds of `[loads.*]`.
+    pub loads: Vec<KindEntry>,
+    /// Words for `analysis.scheme`; the first is the default.
+    pub schemes: Vec<ChoiceEntry>,
+    /// Words for `analysis.solver`; the first is the default.
+    pub solvers: Vec<ChoiceEntry>,
+}

@@ -1,0 +1,226 @@
+//! From text and overrides to one tree of values with their places. Knows TOML, not what any key means.
+
+use std::collections::BTreeMap;
+
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use crate::document::tables;
+use crate::report::{Problem, Sources, Span};
+use crate::suggest;
+
+/// A value and its place.
+#[derive(Clone, Debug)]
+pub(crate) struct Node {
+    pub(crate) span: Span,
+    pub(crate) value: Value,
+}
+
+/// A value as TOML has it.
+#[derive(Clone, Debug)]
+pub(crate) enum Value {
+    Text(String),
+    /// Integer or float; not finite where the text is not.
+    Number(f64),
+    Flag(bool),
+    Date,
+    List(Vec<Node>),
+    Table(Table),
+}
+
+/// A key's place and its value.
+#[derive(Clone, Debug)]
+pub(crate) struct Entry {
+    pub(crate) key: Span,
+    pub(crate) node: Node,
+}
+
+/// Entries by key.
+pub(crate) type Table = BTreeMap<String, Entry>;
+
+impl Node {
+    /// The table, if it is one.
+    pub(crate) fn table(&self) -> Option<&Table> {
+        match &self.value {
+            Value::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+}
+
+fn node(value: Spanned<DeValue<'_>>) -> Node {
+    let span = value.span().into();
+    let value = match value.into_inner() {
+        DeValue::String(text) => Value::Text(text.into_owned()),
+        DeValue::Integer(integer) => Value::Number(
+            i64::from_str_radix(integer.as_str(), integer.radix())
+                .map_or_else(|_| integer.as_str().parse().unwrap_or(f64::INFINITY), |value| value as f64),
+        ),
+        DeValue::Float(float) => Value::Number(float.as_str().parse().unwrap_or(f64::NAN)),
+        DeValue::Boolean(flag) => Value::Flag(flag),
+        DeValue::Datetime(_) => Value::Date,
+        DeValue::Array(array) => Value::List(array.into_iter().map(node).collect()),
+        DeValue::Table(inner) => Value::Table(table(inner)),
+    };
+    Node { span, value }
+}
+
+fn table(table: DeTable<'_>) -> Table {
+    let entry = |(key, value): (Spanned<std::borrow::Cow<'_, str>>, _)| {
+        let place = key.span().into();
+        (key.into_inner().into_owned(), Entry { key: place, node: node(value) })
+    };
+    table.into_iter().map(entry).collect()
+}
+
+/// A tree, the texts it came from, and what was wrong with them.
+pub(crate) struct Tree {
+    pub(crate) root: Table,
+    pub(crate) sources: Sources,
+    pub(crate) problems: Vec<Problem>,
+}
+
+/// Reads the file's `text` and lays the overrides `(path, value)` over it.
+pub(crate) fn read(text: &str, file_name: &str, overrides: &[(String, String)]) -> Tree {
+    let mut sources = Sources::new(file_name, text);
+    let (mut root, mut problems) = match parse(text) {
+        Ok(root) => (root, Vec::new()),
+        Err(problem) => (Table::new(), vec![*problem]),
+    };
+    let readable = problems.is_empty();
+    for (path, value) in overrides {
+        let start = sources.next_start();
+        let (shown, patch) = parse_override(path, value, start);
+        sources.push("override", &shown);
+        // Without a readable file there is nothing to override.
+        let done = patch.and_then(|patch| if readable { patch.apply(&mut root) } else { Ok(()) });
+        problems.extend(done.err().map(|problem| *problem));
+    }
+    Tree { root, sources, problems }
+}
+
+/// Only the first mistake in the text is told: what follows it is mostly its echo.
+fn parse(text: &str) -> Result<Table, Box<Problem>> {
+    let (root, errors) = DeTable::parse_recoverable(text);
+    let place = |error: &toml::de::Error| error.span().map_or(Span::default(), Span::from);
+    if let Some(first) = errors.iter().min_by_key(|error| place(error)) {
+        return Err(Box::new(syntax_problem(first.message(), place(first), text)));
+    }
+    Ok(table(root.into_inner()))
+}
+
+fn syntax_problem(message: &str, mut span: Span, text: &str) -> Problem {
+    // An empty place cannot be underlined: take the character before it.
+    if span.start >= span.end {
+        let end = span.start.min(text.len());
+        let start =
+            text.get(..end).and_then(|before| before.char_indices().next_back()).map_or(0, |(at, _)| at);
+        span = Span { start, end: end.max(start) };
+    }
+    let help = if message.contains("duplicate") {
+        "every name and key may be given only once in its table"
+    } else if message.contains("string values must be quoted") {
+        "texts and expressions stand in quotes, as in \"sin(t)\"; numbers as in 1.5 or 2e11"
+    } else {
+        "the file is TOML: key = value lines below [table] headings"
+    };
+    Problem::error(span, format!("the text is not TOML: {message}")).help(help)
+}
+
+/// A value and the keys that lead to it.
+struct Patch {
+    path: Vec<(String, Span)>,
+    value: Node,
+}
+
+/// Reads `path = value` as if it stood at `start`. A value that is no TOML counts as a text.
+fn parse_override(path: &str, value: &str, start: usize) -> (String, Result<Patch, Box<Problem>>) {
+    let (path, value) = (path.trim(), value.trim());
+    let padding = " ".repeat(start);
+    let read = |shown: &str| parse(&format!("{padding}{shown}"));
+    let depth = match read(&format!("{path} = 0")) {
+        Ok(probe) if !path.contains(['\n', '\r']) => depth(&probe),
+        _ => {
+            let span = Span { start, end: start + path.len() };
+            let problem = Problem::error(span, format!("`{path}` is no path to a value"));
+            let help = "write for example analysis.step=1e-4 or materials.steel.E=2e11";
+            return (format!("{path} = {value}"), Err(Box::new(problem.help(help))));
+        }
+    };
+    let plain = format!("{path} = {value}");
+    let marked = value.starts_with(['"', '\'', '[', '{']);
+    if !value.contains(['\n', '\r']) {
+        let patch = read(&plain);
+        if patch.is_ok() || marked {
+            return (plain, patch.and_then(|table| descend(table, depth)));
+        }
+    }
+    let quoted = format!("{path} = {}", toml::Value::String(value.to_owned()));
+    let patch = read(&quoted).and_then(|table| descend(table, depth));
+    (quoted, patch)
+}
+
+fn depth(table: &Table) -> usize {
+    table.values().next().and_then(|entry| entry.node.table()).map_or(1, |inner| 1 + depth(inner))
+}
+
+fn descend(mut table: Table, depth: usize) -> Result<Patch, Box<Problem>> {
+    let mut path = Vec::new();
+    loop {
+        let Some((name, Entry { key, node })) = table.pop_first() else {
+            return Err(Box::new(Problem::error(Span::default(), "the override is empty")));
+        };
+        path.push((name, key));
+        match node.value {
+            Value::Table(inner) if path.len() < depth => table = inner,
+            value => return Ok(Patch { path, value: Node { span: node.span, value } }),
+        }
+    }
+}
+
+impl Patch {
+    /// Puts the value in its place.
+    fn apply(self, root: &mut Table) -> Result<(), Box<Problem>> {
+        self.check(root)?;
+        let Self { mut path, value } = self;
+        let Some((last, key)) = path.pop() else { return Ok(()) };
+        let mut table = root;
+        for (name, key) in path {
+            let empty = || Entry { key, node: Node { span: key, value: Value::Table(Table::new()) } };
+            table = match &mut table.entry(name.clone()).or_insert_with(empty).node.value {
+                Value::Table(inner) => inner,
+                _ => {
+                    let message = format!("`{name}` is a value, not a table: the path leads nowhere");
+                    return Err(Box::new(Problem::error(key, message).help("leave out what follows it")));
+                }
+            };
+        }
+        // What is replaced keeps its place among the others: parameters may name those above them.
+        let key = table.get(&last).map_or(key, |entry| entry.key);
+        table.insert(last, Entry { key, node: value });
+        Ok(())
+    }
+
+    /// An override changes what is there: it may not invent a part, a material or a parameter.
+    fn check(&self, root: &Table) -> Result<(), Box<Problem>> {
+        let [(first, _), (second, place), ..] = self.path.as_slice() else { return Ok(()) };
+        if !tables::has_named_entries(first) {
+            return Ok(());
+        }
+        let entries = root.get(first).and_then(|entry| entry.node.table());
+        if entries.is_some_and(|entries| entries.contains_key(second)) {
+            return Ok(());
+        }
+        let known = entries.into_iter().flat_map(BTreeMap::keys).map(String::as_str);
+        let problem = Problem::error(*place, format!("the model has no `{first}.{second}` to override"));
+        Err(Box::new(problem.label("not in the file").maybe_help(suggest::help(second, known))))
+    }
+}
+
+/// Entries in the order of the text.
+pub(crate) fn in_order(table: &Table) -> Vec<(&str, Span, &Node)> {
+    let mut entries: Vec<_> =
+        table.iter().map(|(name, entry)| (name.as_str(), entry.key, &entry.node)).collect();
+    entries.sort_by_key(|(_, span, _)| *span);
+    entries
+}

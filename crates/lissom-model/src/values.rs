@@ -1,0 +1,196 @@
+//! From TOML values to numbers, vectors, matrices and expressions, each with an error that says what was
+//! expected. A number may also be a text: an expression of the parameters.
+
+use lissom_motion::{Matrix3, Matrix6, Vector3, Vector6};
+
+use crate::context::Context;
+use crate::expression::{Expression, ExpressionError};
+use crate::report::{Problem, Span};
+use crate::text::{Node, Value};
+
+/// A value's type, in words.
+pub(crate) fn type_of(node: &Node) -> &'static str {
+    match &node.value {
+        Value::Text(_) => "a text",
+        Value::Number(_) => "a number",
+        Value::Flag(_) => "true or false",
+        Value::Date => "a date",
+        Value::List(_) => "a list",
+        Value::Table(_) => "a table",
+    }
+}
+
+impl Context<'_> {
+    /// Notes that `what` must be `wanted` but is of another type.
+    pub(crate) fn wrong_type<T>(&self, node: &Node, what: &str, wanted: &str) -> Option<T> {
+        let found = type_of(node);
+        let problem = Problem::error(node.span, format!("{what} must be {wanted}, not {found}"));
+        self.tell(problem.label(format!("this is {found}")).help(format!("write {wanted}")));
+        None
+    }
+
+    /// A finite number.
+    pub(crate) fn number(&self, node: &Node, what: &str) -> Option<f64> {
+        let value = match &node.value {
+            Value::Number(number) => *number,
+            Value::Text(_) => self.expression(node, None, what)?.jet(0.0).value,
+            _ => return self.wrong_type(node, what, "a number"),
+        };
+        if value.is_finite() {
+            return Some(value);
+        }
+        let problem = Problem::error(node.span, format!("{what} must be a finite number"));
+        self.tell(problem.label("not finite").help("a double-precision number is at most 1.8e308"));
+        None
+    }
+
+    /// An expression of `variable`, or of the parameters alone.
+    pub(crate) fn expression(&self, node: &Node, variable: Option<&str>, what: &str) -> Option<Expression> {
+        let Value::Text(text) = &node.value else {
+            return self.number(node, what).map(Expression::of_constant);
+        };
+        match Expression::parse(text, variable, &self.parameters.borrow()) {
+            Ok(expression) => Some(expression),
+            Err(error) => {
+                self.tell(self.expression_problem(node, text, &error, what));
+                None
+            }
+        }
+    }
+
+    /// Underlines the offending bytes, where the text stands in the file as it is read.
+    fn expression_problem(&self, node: &Node, text: &str, error: &ExpressionError, what: &str) -> Problem {
+        let whole = node.span;
+        let written = self.sources.text(whole);
+        let place = written.find(text).filter(|_| !text.is_empty()).map(|offset| {
+            let start = whole.start + offset + error.range.start;
+            // The end of the expression is shown at the closing quote.
+            Span { start, end: start + error.range.len().max(1) }
+        });
+        Problem::error(place.unwrap_or(whole), format!("{what} cannot be read: {error}"))
+            .label("here")
+            .help("expressions know + - * / ^ ( ), pi, [parameters] and functions such as sin(x)")
+            .maybe_help(error.help.clone())
+    }
+
+    /// A list of exactly `length` values, each read by `read`.
+    pub(crate) fn list<'n>(&self, node: &'n Node, length: usize, what: &str) -> Option<&'n [Node]> {
+        let Value::List(array) = &node.value else {
+            return self.wrong_type(node, what, &format!("a list of {length} numbers"));
+        };
+        if array.len() == length {
+            return Some(array);
+        }
+        let message = format!("{what} must have {length} entries, not {}", array.len());
+        self.tell(
+            Problem::error(node.span, message)
+                .label(format!("{} entries", array.len()))
+                .help(format!("give exactly {length}")),
+        );
+        None
+    }
+
+    /// Exactly `N` finite numbers; every wrong one is noted.
+    pub(crate) fn numbers<const N: usize>(&self, node: &Node, what: &str) -> Option<[f64; N]> {
+        let list = self.list(node, N, what)?;
+        let read: Vec<Option<f64>> = list.iter().map(|entry| self.number(entry, what)).collect();
+        let mut numbers = [0.0; N];
+        for (number, read) in numbers.iter_mut().zip(read) {
+            *number = read?;
+        }
+        Some(numbers)
+    }
+
+    /// Three numbers.
+    pub(crate) fn vector(&self, node: &Node, what: &str) -> Option<Vector3> {
+        self.numbers::<3>(node, what).map(Vector3::from)
+    }
+
+    /// Three numbers that are not all zero.
+    pub(crate) fn direction(&self, node: &Node, what: &str) -> Option<Vector3> {
+        let vector = self.vector(node, what)?;
+        if vector.norm() > f64::MIN_POSITIVE && vector.norm().is_finite() {
+            return Some(vector);
+        }
+        let message = format!("{what} must point somewhere, but its length is not a positive number");
+        self.fail(node.span, message, "only the direction counts: [0, 0, 1] is global z")
+    }
+
+    fn is_list_of_lists(node: &Node) -> bool {
+        let Value::List(rows) = &node.value else { return false };
+        rows.iter().any(|row| matches!(&row.value, Value::List(_)))
+    }
+
+    fn matrix<const N: usize>(&self, node: &Node, what: &str) -> Option<[[f64; N]; N]> {
+        let rows = self.list(node, N, what)?;
+        let read: Vec<_> =
+            rows.iter().map(|row| self.numbers::<N>(row, &format!("each row of {what}"))).collect();
+        let mut matrix = [[0.0; N]; N];
+        for (row, read) in matrix.iter_mut().zip(read) {
+            *row = read?;
+        }
+        let size = matrix.iter().flatten().fold(0.0, |size: f64, entry| size.max(entry.abs()));
+        for i in 0..N {
+            for j in 0..i {
+                if (matrix[i][j] - matrix[j][i]).abs() > 1e-10 * size {
+                    let message = format!(
+                        "{what} must be symmetric, but entry ({}, {}) is {} and entry ({}, {}) is {}",
+                        i + 1,
+                        j + 1,
+                        matrix[i][j],
+                        j + 1,
+                        i + 1,
+                        matrix[j][i]
+                    );
+                    return self.fail(node.span, message, "make both entries equal");
+                }
+            }
+        }
+        Some(matrix)
+    }
+
+    /// Three numbers, or a symmetric 3 x 3 matrix; positive definite.
+    pub(crate) fn inertia(&self, node: &Node, what: &str) -> Option<Matrix3> {
+        let matrix = if Self::is_list_of_lists(node) {
+            let rows = self.matrix::<3>(node, what)?;
+            Matrix3::from_fn(|i, j| rows[i][j])
+        } else {
+            Matrix3::from_diagonal(&self.vector(node, what)?)
+        };
+        let moments = matrix.symmetric_eigenvalues();
+        let [a, b, c] = [moments[0], moments[1], moments[2]];
+        if !(a > 0.0 && b > 0.0 && c > 0.0) {
+            let help = "for a body without extension use [point_masses.…]";
+            return self.fail(node.span, format!("{what} must have positive principal moments"), help);
+        }
+        if 2.0 * a.max(b).max(c) > (a + b + c) * (1.0 + 1e-6) {
+            let message =
+                format!("{what} belongs to no body: one principal moment exceeds the sum of the others");
+            self.tell(
+                Problem::warning(node.span, message).help("check the order and the units of the moments"),
+            );
+        }
+        Some(matrix)
+    }
+
+    /// Six numbers, or a symmetric 6 x 6 matrix; positive definite.
+    pub(crate) fn definite_matrix(&self, node: &Node, what: &str) -> Option<Matrix6> {
+        let matrix = if Self::is_list_of_lists(node) {
+            let rows = self.matrix::<6>(node, what)?;
+            Matrix6::from_fn(|i, j| rows[i][j])
+        } else {
+            Matrix6::from_diagonal(&Vector6::from(self.numbers::<6>(node, what)?))
+        };
+        // Scaled to a unit diagonal, so that units do not decide.
+        let scale = matrix.diagonal().map(|entry| 1.0 / entry.sqrt());
+        let scaled = Matrix6::from_fn(|i, j| matrix[(i, j)] * scale[i] * scale[j]);
+        let definite = matrix.diagonal().min() > 0.0
+            && scaled.iter().all(|entry| entry.is_finite())
+            && scaled.symmetric_eigenvalues().min() > 1e-13;
+        if definite {
+            return Some(matrix);
+        }
+        let help = "every direction needs some stiffness or mass; small values are fine, zeros are not";
+        self.fail(node.span, format!("{what} must be positive definite"), help)
+    }
+}

@@ -1,0 +1,66 @@
+//! A stand-in for the simulator's tables of kinds.
+
+use lissom_core::registry::{Parameter, ParameterType};
+use lissom_model::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry, Registry};
+
+const fn kind(
+    name: &'static str,
+    sample: &'static str,
+    acts_on: ActsOn,
+    parameters: &'static [Parameter],
+) -> KindEntry {
+    KindEntry { name, summary: "A kind for tests.", sample, parameters, acts_on }
+}
+
+const fn choice(name: &'static str, parameters: &'static [Parameter]) -> ChoiceEntry {
+    ChoiceEntry { name, summary: "A choice for tests.", parameters }
+}
+
+const ANGLE: &[Parameter] =
+    &[Parameter::optional("angle", ParameterType::Number, "rad", "initial angle, default 0")];
+const TURN: &[Parameter] =
+    &[Parameter::required("rotation", ParameterType::Function, "rad", "relative rotation")];
+const POINT: &[Parameter] = &[
+    Parameter::required("stiffness", ParameterType::NotNegative, "N/m", "stiffness"),
+    Parameter::optional("damping", ParameterType::NotNegative, "N s/m", "damping"),
+    Parameter::optional("length", ParameterType::NotNegative, "m", "length without force"),
+];
+const TORSIONAL: &[Parameter] = &[
+    Parameter::required("stiffness", ParameterType::NotNegative, "N m/rad", "stiffness"),
+    Parameter::optional("damping", ParameterType::NotNegative, "N m s/rad", "damping"),
+    Parameter::optional("angle", ParameterType::Number, "rad", "angle without moment"),
+];
+const LOAD: &[Parameter] = &[
+    Parameter::required("vector", ParameterType::Vector, "N or N m", "direction and size"),
+    Parameter::optional("scale", ParameterType::Function, "", "factor in time, default 1"),
+    Parameter::optional("follower", ParameterType::Flag, "", "whether it turns with the node"),
+];
+const ALPHA: &[Parameter] =
+    &[Parameter::optional("alpha", ParameterType::Number, "", "from -1/3 to 0, default -0.3")];
+const RADIUS: &[Parameter] =
+    &[Parameter::optional("spectral_radius", ParameterType::Number, "", "from 0 to 1, default 0.8")];
+
+/// Kinds as the model files of the tests use them.
+pub(crate) fn registry() -> Registry {
+    use ActsOn::{JointCoordinate, OneNode, TwoNodes, TwoPlaces};
+    let joints = vec![
+        kind("clamp", "base = \"ground\"\ntip = \"a.start\"", TwoNodes(FrameRule::None), &[]),
+        kind("spherical", "base = \"ground\"\ntip = \"a.start\"", TwoNodes(FrameRule::None), &[]),
+        kind("revolute", "axis = [0, 0, 1]", TwoNodes(FrameRule::Axis), ANGLE),
+        kind("universal", "axis = [0, 0, 1]\nsecond_axis = [0, 1, 0]", TwoNodes(FrameRule::TwoAxes), &[]),
+        kind("rigid_link", "base = \"a.end\"\ntip = \"b.start\"", TwoNodes(FrameRule::None), &[]),
+        kind("swing_arm", "axis = [0, 0, 1]", TwoNodes(FrameRule::Axis), &[]),
+        kind("prescribed_rotation", "joint = \"hinge\"\nrotation = \"t\"", JointCoordinate, TURN),
+    ];
+    let springs = vec![
+        kind("point", "stiffness = 1.0", TwoPlaces, POINT),
+        kind("torsional", "joint = \"hinge\"\nstiffness = 1.0", JointCoordinate, TORSIONAL),
+    ];
+    let loads = vec![
+        kind("force", "on = \"a.end\"\nvector = [0, 0, 1]", OneNode, LOAD),
+        kind("moment", "on = \"a.end\"\nvector = [0, 0, 1]", OneNode, LOAD),
+    ];
+    let schemes = vec![choice("generalized-alpha", RADIUS), choice("hht", ALPHA), choice("radau-iia", &[])];
+    let solvers = vec![choice("sparse", &[]), choice("dense", &[])];
+    Registry { joints, springs, loads, schemes, solvers }
+}
