@@ -14,7 +14,7 @@ use faer::{Conj, MatMut, Par};
 
 use crate::entries::largest_entry;
 use crate::pattern::Pattern;
-use crate::report::{FactorError, FactorReport};
+use crate::report::{FactorError, FactorReport, Monitor};
 use crate::scalar::Scalar;
 use crate::solver::LinearSolver;
 use crate::structure::Structure;
@@ -129,7 +129,10 @@ impl<S: Scalar + ComplexField> LinearSolver<S> for Pivoting<S> {
         assert_eq!(values.len(), self.pattern.entries(), "one value for each entry of the pattern");
         self.factored = false;
         let largest = largest_entry(&self.pattern, values)?;
-        if largest == 0.0 && self.pattern.size() > 0 {
+        if self.pattern.size() == 0 {
+            return Ok(Monitor::new().report(0.0, largest));
+        }
+        if largest == 0.0 {
             return Err(FactorError::ZeroPivot { unknown: 0, pivot: 0.0, largest });
         }
         let matrix = SparseColMatRef::new(shape(&self.pattern), values);

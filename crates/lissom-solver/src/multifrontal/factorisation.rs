@@ -87,8 +87,7 @@ impl<S: Scalar> Numeric<S> {
         let (square, panels) = pieces.split_at_mut(front.square_length());
         let (lower, upper) = panels.split_at_mut(front.panel_length());
         self.square.terms[..pivots].copy_from_slice(&self.terms[steps.clone()]);
-        let mut largest =
-            self.square.factor::<FUSED, ROWS>(square, pivots, &symbolic.unknowns[steps], monitor)?;
+        let mut largest = self.square.factor::<FUSED, ROWS>(square, &symbolic.unknowns[steps], monitor)?;
         if boundary == 0 {
             return Ok(largest);
         }

@@ -14,16 +14,18 @@ use crate::scalar::Scalar;
 const PRODUCT_COLUMNS: usize = 6;
 /// Columns of a tile of a triangular solve.
 const SOLVE_COLUMNS: usize = 4;
+/// Height of the tiles between those of `ROWS` rows and the lowest ones.
+const HALF_TILE: usize = 2 * PADDING;
 /// Columns eliminated before the rest of a panel is brought up to date. A multiple of [`PADDING`].
 pub(super) const BLOCK: usize = 32;
 
 #[inline(always)]
-fn array<S: Scalar, const ROWS: usize>(slice: &[S], at: usize) -> &[S; ROWS] {
+pub(super) fn array<S: Scalar, const ROWS: usize>(slice: &[S], at: usize) -> &[S; ROWS] {
     slice[at..at + ROWS].try_into().expect("a slice of that length")
 }
 
 #[inline(always)]
-fn array_mut<S: Scalar, const ROWS: usize>(slice: &mut [S], at: usize) -> &mut [S; ROWS] {
+pub(super) fn array_mut<S: Scalar, const ROWS: usize>(slice: &mut [S], at: usize) -> &mut [S; ROWS] {
     (&mut slice[at..at + ROWS]).try_into().expect("a slice of that length")
 }
 
@@ -79,6 +81,11 @@ fn strips<S: Scalar, const FUSED: bool, const ADD: bool, const ROWS: usize, cons
             let c = (&mut c[row + column * c_stride..], c_stride);
             strip::<S, FUSED, ADD, ROWS, COLUMNS>(c, (&a[row..], a_stride), b, depth);
             row += ROWS;
+        }
+        while row + HALF_TILE <= rows {
+            let c = (&mut c[row + column * c_stride..], c_stride);
+            strip::<S, FUSED, ADD, HALF_TILE, COLUMNS>(c, (&a[row..], a_stride), b, depth);
+            row += HALF_TILE;
         }
         while row < rows {
             let c = (&mut c[row + column * c_stride..], c_stride);
@@ -178,6 +185,11 @@ pub(super) fn solve_block<S: Scalar, const FUSED: bool, const ROWS: usize>(
         let x = (&mut x[row..], x_stride);
         solve_columns::<S, FUSED, ROWS>(x, triangle, reciprocals, (begin, end));
         row += ROWS;
+    }
+    while row + HALF_TILE <= rows {
+        let x = (&mut x[row..], x_stride);
+        solve_columns::<S, FUSED, HALF_TILE>(x, triangle, reciprocals, (begin, end));
+        row += HALF_TILE;
     }
     while row < rows {
         let x = (&mut x[row..], x_stride);

@@ -1,124 +1,180 @@
-//! LU without pivoting of the square of a front, with the monitor of its pivots. Knows neither the panels below nor
-//! the tree.
+//! LU without pivoting of the square of a front, with the monitor of its pivots. Knows neither the panels
+//! below nor the tree.
+//!
+//! Blocks of four columns are eliminated within blocks of [`BLOCK`], each the same way: factor the diagonal
+//! block, solve for the rows of L below it and for the columns of U right of it, subtract their product from the
+//! rest. `Uᵀ` is kept beside the square, so that both solves and the product run down columns.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use super::fronts::PADDING;
-use super::kernels::{BLOCK, absolute_products, solve_block, subtract_product};
+use super::kernels::{BLOCK, absolute_products, array, array_mut, solve_block, subtract_product};
 use crate::report::{FactorError, Monitor};
 use crate::scalar::Scalar;
 
+/// Columns of the inner blocks.
+const WIDTH: usize = PADDING;
+
 /// Memory for the factorisation of a square of any of the fronts.
 pub(super) struct SquareWork<S> {
-    /// Transpose of `U11`, columns of the same stride as the square's.
+    /// `U11ᵀ` without its diagonal, columns of the same stride as the square's; zero above the diagonal.
     pub(super) transposed: Vec<S>,
     /// Reciprocals of the pivots.
     pub(super) reciprocals: Vec<S>,
     /// For each row of the front the sum of the magnitudes of what its diagonal has been made of.
     pub(super) terms: Vec<f64>,
-    column: [S; BLOCK],
 }
 
 impl<S: Scalar> SquareWork<S> {
     pub(super) fn new(pivots: usize) -> Self {
         let stride = pivots.next_multiple_of(PADDING);
         SquareWork {
-            transposed: vec![S::zero(); stride * pivots],
+            transposed: vec![S::zero(); stride * stride],
             reciprocals: vec![S::zero(); stride],
             terms: vec![0.0; stride],
-            column: [S::zero(); BLOCK],
         }
     }
 
-    /// Replaces the square by `L11` and `U11`, leaving the reciprocals of the pivots on its diagonal. Expects the `terms` of the
-    /// first `pivots` rows to be loaded. Returns the largest magnitude in `U11`.
+    /// Replaces the square by `L11` and `U11`, leaving the reciprocals of the pivots on its diagonal. Expects
+    /// the `terms` of the rows to be loaded. Returns the largest magnitude in `U11`.
     #[inline(always)]
     pub(super) fn factor<const FUSED: bool, const ROWS: usize>(
         &mut self,
         square: &mut [S],
-        pivots: usize,
         unknowns: &[u32],
         monitor: &mut Monitor,
     ) -> Result<f64, FactorError> {
+        let pivots = unknowns.len();
         let stride = pivots.next_multiple_of(PADDING);
         let mut largest = 0.0_f64;
         let mut begin = 0;
         while begin < pivots {
             let end = pivots.min(begin + BLOCK);
-            largest =
-                largest.max(self.factor_block::<FUSED>(square, stride, (begin, end), unknowns, monitor)?);
-            self.transpose(square, stride, (begin, end), pivots);
+            self.factor_block::<FUSED>(square, stride, (begin, end));
             if end < pivots {
-                largest = largest.max(self.eliminate_block::<FUSED, ROWS>(square, (begin, end), pivots));
+                self.eliminate_block::<FUSED, ROWS>(square, (begin, end), pivots);
             }
+            let from = begin * stride + begin;
+            let panels = (&square[from..], &self.transposed[from..]);
+            let shape = (stride - begin, end - begin);
+            largest = largest.max(absolute_products(&mut self.terms[begin..], panels, stride, shape));
             begin = end;
         }
-        for begin in (0..pivots).step_by(BLOCK) {
-            for column in begin + BLOCK..pivots {
-                for row in begin..begin + BLOCK {
-                    square[row + column * stride] = self.transposed[column + row * stride];
-                }
-            }
+        self.copy_upper(square, stride, pivots);
+        // Only now, so that the elimination is not held up: what follows a pivot does not change those before.
+        for (step, &unknown) in unknowns.iter().enumerate() {
+            let diagonal = &mut square[step * stride + step];
+            let pivot = diagonal.magnitude();
+            monitor.pivot(unknown as usize, pivot, self.terms[step])?;
+            largest = if pivot > largest { pivot } else { largest };
+            *diagonal = self.reciprocals[step];
         }
         Ok(largest)
     }
 
-    /// Elimination within the diagonal block, column after column.
+    /// Elimination within a diagonal block, four columns at a time.
     #[inline(always)]
     fn factor_block<const FUSED: bool>(
         &mut self,
         square: &mut [S],
         stride: usize,
         (begin, end): (usize, usize),
-        unknowns: &[u32],
-        monitor: &mut Monitor,
-    ) -> Result<f64, FactorError> {
-        let mut largest = 0.0_f64;
-        let height = (end - begin).next_multiple_of(PADDING);
-        for step in begin..end {
-            let (done, rest) = square.split_at_mut((step + 1) * stride);
-            let column = &mut done[step * stride + begin..step * stride + begin + height];
-            let local = step - begin;
-            let pivot = column[local];
-            monitor.pivot(unknowns[step] as usize, pivot.magnitude(), self.terms[step])?;
-            largest = largest.max(pivot.magnitude());
-            let reciprocal = S::one() / pivot;
-            self.reciprocals[step] = reciprocal;
-            column[local] = reciprocal;
-            // Rows up to the pivot get a factor of zero, so that whole tiles can be worked on.
-            for (row, (factor, value)) in self.column[..height].iter_mut().zip(column).enumerate() {
-                *factor = if row > local { *value * reciprocal } else { S::zero() };
-                *value = if row > local { *factor } else { *value };
+    ) {
+        let bottom = end.next_multiple_of(PADDING);
+        let mut first = begin;
+        while first < end {
+            let width = WIDTH.min(end - first);
+            let block = self.factor_corner::<FUSED>(square, stride, first, width);
+            let next = first + WIDTH;
+            if next < end {
+                let reciprocals: [S; WIDTH] = *array(&self.reciprocals, first);
+                for row in (next..bottom).step_by(PADDING) {
+                    solve_lower::<S, FUSED>(square, stride, (row, first), &block, &reciprocals);
+                    self.solve_upper::<FUSED>(square, stride, (first, row), &block, end);
+                }
+                let (done, rest) = square.split_at_mut(next * stride);
+                subtract_product::<S, FUSED, true, 8>(
+                    (&mut rest[next..], stride),
+                    (&done[first * stride + next..], stride),
+                    (&self.transposed[first * stride + next..], stride),
+                    (bottom - next, end - next, WIDTH),
+                );
             }
-            let from = (local + 1) / PADDING * PADDING;
-            for (next, column) in rest.chunks_exact_mut(stride).enumerate().take(end - step - 1) {
-                let column = &mut column[begin..begin + height];
-                let upper = column[local];
-                let row = local + 1 + next;
-                let size = upper.magnitude();
-                self.terms[begin + row] += self.column[row].magnitude() * size;
-                largest = if size > largest { size } else { largest };
-                for (values, factors) in
-                    column[from..].chunks_exact_mut(PADDING).zip(self.column[from..].chunks_exact(PADDING))
-                {
-                    for lane in 0..PADDING {
-                        values[lane] = S::multiply_add::<FUSED>(factors[lane], -upper, values[lane]);
-                    }
+            first = next;
+        }
+    }
+
+    /// LU of the four columns and rows from `first` on; columns that are not there count as the identity's.
+    #[inline(always)]
+    fn factor_corner<const FUSED: bool>(
+        &mut self,
+        square: &mut [S],
+        stride: usize,
+        first: usize,
+        width: usize,
+    ) -> [[S; WIDTH]; WIDTH] {
+        let mut block = [[S::zero(); WIDTH]; WIDTH];
+        for column in 0..WIDTH {
+            block[column][column] = S::one();
+            if column < width {
+                block[column] = *array(square, (first + column) * stride + first);
+            }
+        }
+        let mut reciprocals = [S::zero(); WIDTH];
+        for step in 0..WIDTH {
+            let reciprocal = S::one() / block[step][step];
+            reciprocals[step] = reciprocal;
+            for row in step + 1..WIDTH {
+                block[step][row] *= reciprocal;
+            }
+            for column in step + 1..WIDTH {
+                let upper = -block[column][step];
+                for row in step + 1..WIDTH {
+                    block[column][row] =
+                        S::multiply_add::<FUSED>(block[step][row], upper, block[column][row]);
                 }
             }
         }
-        Ok(largest)
+        for column in 0..width {
+            let step = first + column;
+            self.reciprocals[step] = reciprocals[column];
+            *array_mut(square, step * stride + first) = block[column];
+            let line = &mut self.transposed[step * stride..(step + 1) * stride];
+            line[..first].fill(S::zero());
+            let line: &mut [S; WIDTH] = array_mut(line, first);
+            for row in 0..WIDTH {
+                line[row] = if row > column { block[row][column] } else { S::zero() };
+            }
+        }
+        block
     }
 
-    /// Copies rows `begin..end` of U, as far as known, to the transpose; padding becomes zero.
+    /// Four columns of U, from `column` on, in the rows of a block.
     #[inline(always)]
-    fn transpose(&mut self, square: &[S], stride: usize, (begin, end): (usize, usize), pivots: usize) {
-        for row in begin..end {
-            let line = &mut self.transposed[row * stride..(row + 1) * stride];
-            for column in begin..pivots {
-                line[column] = square[row + column * stride];
+    fn solve_upper<const FUSED: bool>(
+        &mut self,
+        square: &[S],
+        stride: usize,
+        (first, column): (usize, usize),
+        block: &[[S; WIDTH]; WIDTH],
+        end: usize,
+    ) {
+        let mut panel = [[S::zero(); PADDING]; WIDTH];
+        for lane in 0..PADDING.min(end - column) {
+            let rows: &[S; WIDTH] = array(square, (column + lane) * stride + first);
+            for row in 0..WIDTH {
+                panel[row][lane] = rows[row];
             }
-            line[pivots..].fill(S::zero());
+        }
+        for row in 0..WIDTH {
+            for before in 0..row {
+                let factor = -block[before][row];
+                for lane in 0..PADDING {
+                    panel[row][lane] =
+                        S::multiply_add::<FUSED>(panel[before][lane], factor, panel[row][lane]);
+                }
+            }
+            *array_mut::<S, PADDING>(&mut self.transposed, (first + row) * stride + column) = panel[row];
         }
     }
 
@@ -129,27 +185,30 @@ impl<S: Scalar> SquareWork<S> {
         square: &mut [S],
         (begin, end): (usize, usize),
         pivots: usize,
-    ) -> f64 {
+    ) {
         let stride = pivots.next_multiple_of(PADDING);
         let rows = stride - end;
+        for row in begin..end {
+            let line = &mut self.transposed[row * stride..(row + 1) * stride];
+            for column in end..pivots {
+                line[column] = square[row + column * stride];
+            }
+            line[pivots..].fill(S::zero());
+        }
         let (done, rest) = square.split_at_mut(end * stride);
         let block = &mut done[begin * stride..];
         let transposed = &mut self.transposed[begin * stride..end * stride];
         // The triangles are read where the panels are written, in other rows: take a copy.
         let mut triangle = [S::zero(); BLOCK * BLOCK];
         let width = end - begin;
-        for column in 0..width {
-            for row in column + 1..width {
-                triangle[row + column * BLOCK] = transposed[begin + row + column * stride];
-            }
+        for (column, copy) in triangle.chunks_exact_mut(BLOCK).enumerate().take(width) {
+            copy[..width].copy_from_slice(&transposed[column * stride + begin..][..width]);
         }
         let reciprocals = &self.reciprocals[begin..end];
         let lower = (&mut block[end..], stride);
         solve_block::<S, FUSED, ROWS>(lower, (&triangle, BLOCK), Some(reciprocals), (0, width), rows);
-        for column in 0..width {
-            for row in column + 1..width {
-                triangle[row + column * BLOCK] = block[begin + row + column * stride];
-            }
+        for (column, copy) in triangle.chunks_exact_mut(BLOCK).enumerate().take(width) {
+            copy[..width].copy_from_slice(&block[column * stride + begin..][..width]);
         }
         let upper = (&mut transposed[end..], stride);
         solve_block::<S, FUSED, ROWS>(upper, (&triangle, BLOCK), None, (0, width), rows);
@@ -159,7 +218,45 @@ impl<S: Scalar> SquareWork<S> {
             (&transposed[end..], stride),
             (rows, pivots - end, width),
         );
-        let panels = (&block[end..], &transposed[end..]);
-        absolute_products(&mut self.terms[end..], panels, stride, (rows, width))
+    }
+
+    /// Writes U right of the inner diagonal blocks back to the square.
+    #[inline(always)]
+    fn copy_upper(&self, square: &mut [S], stride: usize, pivots: usize) {
+        for first in (0..pivots).step_by(WIDTH) {
+            for column in first + WIDTH..pivots {
+                let rows: &mut [S; WIDTH] = array_mut(square, column * stride + first);
+                for row in 0..WIDTH {
+                    rows[row] = self.transposed[(first + row) * stride + column];
+                }
+            }
+        }
+    }
+}
+
+/// Four rows of L, from `row` on, in the columns of a block.
+#[inline(always)]
+fn solve_lower<S: Scalar, const FUSED: bool>(
+    square: &mut [S],
+    stride: usize,
+    (row, first): (usize, usize),
+    block: &[[S; WIDTH]; WIDTH],
+    reciprocals: &[S; WIDTH],
+) {
+    let mut panel = [[S::zero(); PADDING]; WIDTH];
+    for column in 0..WIDTH {
+        let place: &mut [S; PADDING] = array_mut(square, (first + column) * stride + row);
+        panel[column] = *place;
+        for before in 0..column {
+            let factor = -block[column][before];
+            for lane in 0..PADDING {
+                panel[column][lane] =
+                    S::multiply_add::<FUSED>(panel[before][lane], factor, panel[column][lane]);
+            }
+        }
+        for lane in 0..PADDING {
+            panel[column][lane] *= reciprocals[column];
+        }
+        *place = panel[column];
     }
 }

@@ -10,7 +10,8 @@ use std::collections::BinaryHeap;
 use super::{GroupGraph, HostCount};
 use crate::structure::Structure;
 
-/// Order of elimination of the groups that keeps fill small, with every group right after the last of its hosts.
+/// Order of elimination of the groups that keeps fill small, with every group after all of its hosts: once
+/// the last of them has gone, and what goes along with it at no fill, before any other choice is made.
 /// Deterministic; ties go to the smaller index.
 ///
 /// # Panics

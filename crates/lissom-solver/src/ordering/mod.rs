@@ -1,5 +1,5 @@
-//! Orders of elimination of groups. Both keep every group behind all of its hosts and put it right after the
-//! last of them. They know the pattern, never values.
+//! Orders of elimination of groups. Both keep every group behind all of its hosts, close to the last of
+//! them. They know the pattern, never values.
 
 mod group_graph;
 mod minimum_degree;

@@ -1,0 +1,71 @@
+//! Refactorisation and solve of chains, trees and grids, by solver and number of unknowns.
+//!
+//! `LISSOM_BENCH_LARGE=1` adds 200 000 unknowns. Skyline is left out where its profile makes it hopeless.
+
+use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use lissom_solver::kind;
+use lissom_solver::samples::{Model, chain, grid, right_hand_side, tree};
+
+type Family = (&'static str, fn(usize) -> Model);
+const FAMILIES: [Family; 3] = [("chain", chain), ("tree", tree), ("grid", grid)];
+const SOLVERS: [&str; 3] = ["sparse", "skyline", "pivoting"];
+
+fn sizes() -> Vec<usize> {
+    let mut sizes = vec![200, 300, 2_000, 20_000];
+    if std::env::var_os("LISSOM_BENCH_LARGE").is_some() {
+        sizes.push(200_000);
+    }
+    sizes
+}
+
+fn is_hopeless(solver: &str, family: &str, size: usize) -> bool {
+    solver == "skyline" && family != "chain" && size > 2_000
+}
+
+fn factorisation(criterion: &mut Criterion) {
+    for (family, model) in FAMILIES {
+        for size in sizes() {
+            let model = model(size);
+            let structure = model.structure();
+            let values = model.values::<f64>(&structure.pattern, 1, 1.0);
+            let b = right_hand_side::<f64>(model.size, 2);
+            for name in SOLVERS {
+                let Some(kind) = kind(name).filter(|_| !is_hopeless(name, family, size)) else { continue };
+                let mut solver = (kind.real)(&structure);
+                let mut group = criterion.benchmark_group(format!("{family}/factor"));
+                group.sample_size(10).bench_function(BenchmarkId::new(name, size), |bencher| {
+                    bencher.iter(|| solver.factor(&values).expect("a regular matrix"));
+                });
+                group.finish();
+                let mut x = b.clone();
+                let mut group = criterion.benchmark_group(format!("{family}/solve"));
+                group.sample_size(10).bench_function(BenchmarkId::new(name, size), |bencher| {
+                    bencher.iter(|| {
+                        x.copy_from_slice(&b);
+                        solver.solve(&mut x);
+                    });
+                });
+                group.finish();
+            }
+        }
+    }
+}
+
+fn analysis(criterion: &mut Criterion) {
+    for (family, model) in FAMILIES {
+        for size in sizes() {
+            let structure = model(size).structure();
+            let mut group = criterion.benchmark_group(format!("{family}/analysis"));
+            for name in ["sparse", "skyline"] {
+                let Some(kind) = kind(name).filter(|_| !is_hopeless(name, family, size)) else { continue };
+                group.sample_size(10).bench_function(BenchmarkId::new(name, size), |bencher| {
+                    bencher.iter(|| (kind.real)(&structure))
+                });
+            }
+            group.finish();
+        }
+    }
+}
+
+criterion_group!(benches, factorisation, analysis);
+criterion_main!(benches);
