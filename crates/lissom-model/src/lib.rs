@@ -6,10 +6,12 @@
 mod context;
 pub mod document;
 pub mod expression;
+pub mod files;
 mod function_values;
 pub mod functions;
 mod keys;
 pub mod line;
+pub mod output;
 mod reader;
 pub mod registry;
 mod report;

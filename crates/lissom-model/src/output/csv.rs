@@ -1,0 +1,124 @@
+//! Results as comma-separated values: a heading `t [s],midspan.x [m],…`, then one line per record.
+
+use std::io::{self, Write};
+use std::time::{Duration, Instant};
+
+use super::{Column, Writer};
+
+/// Longest time that lines stay in the buffer: an interrupted run loses no more.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Writes comma-separated values. Numbers have the fewest digits that give them back exactly.
+#[derive(Debug)]
+pub struct CsvWriter<W: Write> {
+    to: W,
+    /// Complete lines only, so that the file never ends within one.
+    lines: Vec<u8>,
+    flushed: Instant,
+}
+
+impl<W: Write> CsvWriter<W> {
+    /// A writer to `to`.
+    pub fn new(to: W) -> Self {
+        Self { to, lines: Vec::new(), flushed: Instant::now() }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.write_all(&self.lines)?;
+        self.lines.clear();
+        self.flushed = Instant::now();
+        self.to.flush()
+    }
+}
+
+impl<W: Write> Writer for CsvWriter<W> {
+    fn begin(&mut self, columns: &[Column]) -> io::Result<()> {
+        self.lines.extend_from_slice(b"t [s]");
+        for column in columns {
+            write!(self.lines, ",{}", quoted(&column.heading()))?;
+        }
+        self.lines.push(b'\n');
+        self.flush()
+    }
+
+    fn row(&mut self, time: f64, values: &[f64]) -> io::Result<()> {
+        write_number(&mut self.lines, time)?;
+        for value in values {
+            self.lines.push(b',');
+            write_number(&mut self.lines, *value)?;
+        }
+        self.lines.push(b'\n');
+        if self.lines.len() > 1 << 16 || self.flushed.elapsed() > PATIENCE { self.flush() } else { Ok(()) }
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        self.flush()
+    }
+}
+
+/// Quotes a heading that has commas or quotes in it.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
+/// The shortest digits that give the number back, with an exponent where it saves zeros.
+fn write_number(to: &mut Vec<u8>, value: f64) -> io::Result<()> {
+    let size = value.abs();
+    if value == 0.0 || !value.is_finite() || (1e-4..1e9).contains(&size) {
+        write!(to, "{value}")
+    } else {
+        write!(to, "{value:e}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn columns() -> Vec<Column> {
+        vec![Column::new("midspan", "x", "displacement", "m"), Column::new("energy, total", "", "energy", "")]
+    }
+
+    #[test]
+    fn lines_have_a_heading_and_short_numbers() {
+        let mut writer = CsvWriter::new(Vec::new());
+        writer.begin(&columns()).unwrap();
+        writer.row(0.1, &[1.0, -2.5e-12]).unwrap();
+        writer.row(0.2, &[f64::NAN, 1e300]).unwrap();
+        writer.finish().unwrap();
+        let wanted = "t [s],midspan.x [m],\"energy, total\"\n0.1,1,-2.5e-12\n0.2,NaN,1e300\n";
+        assert_eq!(String::from_utf8(writer.to).unwrap(), wanted);
+    }
+
+    #[test]
+    fn only_whole_lines_leave_the_buffer() {
+        let mut writer = CsvWriter::new(Vec::new());
+        writer.begin(&columns()).unwrap();
+        for i in 0..20_000 {
+            writer.row(f64::from(i) * 1e-3, &[1.0 / 3.0, 2.0 / 3.0]).unwrap();
+            assert_eq!(writer.to.last(), Some(&b'\n'));
+        }
+        let before = writer.to.len();
+        assert!(before > 1 << 16 && !writer.lines.is_empty());
+        // After the time of patience the next row leaves at once.
+        writer.flushed = Instant::now().checked_sub(2 * PATIENCE).unwrap();
+        writer.row(20.0, &[0.0, 0.0]).unwrap();
+        assert!(writer.lines.is_empty() && writer.to.len() > before);
+    }
+
+    proptest! {
+        #[test]
+        fn numbers_come_back_exactly(value in any::<f64>()) {
+            let mut text = Vec::new();
+            write_number(&mut text, value).unwrap();
+            let back: f64 = String::from_utf8(text).unwrap().parse().unwrap();
+            prop_assert!(back.to_bits() == value.to_bits() || (back.is_nan() && value.is_nan()));
+        }
+    }
+}

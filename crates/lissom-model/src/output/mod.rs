@@ -1,0 +1,62 @@
+//! Where results go: columns of numbers over time, to tables, summaries and plots. Knows no mechanics.
+
+mod csv;
+mod plot;
+mod record;
+mod summary;
+
+use std::io;
+
+pub use csv::CsvWriter;
+pub use plot::{Figure, FigureError, figures};
+pub use record::{Record, RecordError};
+pub use summary::Summary;
+
+/// What a column of results holds.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Column {
+    /// Name of the output it belongs to, as `midspan`; columns of one output are drawn together.
+    pub output: String,
+    /// Component, as `x`; empty for the only one.
+    pub component: String,
+    /// Quantity in words, as `displacement`.
+    pub quantity: String,
+    /// Unit, as `m`; empty for none.
+    pub unit: String,
+}
+
+impl Column {
+    /// A column.
+    pub fn new(output: &str, component: &str, quantity: &str, unit: &str) -> Self {
+        let [output, component, quantity, unit] = [output, component, quantity, unit].map(str::to_owned);
+        Self { output, component, quantity, unit }
+    }
+
+    /// Heading, as `midspan.x [m]`.
+    pub fn heading(&self) -> String {
+        let dot = if self.component.is_empty() { "" } else { "." };
+        let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
+        format!("{}{dot}{}{unit}", self.output, self.component)
+    }
+}
+
+/// Takes results row by row.
+pub trait Writer {
+    /// Starts with the columns after the time.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    fn begin(&mut self, columns: &[Column]) -> io::Result<()>;
+
+    /// Takes the values of all columns at `time` [s].
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    fn row(&mut self, time: f64, values: &[f64]) -> io::Result<()>;
+
+    /// Ends: nothing is left in a buffer.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    fn finish(&mut self) -> io::Result<()>;
+}

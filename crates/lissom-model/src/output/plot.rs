@@ -1,0 +1,243 @@
+//! Plots of results over time, one figure per output and unit. The drawing itself is done by kuva; only this
+//! module knows it.
+
+use kuva::plot::LinePlot;
+use kuva::plot::legend::LegendPosition;
+use kuva::render::layout::Layout;
+use kuva::render::plots::Plot;
+use kuva::render::theme::Theme;
+
+use super::{Column, Record};
+
+/// Most points of a drawn curve.
+const POINTS: usize = 2000;
+
+/// Blue, vermilion, green, purple, orange, sky blue, black (after Okabe and Ito 2008): told apart also by
+/// people who do not see all colours, and on paper.
+const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
+
+/// A figure that could not be drawn.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the figure `{figure}` cannot be drawn: {reason}")]
+pub struct FigureError {
+    /// Name of the figure.
+    pub figure: String,
+    /// Why not.
+    pub reason: String,
+}
+
+/// One drawing: curves over time with a common unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Name, fit for a file.
+    pub name: String,
+    title: String,
+    quantity: String,
+    unit: String,
+    curves: Vec<(String, Vec<(f64, f64)>)>,
+}
+
+/// The figures of a record: one per output, or per output and unit where its columns have several.
+pub fn figures(record: &Record, title: &str) -> Vec<Figure> {
+    let mut figures: Vec<(&Column, Vec<usize>)> = Vec::new();
+    for (index, column) in record.columns.iter().enumerate() {
+        let same = |other: &Column| other.output == column.output && other.unit == column.unit;
+        match figures.iter_mut().find(|(first, _)| same(first)) {
+            Some((_, members)) => members.push(index),
+            None => figures.push((column, vec![index])),
+        }
+    }
+    let several = |output: &str| figures.iter().filter(|(first, _)| first.output == output).count() > 1;
+    let figure = |(first, members): &(&Column, Vec<usize>)| {
+        let plain = |text: &str| text.replace(|c: char| !c.is_alphanumeric() && c != '-', "_");
+        let suffix = if several(&first.output) { format!("_{}", plain(&first.unit)) } else { String::new() };
+        let output = &first.output;
+        Figure {
+            name: format!("{}{suffix}", plain(output)),
+            title: if title.is_empty() { output.clone() } else { format!("{title}: {output}") },
+            quantity: first.quantity.clone(),
+            unit: first.unit.clone(),
+            curves: members
+                .iter()
+                .map(|&index| {
+                    (record.columns[index].component.clone(), thinned(&record.times, &record.values[index]))
+                })
+                .collect(),
+        }
+    };
+    figures.iter().map(figure).collect()
+}
+
+/// At most [`POINTS`] points of a curve: both extremes of every stretch of time, and both ends.
+fn thinned(times: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
+    let finite = |point: &(f64, f64)| point.0.is_finite() && point.1.is_finite();
+    let points: Vec<(f64, f64)> = times.iter().copied().zip(values.iter().copied()).filter(finite).collect();
+    if points.len() <= POINTS {
+        return points;
+    }
+    let size = points.len().div_ceil(POINTS / 2 - 1);
+    let mut kept = Vec::with_capacity(POINTS);
+    kept.extend(points.first());
+    for stretch in points.chunks(size) {
+        let by_value = |a: &(usize, &(f64, f64)), b: &(usize, &(f64, f64))| a.1.1.total_cmp(&b.1.1);
+        let least = stretch.iter().enumerate().min_by(by_value).map_or(0, |(index, _)| index);
+        let most = stretch.iter().enumerate().max_by(by_value).map_or(0, |(index, _)| index);
+        kept.push(stretch[least.min(most)]);
+        if least != most {
+            kept.push(stretch[least.max(most)]);
+        }
+    }
+    kept.extend(points.last());
+    kept
+}
+
+impl Figure {
+    /// The drawing as an SVG text.
+    ///
+    /// # Errors
+    /// If there is nothing to draw.
+    pub fn svg(&self) -> Result<String, FigureError> {
+        let (plots, layout) = self.draw()?;
+        Ok(kuva::render_to_svg(plots, layout))
+    }
+
+    /// The drawing as the bytes of a PNG file.
+    ///
+    /// # Errors
+    /// If there is nothing to draw, or the drawing library fails.
+    pub fn png(&self) -> Result<Vec<u8>, FigureError> {
+        let (plots, layout) = self.draw()?;
+        kuva::render_to_png(plots, layout, 2.0).map_err(|reason| self.failure(reason))
+    }
+
+    fn failure(&self, reason: impl Into<String>) -> FigureError {
+        FigureError { figure: self.name.clone(), reason: reason.into() }
+    }
+
+    fn draw(&self) -> Result<(Vec<Plot>, Layout), FigureError> {
+        let points = || self.curves.iter().flat_map(|(_, points)| points);
+        let Some(&(first, _)) = points().next() else {
+            return Err(self.failure("it has no finite values"));
+        };
+        let last = points().map(|point| point.0).fold(first, f64::max);
+        let (factor, unit) = prefixed(points().fold(0.0, |most, point| point.1.abs().max(most)), &self.unit);
+        let curve = |(index, (name, points)): (usize, &(String, Vec<(f64, f64)>))| {
+            let line = LinePlot::new()
+                .with_data(points.iter().map(|(time, value)| (*time, value / factor)))
+                .with_color(COLOURS[index % COLOURS.len()])
+                .with_stroke_width(1.6);
+            // Beyond the colours, dashes.
+            let line = if index < COLOURS.len() { line } else { line.with_dashed() };
+            Plot::Line(if name.is_empty() { line } else { line.with_legend(name.as_str()) })
+        };
+        let plots: Vec<Plot> = self.curves.iter().enumerate().map(curve).collect();
+        let theme = Theme { grid_color: "#e4e4e4".into(), legend_border: "none".into(), ..Theme::light() };
+        let mut layout = Layout::auto_from_plots(&plots)
+            .with_width(760.0)
+            .with_height(460.0)
+            .with_theme(theme)
+            .with_title(self.title.as_str())
+            .with_title_size(16)
+            .with_x_label("time [s]")
+            .with_y_label(format!("{}{unit}", self.quantity))
+            .with_legend_position(LegendPosition::OutsideRightTop);
+        if last > first {
+            layout = layout.with_x_axis_min(first).with_x_axis_max(last + 1e-9 * (last - first));
+        }
+        let (low, high) = points().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| {
+            (low.min(point.1 / factor), high.max(point.1 / factor))
+        });
+        // A constant would have an axis without extent.
+        if high - low <= 1e-12 * high.abs().max(low.abs()) {
+            let room = if high == 0.0 { 1.0 } else { 0.1 * high.abs() };
+            layout = layout.with_y_axis_min(low - room).with_y_axis_max(high + room);
+        }
+        Ok((plots, layout))
+    }
+}
+
+/// Powers of ten and their prefixes.
+const PREFIXES: [(f64, &str); 8] =
+    [(1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"), (1e-9, "n"), (1e-12, "p")];
+
+/// A factor that leaves numbers of few digits on the axis, and the unit times this factor, in brackets.
+fn prefixed(most: f64, unit: &str) -> (f64, String) {
+    let takes_prefix = ["m", "N", "J", "W", "Pa", "rad"].iter().any(|known| unit.starts_with(known));
+    let plain = if unit.is_empty() { String::new() } else { format!(" [{unit}]") };
+    if !takes_prefix || (0.1..1e4).contains(&most) {
+        return (1.0, plain);
+    }
+    let found = PREFIXES.iter().find(|(factor, _)| most >= *factor && most < 1e4 * factor);
+    found.map_or((1.0, plain), |(factor, prefix)| (*factor, format!(" [{prefix}{unit}]")))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::output::Writer;
+
+    fn record(rows: u32, value: impl Fn(f64) -> Vec<f64>, columns: &[Column]) -> Record {
+        let mut record = Record::default();
+        record.begin(columns).unwrap();
+        for i in 0..rows {
+            let time = f64::from(i) * 1e-4;
+            record.row(time, &value(time)).unwrap();
+        }
+        record
+    }
+
+    fn displacement() -> Vec<Column> {
+        ["x", "y", "z"].map(|component| Column::new("mid span", component, "displacement", "m")).to_vec()
+    }
+
+    #[test]
+    fn figures_have_titles_labels_and_curves() {
+        let mut columns = displacement();
+        columns.push(Column::new("root", "force", "reaction", "N"));
+        columns.push(Column::new("root", "moment", "reaction", "N m"));
+        let record = record(5000, |t| vec![t.sin(), t.cos(), 0.0, 1.0, t], &columns);
+        let figures = figures(&record, "Tip crank");
+        let names: Vec<&str> = figures.iter().map(|figure| figure.name.as_str()).collect();
+        assert_eq!(names, ["mid_span", "root_N", "root_N_m"]);
+        let svg = figures[0].svg().unwrap();
+        for words in ["Tip crank: mid span", "displacement [m]", "time [s]", ">x<", ">z<", COLOURS[2]] {
+            assert!(svg.contains(words), "{words}");
+        }
+        assert!(figures[1].png().unwrap().starts_with(b"\x89PNG"));
+    }
+
+    #[test]
+    fn small_and_large_values_get_a_prefix() {
+        assert_eq!(prefixed(7e-3, "m"), (1e-3, " [mm]".to_owned()));
+        assert_eq!(prefixed(0.5, "m"), (1.0, " [m]".to_owned()));
+        assert_eq!(prefixed(2e4, "N m"), (1e3, " [kN m]".to_owned()));
+        assert_eq!(prefixed(9999.0, "N"), (1.0, " [N]".to_owned()));
+        assert_eq!(prefixed(1e-5, ""), (1.0, String::new()));
+        assert_eq!(prefixed(0.0, "m"), (1.0, " [m]".to_owned()));
+        assert_eq!(prefixed(1e-30, "m"), (1.0, " [m]".to_owned()));
+    }
+
+    #[test]
+    fn thinning_keeps_extremes_and_ends() {
+        let value = |t: f64| vec![if (t - 1.2345).abs() < 1e-5 { 9.0 } else { (50.0 * t).sin() }; 3];
+        let record = record(100_000, value, &displacement());
+        let points = thinned(&record.times, &record.values[0]);
+        assert!(points.len() <= POINTS && points.len() > POINTS / 2, "{}", points.len());
+        assert!(points.iter().any(|point| point.1 == 9.0));
+        assert_eq!(points.first().unwrap().0, 0.0);
+        assert_eq!(points.last().unwrap().0, *record.times.last().unwrap());
+        assert!(points.windows(2).all(|pair| pair[0].0 <= pair[1].0));
+    }
+
+    #[test]
+    fn constants_gaps_and_nothing_are_drawn_or_refused() {
+        let zero = record(10, |_| vec![0.0; 3], &displacement());
+        assert!(figures(&zero, "").iter().all(|figure| figure.png().is_ok() && figure.svg().is_ok()));
+        let huge = record(10, |t| vec![1e300 * t, -1e300, f64::NAN], &displacement());
+        assert!(figures(&huge, "").iter().all(|figure| figure.png().is_ok()));
+        let one = record(1, |_| vec![1.0; 3], &displacement());
+        assert!(figures(&one, "").iter().all(|figure| figure.png().is_ok()));
+        let nothing = record(10, |_| vec![f64::NAN; 3], &displacement());
+        assert!(figures(&nothing, "")[0].svg().is_err());
+    }
+}

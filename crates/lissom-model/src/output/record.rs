@@ -1,0 +1,160 @@
+//! Results in memory, by columns; written to by a run, or read back from comma-separated values.
+
+use std::io;
+
+use super::{Column, Writer};
+
+/// Results in memory.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Record {
+    /// What each column holds.
+    pub columns: Vec<Column>,
+    /// Times [s].
+    pub times: Vec<f64>,
+    /// Values, one list per column, as long as the times.
+    pub values: Vec<Vec<f64>>,
+}
+
+/// A text that is no table of results.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum RecordError {
+    /// There is no heading.
+    #[error("the table has no heading `t [s],…`")]
+    NoHeading,
+    /// A line has too many or too few numbers, or something that is none.
+    #[error("line {0} does not hold one number per column")]
+    BadLine(usize),
+}
+
+impl Record {
+    /// The column of `output` and `component`.
+    pub fn column(&self, output: &str, component: &str) -> Option<&[f64]> {
+        let found = |column: &Column| column.output == output && column.component == component;
+        self.columns.iter().position(found).map(|index| self.values[index].as_slice())
+    }
+
+    /// Reads what a [`CsvWriter`](super::CsvWriter) has written. Quantities are not in the text: they are taken
+    /// as the outputs' names.
+    ///
+    /// # Errors
+    /// If the text is something else. A last line without end, as of an interrupted run, is left out.
+    pub fn from_csv(text: &str) -> Result<Self, RecordError> {
+        let whole = text.rfind('\n').map_or("", |end| &text[..end]);
+        let mut lines = whole.lines();
+        let heading = lines.next().map(fields).filter(|fields| fields[0] == "t [s]");
+        let columns: Vec<Column> =
+            heading.ok_or(RecordError::NoHeading)?.iter().skip(1).map(|heading| column(heading)).collect();
+        let mut record = Self { values: vec![Vec::new(); columns.len()], columns, times: Vec::new() };
+        for (index, line) in lines.enumerate() {
+            let bad = || RecordError::BadLine(index + 2);
+            let numbers: Result<Vec<f64>, _> = line.split(',').map(str::parse).collect();
+            let numbers = numbers.map_err(|_| bad())?;
+            let [time, values @ ..] = numbers.as_slice() else { return Err(bad()) };
+            if values.len() != record.columns.len() {
+                return Err(bad());
+            }
+            record.push(*time, values);
+        }
+        Ok(record)
+    }
+
+    fn push(&mut self, time: f64, values: &[f64]) {
+        self.times.push(time);
+        for (column, value) in self.values.iter_mut().zip(values) {
+            column.push(*value);
+        }
+    }
+}
+
+/// Splits at commas outside of quotes.
+fn fields(line: &str) -> Vec<String> {
+    let mut fields = vec![String::new()];
+    let mut inside = false;
+    let mut last = ' ';
+    for c in line.chars() {
+        let open = fields.len() - 1;
+        match c {
+            // A doubled quote inside of quotes stands for itself.
+            '"' if !inside && last == '"' => {
+                fields[open].push('"');
+                inside = true;
+            }
+            '"' => inside = !inside,
+            ',' if !inside => fields.push(String::new()),
+            _ => fields[open].push(c),
+        }
+        last = c;
+    }
+    fields
+}
+
+/// From a heading back to a column.
+fn column(heading: &str) -> Column {
+    let (name, unit) = match heading.strip_suffix(']').and_then(|rest| rest.rsplit_once(" [")) {
+        Some((name, unit)) => (name, unit),
+        None => (heading, ""),
+    };
+    let (output, component) = name.split_once('.').unwrap_or((name, ""));
+    Column::new(output, component, output, unit)
+}
+
+impl Writer for Record {
+    fn begin(&mut self, columns: &[Column]) -> io::Result<()> {
+        *self =
+            Self { columns: columns.to_vec(), times: Vec::new(), values: vec![Vec::new(); columns.len()] };
+        Ok(())
+    }
+
+    fn row(&mut self, time: f64, values: &[f64]) -> io::Result<()> {
+        if values.len() == self.columns.len() {
+            self.push(time, values);
+            return Ok(());
+        }
+        let message = format!("{} values for {} columns", values.len(), self.columns.len());
+        Err(io::Error::new(io::ErrorKind::InvalidInput, message))
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::CsvWriter;
+    use super::*;
+
+    #[test]
+    fn a_table_comes_back_from_its_text() {
+        let columns = vec![
+            Column::new("a", "x", "a", "m"),
+            Column::new("b", "", "b", "J"),
+            Column::new("q, \"r\"", "", "q, \"r\"", ""),
+        ];
+        let mut record = Record::default();
+        let mut text = Vec::new();
+        let mut writer = CsvWriter::new(&mut text);
+        let both: [&mut dyn Writer; 2] = [&mut record, &mut writer];
+        for writer in both {
+            writer.begin(&columns).unwrap();
+            for i in 0..5 {
+                writer.row(f64::from(i) / 3.0, &[1e-9 / 7.0, f64::from(i), -0.1]).unwrap();
+            }
+            writer.finish().unwrap();
+        }
+        assert!(record.row(1.0, &[1.0]).is_err());
+        let text = String::from_utf8(text).unwrap();
+        assert_eq!(Record::from_csv(&text).unwrap(), record);
+        let cut = &text[..text.len() - 3];
+        assert_eq!(Record::from_csv(cut).unwrap().times.len(), 4);
+        assert_eq!(record.column("b", ""), Some([0.0, 1.0, 2.0, 3.0, 4.0].as_slice()));
+    }
+
+    #[test]
+    fn other_texts_are_refused() {
+        assert_eq!(Record::from_csv(""), Err(RecordError::NoHeading));
+        assert_eq!(Record::from_csv("a,b\n1,2\n"), Err(RecordError::NoHeading));
+        assert_eq!(Record::from_csv("t [s],a\n1,2\n1\n"), Err(RecordError::BadLine(3)));
+        assert_eq!(Record::from_csv("t [s],a\n1,x\n"), Err(RecordError::BadLine(2)));
+    }
+}
