@@ -11,3 +11,8 @@ pub mod registry;
 pub mod scaling;
 pub mod schemes;
 pub mod system;
+
+/// The linear solvers, by name.
+pub mod solvers {
+    pub use lissom_solver::{KINDS, SolverKind, kind};
+}

@@ -48,8 +48,18 @@ impl Default for Limits {
 pub struct Memory {
     /// Whether there is a factored tangent that may still serve.
     pub has_tangent: bool,
-    /// Contraction per iteration last seen with this tangent.
+    /// Contraction from the first to the second correction, last seen with this tangent.
     contraction: Option<f64>,
+    /// Size of correction at which iterations have stalled for round-off [-].
+    round_off: f64,
+}
+
+impl Memory {
+    /// Forgets the tangent, and what was learned with it.
+    fn forget_tangent(&mut self) {
+        self.has_tangent = false;
+        self.contraction = None;
+    }
 }
 
 /// A solution found.
@@ -84,8 +94,10 @@ pub enum Failure {
     Factor(FactorError),
 }
 
-/// Slower contraction than this asks for a new tangent.
-const SLOW: f64 = 0.3;
+/// A tangent is renewed when it would need more iterations than this: about what a new one costs.
+const PATIENCE: f64 = 6.0;
+/// A contraction that has not been seen for a solution is trusted this much less.
+const DISTRUST: f64 = 3.0;
 /// Corrections that shrink by less than this are round-off, once they are small.
 const STALLED: f64 = 0.5;
 /// A stalled correction below this size is round-off whatever the reference [-].
@@ -109,57 +121,102 @@ pub fn solve<E: Equations>(
     while outcome.iterations < limits.max_iterations {
         if !memory.has_tangent {
             equations.renew_tangent().map_err(Failure::Factor)?;
-            *memory = Memory { has_tangent: true, contraction: None };
+            memory.has_tangent = true;
+            memory.contraction = None;
             outcome.factorizations += 1;
             fresh = true;
             previous = None;
         }
-        let Correction { size, reference } = equations.correct();
+        let correction = equations.correct();
         outcome.iterations += 1;
-        outcome.correction = size;
-        if !(size.is_finite() && reference.is_finite()) {
-            memory.has_tangent = false;
-            if fresh {
-                return Err(Failure::NotFinite { iterations: outcome.iterations });
-            }
-            equations.restart();
-            continue;
-        }
-        if size == 0.0 {
-            return Ok(outcome);
-        }
-        let contraction = previous.map(|previous| size / previous);
-        if let Some(contraction) = contraction {
-            memory.contraction = Some(contraction);
-        }
-        let goal = limits.tolerance * reference;
-        if let Some(contraction) = contraction.or(memory.contraction.filter(|_| previous.is_none())) {
-            // Geometric series of the corrections still to come.
-            let remaining = if contraction < 1.0 { contraction / (1.0 - contraction) } else { f64::INFINITY };
-            if remaining * size <= goal {
-                return Ok(outcome);
-            }
-        }
-        if let Some(contraction) = contraction {
-            let round_off = size <= ROUND_OFF || (fresh && size <= STALLED_FRACTION * reference);
-            if contraction > STALLED && round_off {
+        outcome.correction = correction.size;
+        if std::env::var_os("TRACE").is_some() { eprintln!("  it {} size {:.3e} ref {:.3e} ratio {:.2e} fresh {fresh}", outcome.iterations, correction.size, correction.reference, previous.map_or(0.0, |p| correction.size / p)); }
+        match judge(&correction, previous, fresh, limits, memory) {
+            Verdict::Converged => return Ok(outcome),
+            Verdict::Stalled => {
                 outcome.stagnated = true;
                 return Ok(outcome);
             }
-            if contraction > 1.0 && !fresh {
-                // The old tangent leads astray: back to the first guess with a new one.
-                memory.has_tangent = false;
-                equations.restart();
-                continue;
+            Verdict::Go => previous = Some(correction.size),
+            Verdict::Renew => {
+                memory.forget_tangent();
+                previous = Some(correction.size);
             }
-            if contraction > SLOW {
-                memory.has_tangent = false;
+            Verdict::Restart if fresh => {
+                memory.forget_tangent();
+                return Err(Failure::NotFinite { iterations: outcome.iterations });
+            }
+            Verdict::Restart => {
+                memory.forget_tangent();
+                equations.restart();
             }
         }
-        previous = Some(size);
     }
-    memory.has_tangent = false;
+    memory.forget_tangent();
     Err(Failure::NotConverged { iterations: outcome.iterations, correction: outcome.correction })
+}
+
+/// What to do after a correction.
+enum Verdict {
+    Converged,
+    /// Round-off is reached.
+    Stalled,
+    /// Go on with the same tangent.
+    Go,
+    /// Go on with a new tangent.
+    Renew,
+    /// Go back to the first guess with a new tangent.
+    Restart,
+}
+
+fn judge(
+    correction: &Correction,
+    previous: Option<f64>,
+    fresh: bool,
+    limits: &Limits,
+    memory: &mut Memory,
+) -> Verdict {
+    let Correction { size, reference } = *correction;
+    if !(size.is_finite() && reference.is_finite()) {
+        return Verdict::Restart;
+    }
+    let goal = (limits.tolerance * reference).max(memory.round_off);
+    let Some(previous) = previous else {
+        // The first correction is judged by the contraction of earlier solutions, which is trusted less
+        // each time it is not seen again.
+        if size == 0.0 {
+            return Verdict::Converged;
+        }
+        if let Some(contraction) = memory.contraction
+            && remaining(contraction) * size <= goal
+        {
+            memory.contraction = Some(DISTRUST * contraction);
+            return Verdict::Converged;
+        }
+        return Verdict::Go;
+    };
+    let contraction = size / previous;
+    memory.contraction = Some(memory.contraction.map_or(contraction, |known| known.max(contraction)));
+    if remaining(contraction) * size <= goal {
+        memory.contraction = Some(contraction);
+        return Verdict::Converged;
+    }
+    let near_round_off = size <= ROUND_OFF || size <= STALLED_FRACTION * reference;
+    if contraction > STALLED && near_round_off && fresh {
+        memory.round_off = memory.round_off.max(size);
+        return Verdict::Stalled;
+    }
+    if contraction > 1.0 && !fresh {
+        // The old tangent leads astray.
+        return Verdict::Restart;
+    }
+    let needed = if contraction < 1.0 { (goal / size).ln() / contraction.ln() } else { f64::INFINITY };
+    if needed > PATIENCE { Verdict::Renew } else { Verdict::Go }
+}
+
+/// Sum of the corrections still to come, relative to the last one: a geometric series.
+fn remaining(contraction: f64) -> f64 {
+    if contraction < 1.0 { contraction / (1.0 - contraction) } else { f64::INFINITY }
 }
 
 #[cfg(test)]
@@ -206,7 +263,7 @@ mod tests {
     #[test]
     fn a_tangent_that_leads_astray_is_renewed_from_the_first_guess() {
         let mut root = Root { x: 1.0, slope: 0.5, tangents: 0 };
-        let mut memory = Memory { has_tangent: true, contraction: None };
+        let mut memory = Memory { has_tangent: true, ..Memory::default() };
         solve(&mut root, &Limits { tolerance: 1e-10, max_iterations: 30 }, &mut memory).expect("converges");
         assert!((root.x - 2.0_f64.sqrt()).abs() < 1e-9);
         assert!(root.tangents >= 1);

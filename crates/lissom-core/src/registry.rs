@@ -95,6 +95,14 @@ impl Parameter {
     }
 }
 
+/// Which coordinate of a joint that has several.
+pub const COORDINATE: Parameter = Parameter::optional(
+    "coordinate",
+    ParameterType::Positive,
+    "",
+    "Which of the joint's coordinates, counted from 1; default 1.",
+);
+
 /// A parameter's value.
 #[derive(Clone, Debug)]
 pub enum Value {

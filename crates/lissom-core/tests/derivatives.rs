@@ -79,7 +79,7 @@ fn springs_and_loads() {
                 Attachment::Coordinate => {
                     let placement = Placement {
                         nodes,
-                        at: random.vector(),
+                        at: random.vector(), at_tip: None,
                         axis: Some(random.vector()),
                         second_axis: None,
                     };
@@ -157,7 +157,7 @@ fn all_joints() {
             }
             let placement = Placement {
                 nodes,
-                at: random.vector(),
+                at: random.vector(), at_tip: None,
                 axis: Some(axis),
                 second_axis: Some(random.vector()),
             };
@@ -189,7 +189,7 @@ fn violation_changes_agree_with_violations() {
         let (mut builder, nodes) = two_bodies(&mut random);
         let placement = Placement {
             nodes,
-            at: random.vector(),
+            at: random.vector(), at_tip: None,
             axis: Some(random.vector()),
             second_axis: Some(random.vector()),
         };
@@ -224,7 +224,7 @@ fn constraint_accelerations_are_second_derivatives() {
         let (mut builder, nodes) = two_bodies(&mut random);
         let placement = Placement {
             nodes,
-            at: random.vector(),
+            at: random.vector(), at_tip: None,
             axis: Some(random.vector()),
             second_axis: Some(random.vector()),
         };

@@ -42,7 +42,7 @@ fn top() -> (System, State) {
     let velocity = spin.cross(&center);
     builder.set_twist(node, Vector6::new(velocity.x, velocity.y, velocity.z, spin.x, spin.y, spin.z));
     let placement =
-        Placement { nodes: [builder.ground(), node], at: Vector3::zeros(), axis: None, second_axis: None };
+        Placement { nodes: [builder.ground(), node], at: Vector3::zeros(), at_tip: None, axis: None, second_axis: None };
     builder.add_joint("pivot", joint_kind("spherical"), &placement, &Parameters::new()).expect("valid");
     builder.build(0.0).expect("valid")
 }
@@ -122,7 +122,7 @@ fn cantilever_rolls_up_to_a_circle() {
     );
     let placement = Placement {
         nodes: [builder.ground(), line.nodes[0]],
-        at: Vector3::zeros(),
+        at: Vector3::zeros(), at_tip: None,
         axis: None,
         second_axis: None,
     };
@@ -203,7 +203,7 @@ fn free_flexible_pendulum_keeps_its_energy_as_the_scheme_promises() {
         );
         let placement = Placement {
             nodes: [builder.ground(), line.nodes[0]],
-            at: Vector3::zeros(),
+            at: Vector3::zeros(), at_tip: None,
             axis: None,
             second_axis: None,
         };

@@ -1,7 +1,7 @@
 //! Spring and damper on a joint's relative rotation: moment k (φ - φ₀) + c φ̇.
 
 use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
-use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
 
 /// Registry entry.
@@ -18,6 +18,7 @@ pub const KIND: ElementKind = ElementKind {
             "rad",
             "Relative rotation at which it is free of moment; default 0.",
         ),
+        COORDINATE,
     ],
     attachment: Attachment::Coordinate,
     build,

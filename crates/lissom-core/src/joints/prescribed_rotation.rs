@@ -2,7 +2,7 @@
 //! Its multiplier is the drive's moment.
 
 use super::{Build, JointKind};
-use crate::registry::{Function, Parameter, ParameterType};
+use crate::registry::{COORDINATE, Function, Parameter, ParameterType};
 use crate::system::CoordinateId;
 
 /// Registry entry.
@@ -10,12 +10,15 @@ pub const KIND: JointKind = JointKind {
     name: "prescribed_rotation",
     summary: "Prescribes a joint's relative rotation as a function of time.",
     sample: "rotation = \"0.5*sin(2*pi*t)\"",
-    parameters: &[Parameter::required(
-        "rotation",
-        ParameterType::Function,
-        "rad",
-        "The relative rotation as a function of time.",
-    )],
+    parameters: &[
+        Parameter::required(
+            "rotation",
+            ParameterType::Function,
+            "rad",
+            "The relative rotation as a function of time.",
+        ),
+        COORDINATE,
+    ],
     build: Build::Coordinate(|parameters| parameters.function("rotation")),
 };
 

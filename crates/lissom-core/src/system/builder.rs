@@ -36,6 +36,8 @@ pub struct Placement {
     pub nodes: [NodeId; 2],
     /// The joint's point, on the base [m].
     pub at: Vector3,
+    /// The tip's point, for kinds that span a distance; the tip node's place where not given [m].
+    pub at_tip: Option<Vector3>,
     /// Direction of the joint's axis, for kinds that have one.
     pub axis: Option<Vector3>,
     /// Direction of the second axis, for kinds that have two.
@@ -148,8 +150,9 @@ impl Builder {
             return Err(ParameterError::new("kind", "acts on another joint's coordinate"));
         };
         let base = Motion::new(joint_rotation(frames, placement)?, placement.at);
-        let tip_node = self.nodes[placement.nodes[1]].motion.frame;
-        let span = base.inverse_transform_point(&tip_node.position);
+        let tip =
+            placement.at_tip.unwrap_or(self.nodes[placement.nodes[1]].motion.frame.position);
+        let span = base.inverse_transform_point(&tip);
         let joint = build(parameters, &Geometry { span, planar: self.moves_in_plane(placement, &base) })?;
         let (values, relative) = joint.initial();
         let places = [base, base * relative];

@@ -1,0 +1,291 @@
+//! What is recorded: named columns, evaluated from a system and its state.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use lissom_core::elements::beam_line::{BeamLine, BeamProbe};
+use lissom_core::elements::quadrature::gauss_lobatto;
+use lissom_core::elements::shape::lagrange;
+use lissom_core::joints::Equations;
+use lissom_core::system::{CoordinateId, Kinematics, NodeId, State, System};
+use lissom_motion::{Motion, Vector3, rotation_part, translation_part};
+
+use crate::document::{Document, NodeReference, Output, OutputKind, OutputSource};
+use crate::report::{Located, Problem};
+
+/// One output: a name, its components, and how they are found.
+pub struct Channel {
+    /// Name in the model.
+    pub name: String,
+    /// What it is.
+    pub kind: OutputKind,
+    /// Components, as `u1`.
+    pub components: Vec<String>,
+    /// Unit of all components, or of each where they differ.
+    pub units: Vec<&'static str>,
+    source: Source,
+}
+
+/// Names resolved by the lowering.
+pub(crate) struct Resolver<'a> {
+    pub(crate) nodes: &'a BTreeMap<String, NodeId>,
+    pub(crate) lines: &'a BTreeMap<String, BeamLine>,
+    pub(crate) coordinates: &'a BTreeMap<String, Vec<CoordinateId>>,
+}
+
+/// A point that moves: carried by a node, or at a place in a beam element.
+enum Place {
+    Carried { node: NodeId, offset: Vector3 },
+    OnBeam { probe: Arc<dyn BeamProbe>, xi: f64, point: Vector3, nodes: Vec<NodeId> },
+}
+
+enum Source {
+    Place(Place, Motion),
+    Joint(usize),
+    Drive(usize),
+    Coordinates(Vec<CoordinateId>),
+    Energy,
+}
+
+impl Place {
+    fn frame(&self, at: &Kinematics) -> Motion {
+        match self {
+            Self::Carried { node, offset } => at.nodes[*node].frame * Motion::translation(*offset),
+            Self::OnBeam { probe, xi, point, .. } => {
+                probe.frame_at(at, *xi) * Motion::translation(*point)
+            }
+        }
+    }
+
+    /// Velocity and angular velocity in global axes.
+    fn velocity(&self, at: &Kinematics) -> (Vector3, Vector3) {
+        match self {
+            Self::Carried { node, offset } => {
+                let node = &at.nodes[*node];
+                (node.velocity_at(offset), node.angular_velocity())
+            }
+            Self::OnBeam { probe, xi, point, .. } => {
+                let rotation = probe.frame_at(at, *xi).rotation;
+                let twist = probe.twist_at(at, *xi);
+                let angular = rotation_part(&twist);
+                (
+                    rotation.apply(&(translation_part(&twist) + angular.cross(point))),
+                    rotation.apply(&angular),
+                )
+            }
+        }
+    }
+
+    /// Acceleration in global axes; between a beam's nodes, interpolated from theirs.
+    fn acceleration(&self, at: &Kinematics) -> Vector3 {
+        match self {
+            Self::Carried { node, offset } => at.nodes[*node].acceleration_at(offset),
+            Self::OnBeam { xi, nodes, .. } => {
+                let weights: Vec<f64> = match nodes.len() {
+                    2 => lagrange::<2>(*xi).0.to_vec(),
+                    3 => lagrange::<3>(*xi).0.to_vec(),
+                    _ => lagrange::<4>(*xi).0.to_vec(),
+                };
+                nodes
+                    .iter()
+                    .zip(weights)
+                    .map(|(&node, weight)| weight * at.nodes[node].acceleration_at(&Vector3::zeros()))
+                    .sum()
+            }
+        }
+    }
+}
+
+impl Channel {
+    /// Appends the components' values.
+    pub fn evaluate(&self, system: &System, state: &State, out: &mut Vec<f64>) {
+        let at = &state.kinematics;
+        match &self.source {
+            Source::Place(place, start) => self.evaluate_place(place, start, at, out),
+            Source::Joint(index) => {
+                let joint = &system.joints()[*index];
+                let mut mu = Equations::default();
+                let first = joint.first_multiplier;
+                mu[..joint.equations()]
+                    .copy_from_slice(&state.multipliers[first..first + joint.equations()]);
+                out.extend_from_slice(joint.reaction(at, &mu).as_slice());
+            }
+            Source::Drive(index) => {
+                out.push(-state.multipliers[system.drives()[*index].multiplier]);
+            }
+            Source::Coordinates(coordinates) => {
+                for &coordinate in coordinates {
+                    let motion = &at.coordinates[coordinate];
+                    out.extend([motion.value, motion.rate]);
+                }
+            }
+            Source::Energy => {
+                let energy = system.energy(at);
+                out.extend([energy.kinetic, energy.strain, energy.potential, energy.total()]);
+            }
+        }
+    }
+
+    fn evaluate_place(&self, place: &Place, start: &Motion, at: &Kinematics, out: &mut Vec<f64>) {
+        let vector = match self.kind {
+            OutputKind::Position => place.frame(at).position,
+            OutputKind::Displacement => place.frame(at).position - start.position,
+            OutputKind::Rotation => (place.frame(at).rotation * start.rotation.inverse()).logarithm(),
+            OutputKind::Velocity => place.velocity(at).0,
+            OutputKind::AngularVelocity => place.velocity(at).1,
+            OutputKind::Acceleration => place.acceleration(at),
+            _ => {
+                let Place::OnBeam { probe, xi, .. } = place else { return };
+                let forces = probe.section_forces_at(at, *xi);
+                if self.kind == OutputKind::SectionForce {
+                    translation_part(&forces)
+                } else {
+                    rotation_part(&forces)
+                }
+            }
+        };
+        out.extend_from_slice(vector.as_slice());
+    }
+
+    /// Column names, as `midspan.u1`.
+    pub fn columns(&self) -> impl Iterator<Item = String> + '_ {
+        self.components.iter().map(|component| format!("{}.{component}", self.name))
+    }
+}
+
+/// Channels of all outputs of a document.
+pub(crate) fn of(
+    document: &Document,
+    system: &System,
+    state: &State,
+    names: &Resolver<'_>,
+    problems: &mut Vec<Problem>,
+) -> Vec<Channel> {
+    let mut channels = Vec::new();
+    for output in &document.outputs {
+        match channel(output, system, state, names) {
+            Ok(channel) => channels.push(channel),
+            Err(problem) => problems.push(problem),
+        }
+    }
+    channels
+}
+
+fn channel(
+    output: &Output,
+    system: &System,
+    state: &State,
+    names: &Resolver<'_>,
+) -> Result<Channel, Problem> {
+    let source = match &output.source {
+        OutputSource::Model => Source::Energy,
+        OutputSource::Joint(name) => joint_source(output, name, system, names)?,
+        OutputSource::Node { node, point } => {
+            let place = place(output, node, point.as_ref(), state, names)?;
+            let start = place.frame(&state.kinematics);
+            Source::Place(place, start)
+        }
+    };
+    let (components, units) = components(output.kind, &source);
+    Ok(Channel { name: output.name.value.clone(), kind: output.kind, components, units, source })
+}
+
+fn joint_source(
+    output: &Output,
+    name: &Located<String>,
+    system: &System,
+    names: &Resolver<'_>,
+) -> Result<Source, Problem> {
+    if output.kind == OutputKind::Relative {
+        let coordinates = names.coordinates.get(&name.value).cloned().unwrap_or_default();
+        if coordinates.is_empty() {
+            let message = format!("joint `{}` has no relative rotation to record", name.value);
+            return Err(Problem::error(name.span, message)
+                .help("name a revolute, universal or swing_arm joint, or a drive of one"));
+        }
+        return Ok(Source::Coordinates(coordinates));
+    }
+    if let Some(index) = system.joints().iter().position(|joint| joint.name == name.value) {
+        return Ok(Source::Joint(index));
+    }
+    system
+        .drives()
+        .iter()
+        .position(|drive| drive.name == name.value)
+        .map(Source::Drive)
+        .ok_or_else(|| Problem::error(name.span, format!("there is no joint called `{}`", name.value)))
+}
+
+fn place(
+    output: &Output,
+    node: &Located<NodeReference>,
+    point: Option<&Vector3>,
+    state: &State,
+    names: &Resolver<'_>,
+) -> Result<Place, Problem> {
+    let at = &state.kinematics;
+    let carried = |node: NodeId| {
+        let frame = at.nodes[node].frame;
+        let offset = point.map_or_else(Vector3::zeros, |point| frame.inverse_transform_point(point));
+        Place::Carried { node, offset }
+    };
+    let unknown = |name: &str| Problem::error(node.span, format!("there is no part called `{name}`"));
+    match &node.value {
+        NodeReference::Ground => Ok(carried(lissom_core::system::GROUND)),
+        NodeReference::Body(name) | NodeReference::PointMass(name) => {
+            names.nodes.get(name).map(|&node| carried(node)).ok_or_else(|| unknown(name))
+        }
+        NodeReference::Beam { beam, fraction } => {
+            let line = names.lines.get(beam).ok_or_else(|| unknown(beam))?;
+            let of_section = matches!(output.kind, OutputKind::SectionForce | OutputKind::SectionMoment);
+            if let Some(node) = line.node_at(*fraction).filter(|_| !of_section) {
+                // The node may be another part's: take the section's place, not the node's.
+                let index = line.nodes.iter().position(|&other| other == node).unwrap_or(0);
+                let offset = line.offsets[index].position;
+                return Ok(match point {
+                    Some(_) => carried(node),
+                    None => Place::Carried { node, offset },
+                });
+            }
+            let (probe, xi) = line.locate(*fraction);
+            let frame = probe.frame_at(at, xi);
+            let element = line.elements.iter().position(|other| Arc::ptr_eq(other, probe)).unwrap_or(0);
+            let first = element * line.order;
+            Ok(Place::OnBeam {
+                probe: Arc::clone(probe),
+                xi,
+                point: point.map_or_else(Vector3::zeros, |point| frame.inverse_transform_point(point)),
+                nodes: line.nodes[first..first + gauss_lobatto(line.order + 1).len()].to_vec(),
+            })
+        }
+    }
+}
+
+fn components(kind: OutputKind, source: &Source) -> (Vec<String>, Vec<&'static str>) {
+    let three = |letter: &str, unit: &'static str| {
+        ((1..=3).map(|k| format!("{letter}{k}")).collect(), vec![unit; 3])
+    };
+    let words = |words: &[&str], units: &[&'static str]| {
+        (words.iter().map(|&word| word.to_owned()).collect(), units.to_vec())
+    };
+    match (kind, source) {
+        (OutputKind::Position, _) => words(&["x", "y", "z"], &["m"; 3]),
+        (OutputKind::Displacement, _) => three("u", "m"),
+        (OutputKind::Rotation, _) => three("r", "rad"),
+        (OutputKind::Velocity, _) => three("v", "m/s"),
+        (OutputKind::AngularVelocity, _) => three("w", "rad/s"),
+        (OutputKind::Acceleration, _) => three("a", "m/s²"),
+        (OutputKind::SectionForce, _) => three("f", "N"),
+        (OutputKind::SectionMoment, _) => three("m", "N m"),
+        (OutputKind::Reaction, Source::Drive(_)) => words(&["moment"], &["N m"]),
+        (OutputKind::Reaction, _) => {
+            words(&["f1", "f2", "f3", "m1", "m2", "m3"], &["N", "N", "N", "N m", "N m", "N m"])
+        }
+        (OutputKind::Relative, Source::Coordinates(coordinates)) if coordinates.len() > 1 => {
+            let labels = (1..=coordinates.len()).flat_map(|k| [format!("angle{k}"), format!("rate{k}")]);
+            (labels.collect(), ["rad", "rad/s"].repeat(coordinates.len()))
+        }
+        (OutputKind::Relative, _) => words(&["angle", "rate"], &["rad", "rad/s"]),
+        (OutputKind::Energy, _) => words(&["kinetic", "strain", "potential", "total"], &["J"; 4]),
+    }
+}

@@ -1,0 +1,81 @@
+//! Scheme, step size, scaling and limits from the table `[analysis]`.
+
+use lissom_core::analysis::Settings;
+use lissom_core::newton::Limits;
+use lissom_core::scaling::{ScaleBy, ScalingChoice};
+use lissom_core::schemes::{self, Scheme, SchemeParameters, statics};
+
+use crate::document::{Analysis, AnalysisKind, Scaling};
+use crate::report::Problem;
+
+/// From when to when, in how many steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plan {
+    /// First time [s].
+    pub start: f64,
+    /// Last time [s].
+    pub end: f64,
+    /// Number of steps; the last may be shorter.
+    pub steps: usize,
+    /// Steps from one record to the next.
+    pub output_every: usize,
+    /// Whether it is a load history without inertia.
+    pub is_static: bool,
+}
+
+/// Settings and plan of an analysis.
+pub(super) fn settings(analysis: &Analysis) -> Result<(Settings, Plan), Problem> {
+    let duration = analysis.end - analysis.start;
+    let (scheme, step_size, steps) = match &analysis.kind {
+        AnalysisKind::Dynamics { step } => {
+            let steps = (duration / step.value - 1e-6).ceil().max(1.0);
+            (scheme(analysis)?, step.value, steps as usize)
+        }
+        AnalysisKind::Statics { steps } => (statics::statics(), duration / *steps as f64, *steps),
+    };
+    let solver = analysis.solver.as_ref().map_or("sparse", |solver| solver.value.as_str());
+    let Some(solver) = lissom_core::solvers::kind(solver) else {
+        return Err(Problem::error(analysis.span, format!("unknown solver `{solver}`")));
+    };
+    let settings = Settings {
+        scheme,
+        step_size,
+        scaling: ScalingChoice {
+            by: match analysis.scaling {
+                Scaling::Physical => ScaleBy::Physical,
+                Scaling::Unit => ScaleBy::Unit,
+                Scaling::None => ScaleBy::None,
+            },
+            augmented: analysis.augmented,
+            penalty: analysis.penalty,
+        },
+        limits: Limits { tolerance: analysis.tolerance, max_iterations: analysis.max_iterations },
+        solver,
+    };
+    let plan = Plan {
+        start: analysis.start,
+        end: analysis.end,
+        steps,
+        output_every: analysis.output_every.max(1),
+        is_static: matches!(analysis.kind, AnalysisKind::Statics { .. }),
+    };
+    Ok((settings, plan))
+}
+
+fn scheme(analysis: &Analysis) -> Result<Scheme, Problem> {
+    let (name, span) =
+        analysis.scheme.as_ref().map_or(("radau-iia", analysis.span), |word| (&*word.value, word.span));
+    let fault = |error: lissom_core::registry::ParameterError| Problem::error(span, error.to_string());
+    let given = |name: &str| {
+        if analysis.parameters.has(name) {
+            analysis.parameters.number(name).map(Some).map_err(fault)
+        } else {
+            Ok(None)
+        }
+    };
+    let parameters =
+        SchemeParameters { alpha: given("alpha")?, spectral_radius: given("spectral_radius")? };
+    let kind = schemes::kind(name)
+        .ok_or_else(|| Problem::error(span, format!("unknown scheme `{name}`")))?;
+    (kind.build)(&parameters).map_err(|error| Problem::error(span, error.to_string()))
+}

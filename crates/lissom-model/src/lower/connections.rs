@@ -1,0 +1,145 @@
+//! Joints, drives, springs and loads, by way of the registry.
+
+use lissom_core::elements::{Attached, ElementKind, LOADS, SPRINGS};
+use lissom_core::joints::{self, Build, JointKind};
+use lissom_core::system::{Builder, CoordinateId, NodeId, Placement};
+use lissom_motion::Vector3;
+
+use super::{Names, parameter_problem};
+use crate::document::{Attachment, Component, Document};
+use crate::report::{Located, Problem};
+
+/// Adds all connections: joints between nodes first, then drives of their coordinates.
+pub(super) fn add(
+    document: &Document,
+    builder: &mut Builder,
+    names: &mut Names,
+    problems: &mut Vec<Problem>,
+) {
+    for drives in [false, true] {
+        for component in &document.joints {
+            let Some(kind) = joints::KINDS.iter().find(|kind| kind.name == component.kind.value) else {
+                problems.push(unknown_kind(component));
+                continue;
+            };
+            if matches!(kind.build, Build::Coordinate(_)) == drives
+                && let Err(problem) = joint(component, kind, builder, names)
+            {
+                problems.push(problem);
+            }
+        }
+    }
+    for (components, kinds) in [(&document.springs, SPRINGS), (&document.loads, LOADS)] {
+        for component in components {
+            let Some(kind) = kinds.iter().find(|kind| kind.name == component.kind.value) else {
+                problems.push(unknown_kind(component));
+                continue;
+            };
+            if let Err(problem) = element(component, kind, builder, names) {
+                problems.push(problem);
+            }
+        }
+    }
+}
+
+fn unknown_kind(component: &Component) -> Problem {
+    Problem::error(component.kind.span, format!("unknown kind `{}`", component.kind.value))
+}
+
+fn joint(
+    component: &Component,
+    kind: &JointKind,
+    builder: &mut Builder,
+    names: &mut Names,
+) -> Result<(), Problem> {
+    let name = &component.name.value;
+    let fault = |error| parameter_problem(component, &error);
+    let placement = match &component.attachment {
+        Attachment::JointCoordinate { joint } => {
+            let coordinate = coordinate(component, joint, names)?;
+            builder.add_drive(name, kind, coordinate, &component.parameters).map_err(fault)?;
+            names.coordinates.insert(name.clone(), vec![coordinate]);
+            return Ok(());
+        }
+        Attachment::TwoNodes { base, tip, at, axis, second_axis } => Placement {
+            nodes: [names.node(base)?, names.node(tip)?],
+            at: *at,
+            at_tip: None,
+            axis: axis.as_ref().map(|axis| axis.value),
+            second_axis: second_axis.as_ref().map(|axis| axis.value),
+        },
+        Attachment::TwoPlaces { base, tip, at_base, at_tip } => Placement {
+            nodes: [names.node(base)?, names.node(tip)?],
+            at: *at_base,
+            at_tip: Some(*at_tip),
+            axis: None,
+            second_axis: None,
+        },
+        Attachment::OneNode { on, .. } => {
+            return Err(Problem::error(on.span, format!("joint `{name}` needs two nodes")));
+        }
+    };
+    if placement.nodes[0] == placement.nodes[1] {
+        return Err(Problem::error(component.name.span, format!("joint `{name}` joins a node with itself"))
+            .help("beams that share a node are joined already"));
+    }
+    let coordinates =
+        builder.add_joint(name, kind, &placement, &component.parameters).map_err(fault)?;
+    names.coordinates.insert(name.clone(), coordinates);
+    Ok(())
+}
+
+/// The coordinate of a joint that a drive or a torsional spring acts on.
+fn coordinate(
+    component: &Component,
+    joint: &Located<String>,
+    names: &Names,
+) -> Result<CoordinateId, Problem> {
+    let coordinates = names.coordinates.get(&joint.value).map_or(&[][..], Vec::as_slice);
+    if coordinates.is_empty() {
+        return Err(Problem::error(joint.span, format!("joint `{}` has no relative rotation", joint.value))
+            .label("nothing to act on")
+            .help("name a revolute, universal or swing_arm joint"));
+    }
+    let number = component
+        .parameters
+        .number_or("coordinate", 1.0)
+        .map_err(|error| parameter_problem(component, &error))?;
+    let index = number as usize;
+    if index as f64 != number || index == 0 || index > coordinates.len() {
+        let message = format!("joint `{}` has no coordinate {number}", joint.value);
+        return Err(Problem::error(component.span_of("coordinate"), message)
+            .help(format!("give a whole number from 1 to {}", coordinates.len())));
+    }
+    Ok(coordinates[index - 1])
+}
+
+fn element(
+    component: &Component,
+    kind: &ElementKind,
+    builder: &mut Builder,
+    names: &Names,
+) -> Result<(), Problem> {
+    let local = |builder: &Builder, node: NodeId, place: &Vector3| {
+        builder.initial_frame(node).inverse_transform_point(place)
+    };
+    let attached = match &component.attachment {
+        Attachment::OneNode { on, at } => {
+            let node = names.node(on)?;
+            Attached::OneNode(node, local(builder, node, at))
+        }
+        Attachment::TwoPlaces { base, tip, at_base, at_tip } => {
+            let nodes = [names.node(base)?, names.node(tip)?];
+            Attached::TwoNodes(nodes, [local(builder, nodes[0], at_base), local(builder, nodes[1], at_tip)])
+        }
+        Attachment::TwoNodes { base, tip, at, .. } => {
+            let nodes = [names.node(base)?, names.node(tip)?];
+            Attached::TwoNodes(nodes, nodes.map(|node| local(builder, node, at)))
+        }
+        Attachment::JointCoordinate { joint } => {
+            Attached::Coordinate(coordinate(component, joint, names)?)
+        }
+    };
+    (kind.build)(builder, attached, &component.parameters)
+        .map_err(|error| parameter_problem(component, &error))
+}

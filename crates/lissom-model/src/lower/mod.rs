@@ -1,0 +1,119 @@
+//! From a checked document to a system that can be simulated. Knows the core's builder and the registry;
+//! does no mechanics of its own.
+
+mod analysis;
+mod connections;
+mod parts;
+pub mod registry;
+
+use std::collections::BTreeMap;
+
+use lissom_core::analysis::Settings;
+use lissom_core::elements::beam_line::BeamLine;
+use lissom_core::registry::ParameterError;
+use lissom_core::system::{Builder, CoordinateId, NodeId, State, System};
+
+use crate::channels::{self, Channel};
+use crate::document::{Component, Document, NodeReference};
+use crate::report::{Located, Problem, Report};
+
+pub use analysis::Plan;
+
+/// A model ready to run.
+pub struct Lowered {
+    /// What is simulated.
+    pub system: System,
+    /// Places and velocities at the start.
+    pub state: State,
+    /// Scheme, step size, scaling, limits, solver.
+    pub settings: Settings,
+    /// From when to when, in how many steps.
+    pub plan: Plan,
+    /// What is recorded.
+    pub channels: Vec<Channel>,
+}
+
+/// Nodes and coordinates by name, while a document is lowered.
+struct Names {
+    nodes: BTreeMap<String, NodeId>,
+    lines: BTreeMap<String, BeamLine>,
+    /// Coordinates of each joint; a drive has those of the joint it drives.
+    coordinates: BTreeMap<String, Vec<CoordinateId>>,
+}
+
+impl Names {
+    /// The node a reference means.
+    fn node(&self, reference: &Located<NodeReference>) -> Result<NodeId, Problem> {
+        let unknown = |name: &str| {
+            Problem::error(reference.span, format!("there is no part called `{name}`"))
+                .help("name a body, a point mass, a beam's end or `ground`")
+        };
+        match &reference.value {
+            NodeReference::Ground => Ok(lissom_core::system::GROUND),
+            NodeReference::Body(name) | NodeReference::PointMass(name) => {
+                self.nodes.get(name).copied().ok_or_else(|| unknown(name))
+            }
+            NodeReference::Beam { beam, fraction } => {
+                let line = self.lines.get(beam).ok_or_else(|| unknown(beam))?;
+                line.node_at(*fraction).ok_or_else(|| no_node(reference, beam, line, *fraction))
+            }
+        }
+    }
+}
+
+/// A place on a beam where something is attached has no node.
+fn no_node(reference: &Located<NodeReference>, beam: &str, line: &BeamLine, fraction: f64) -> Problem {
+    let nearest = line
+        .places
+        .iter()
+        .copied()
+        .min_by(|a, b| (a - fraction).abs().total_cmp(&(b - fraction).abs()))
+        .unwrap_or(0.0);
+    Problem::error(reference.span, format!("beam `{beam}` has no node at {fraction}"))
+        .label("nothing can be attached here")
+        .help(format!("the nearest node is at {nearest:.6}; or choose the number of elements to suit"))
+}
+
+/// A core complaint about a component's parameter, underlined.
+fn parameter_problem(component: &Component, error: &ParameterError) -> Problem {
+    Problem::error(
+        component.span_of(&error.parameter),
+        format!("`{}`: {error}", component.name.value),
+    )
+}
+
+/// Makes the system a document describes.
+///
+/// # Errors
+/// All problems found, underlined in the model's text.
+pub fn lower(document: &Document) -> Result<Lowered, Report> {
+    let mut problems = Vec::new();
+    let mut builder = Builder::new();
+    builder.set_gravity(document.gravity);
+    let mut names = Names { nodes: BTreeMap::new(), lines: BTreeMap::new(), coordinates: BTreeMap::new() };
+    parts::add(document, &mut builder, &mut names, &mut problems);
+    stop_at(document, &mut problems)?;
+    connections::add(document, &mut builder, &mut names, &mut problems);
+    stop_at(document, &mut problems)?;
+    let (settings, plan) = match analysis::settings(&document.analysis) {
+        Ok(chosen) => chosen,
+        Err(problem) => return Err(document.report(vec![problem])),
+    };
+    let built = builder.build(document.analysis.start).map_err(|error| {
+        document.report(vec![Problem::error(document.analysis.span, error.to_string())])
+    });
+    let (system, state) = built?;
+    let channels = channels::of(document, &system, &state, &names.resolver(), &mut problems);
+    stop_at(document, &mut problems)?;
+    Ok(Lowered { system, state, settings, plan, channels })
+}
+
+impl Names {
+    fn resolver(&self) -> channels::Resolver<'_> {
+        channels::Resolver { nodes: &self.nodes, lines: &self.lines, coordinates: &self.coordinates }
+    }
+}
+
+fn stop_at(document: &Document, problems: &mut Vec<Problem>) -> Result<(), Report> {
+    if problems.is_empty() { Ok(()) } else { Err(document.report(std::mem::take(problems))) }
+}

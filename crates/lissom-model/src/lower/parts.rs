@@ -1,0 +1,157 @@
+//! Bodies, point masses and beams as nodes with mass and elements.
+
+use lissom_core::elements::beam::SectionLaw;
+use lissom_core::elements::beam_line::{BeamLineDescription, add_beam_line};
+use lissom_core::elements::inertia::Inertia;
+use lissom_core::system::{Builder, Freedoms, NodeId};
+use lissom_motion::{Matrix3, Matrix6, Motion, Rotation, Vector3, screw};
+
+use super::Names;
+use crate::document::{Beam, Document, InitialMotion, NodeReference, Plane};
+use crate::report::{Located, Problem};
+
+/// Adds all parts to the system.
+pub(super) fn add(
+    document: &Document,
+    builder: &mut Builder,
+    names: &mut Names,
+    problems: &mut Vec<Problem>,
+) {
+    bodies(document, builder, names);
+    point_masses(document, builder, names);
+    beams(document, builder, names, problems);
+}
+
+fn bodies(document: &Document, builder: &mut Builder, names: &mut Names) {
+    for body in &document.bodies {
+        let frame = Motion::new(Rotation::from_matrix(&body.axes), body.position);
+        let node = builder.add_node(&body.name.value, frame, Freedoms::Full);
+        builder.add_inertia(
+            node,
+            &Inertia::of_rigid_body(body.mass, &body.center_of_mass, &body.inertia),
+        );
+        names.nodes.insert(body.name.value.clone(), node);
+        let (velocity, angular) = initial_motion(document.initial.as_ref(), &frame);
+        let velocity = body
+            .velocity
+            .as_ref()
+            .map_or(velocity, |given| frame.rotation.apply_inverse(&given.value));
+        let angular = body.angular_velocity.as_ref().map_or(angular, |given| given.value);
+        builder.set_twist(node, screw(&velocity, &angular));
+    }
+}
+
+fn point_masses(document: &Document, builder: &mut Builder, names: &mut Names) {
+    for mass in &document.point_masses {
+        let frame = Motion::translation(mass.position);
+        let freedoms = match mass.plane {
+            None => Freedoms::Translations,
+            Some(Plane::Xy) => Freedoms::Planar(0, 1),
+            Some(Plane::Yz) => Freedoms::Planar(1, 2),
+            Some(Plane::Zx) => Freedoms::Planar(2, 0),
+        };
+        let node = builder.add_node(&mass.name.value, frame, freedoms);
+        builder.add_inertia(
+            node,
+            &Inertia::of_rigid_body(mass.mass, &Vector3::zeros(), &Matrix3::zeros()),
+        );
+        names.nodes.insert(mass.name.value.clone(), node);
+        let (velocity, _) = initial_motion(document.initial.as_ref(), &frame);
+        let velocity = mass.velocity.as_ref().map_or(velocity, |given| given.value);
+        builder.set_twist(node, screw(&velocity, &Vector3::zeros()));
+    }
+}
+
+/// Velocity and angular velocity, in body axes, of a frame in the rigid motion of the start.
+fn initial_motion(initial: Option<&InitialMotion>, frame: &Motion) -> (Vector3, Vector3) {
+    let Some(initial) = initial else { return (Vector3::zeros(), Vector3::zeros()) };
+    let velocity =
+        initial.velocity + initial.angular_velocity.cross(&(frame.position - initial.about));
+    (
+        frame.rotation.apply_inverse(&velocity),
+        frame.rotation.apply_inverse(&initial.angular_velocity),
+    )
+}
+
+/// Adds the beams, each after those whose nodes it shares.
+fn beams(document: &Document, builder: &mut Builder, names: &mut Names, problems: &mut Vec<Problem>) {
+    let mut waiting: Vec<&Beam> = document.beams.iter().collect();
+    while !waiting.is_empty() {
+        let before = waiting.len();
+        let mut later = Vec::new();
+        for beam in waiting {
+            if [&beam.shared_start, &beam.shared_end].into_iter().flatten().all(|end| is_there(names, end)) {
+                add_beam(document, beam, builder, names, problems);
+            } else {
+                later.push(beam);
+            }
+        }
+        if later.len() == before {
+            for beam in later {
+                problems.push(
+                    Problem::error(
+                        beam.name.span,
+                        format!("beam `{}` shares a node of a beam that shares one of its own", beam.name.value),
+                    )
+                    .help("let one of them start at a point, and join them with a clamp"),
+                );
+            }
+            return;
+        }
+        waiting = later;
+    }
+}
+
+/// Whether the part of a shared node exists already.
+fn is_there(names: &Names, end: &Located<NodeReference>) -> bool {
+    match &end.value {
+        NodeReference::Beam { beam, .. } => names.lines.contains_key(beam),
+        _ => true,
+    }
+}
+
+fn add_beam(
+    document: &Document,
+    beam: &Beam,
+    builder: &mut Builder,
+    names: &mut Names,
+    problems: &mut Vec<Problem>,
+) {
+    let mut end = |shared: &Option<Located<NodeReference>>| -> Option<NodeId> {
+        match names.node(shared.as_ref()?) {
+            Ok(node) => Some(node),
+            Err(problem) => {
+                problems.push(problem);
+                None
+            }
+        }
+    };
+    let ends = [end(&beam.shared_start), end(&beam.shared_end)];
+    let properties = |s: f64| beam.properties(document, s);
+    let line = add_beam_line(
+        builder,
+        &BeamLineDescription {
+            name: &beam.name.value,
+            elements: beam.elements.value,
+            order: beam.order,
+            frame: &|s| Motion::new(Rotation::from_matrix(&beam.frame(s)), beam.line.position(s)),
+            law: &|s| {
+                properties(s).map_or(
+                    SectionLaw { stiffness: Matrix6::zeros(), damping: 0.0 },
+                    |section| SectionLaw { stiffness: section.stiffness, damping: section.damping },
+                )
+            },
+            mass: &|s| properties(s).map_or_else(Matrix6::zeros, |section| section.mass),
+            ends,
+        },
+    );
+    for (k, &node) in line.nodes.iter().enumerate() {
+        let is_own = (k > 0 || ends[0].is_none()) && (k + 1 < line.nodes.len() || ends[1].is_none());
+        if is_own {
+            let (velocity, angular) =
+                initial_motion(document.initial.as_ref(), &builder.initial_frame(node));
+            builder.set_twist(node, screw(&velocity, &angular));
+        }
+    }
+    names.lines.insert(beam.name.value.clone(), line);
+}
