@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use lissom_core::registry::Function;
 use lissom_motion::Vector3;
 
-use crate::report::{Problem, Sources, Span};
+use crate::report::{Problem, Severity, Sources, Span};
 use crate::suggest;
 use crate::text::{Node, Table, in_order};
 
@@ -48,6 +48,11 @@ impl<'a> Context<'a> {
     ) -> Option<T> {
         self.tell(Problem::error(span, message).help(help));
         None
+    }
+
+    /// Whether an error was noted.
+    pub(crate) fn has_errors(&self) -> bool {
+        self.problems.borrow().iter().any(|problem| problem.severity == Severity::Error)
     }
 
     pub(crate) fn into_problems(self) -> Vec<Problem> {

@@ -10,6 +10,8 @@ use lissom_core::registry::{Parameter, ParameterType};
 pub(crate) enum Shape {
     /// A text.
     Text,
+    /// The version of the format.
+    Version,
     /// A finite number. Every number may also be a text: an expression of the parameters.
     Number,
     /// A number greater than zero.
@@ -56,8 +58,27 @@ pub(crate) enum Shape {
     Stations,
     /// A list of pairs of numbers.
     Rows,
-    /// Anything, such as what belongs to an unknown kind.
-    Any,
+    /// Two numbers.
+    Pair,
+}
+
+impl Shape {
+    /// Keys of a section's mass that is given by its parts.
+    pub(crate) fn slice_mass_keys() -> Vec<Key> {
+        vec![
+            required("per_length", Self::Positive, "kg/m", "mass per length"),
+            required("inertia", Self::Vector, "kg m", "[J11, J22, J33] per length about the centre of mass"),
+            optional("center", Self::Pair, "m", "[c2, c3]: centre of mass across the beam"),
+        ]
+    }
+
+    /// Keys of an entry of a beam's stations.
+    pub(crate) fn station_keys() -> Vec<Key> {
+        vec![
+            required("at", Self::Between(0.0, 1.0), "", "fraction of the beam"),
+            required("section", Self::Name("sections"), "", "name of a section"),
+        ]
+    }
 }
 
 /// One key of a table.

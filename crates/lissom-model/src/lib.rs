@@ -3,6 +3,7 @@
 //! A TOML text becomes a validated plain-data [`Document`](document::Document), or a [`Report`] that names every
 //! mistake with its place and a remedy. Results leave as tables, summaries and plots. No physics is done here.
 
+pub mod channels;
 mod context;
 pub mod document;
 pub mod expression;
@@ -11,14 +12,17 @@ mod function_values;
 pub mod functions;
 mod keys;
 pub mod line;
+pub mod lower;
 pub mod output;
 mod reader;
 pub mod registry;
 mod report;
+mod schema;
 pub mod sections;
 mod suggest;
 mod text;
 mod values;
 
 pub use document::Document;
+pub use schema::schema;
 pub use report::{Located, Problem, Report, Severity, Sources, Span};

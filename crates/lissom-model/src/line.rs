@@ -112,10 +112,9 @@ impl Line {
 
     /// Whether the line runs along `up` somewhere.
     pub fn is_parallel_somewhere(&self, up: &Vector3) -> bool {
-        let up = up.normalize();
         (0..=SAMPLES).any(|i| {
             let tangent = self.derivative(f64::from(i) / f64::from(SAMPLES));
-            !(tangent.cross(&up).norm() > PARALLEL * tangent.norm())
+            are_parallel(&tangent, up)
         })
     }
 
@@ -135,9 +134,10 @@ impl Line {
     }
 }
 
-/// Whether two directions are parallel.
+/// Whether two directions are parallel; also if one of them is none.
 pub(crate) fn are_parallel(a: &Vector3, b: &Vector3) -> bool {
-    !(a.normalize().cross(&b.normalize()).norm() > PARALLEL)
+    let sine = a.normalize().cross(&b.normalize()).norm();
+    sine.is_nan() || sine <= PARALLEL
 }
 
 #[cfg(test)]

@@ -90,8 +90,9 @@ impl<'c, 'a> Reader<'c, 'a> {
         format!("`{key}` of {}", self.what)
     }
 
+    /// What `key` holds; a key that is not described holds any number or text.
     fn shape(&self, key: &str) -> &Shape {
-        self.keys.iter().find(|known| known.name == key).map_or(&Shape::Any, |known| &known.holds)
+        self.keys.iter().find(|known| known.name == key).map_or(&Shape::Number, |known| &known.holds)
     }
 
     /// A number in the range its key allows.

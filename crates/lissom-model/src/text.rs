@@ -187,13 +187,11 @@ impl Patch {
         let mut table = root;
         for (name, key) in path {
             let empty = || Entry { key, node: Node { span: key, value: Value::Table(Table::new()) } };
-            table = match &mut table.entry(name.clone()).or_insert_with(empty).node.value {
-                Value::Table(inner) => inner,
-                _ => {
-                    let message = format!("`{name}` is a value, not a table: the path leads nowhere");
-                    return Err(Box::new(Problem::error(key, message).help("leave out what follows it")));
-                }
+            let message = format!("`{name}` is a value, not a table: the path leads nowhere");
+            let Value::Table(inner) = &mut table.entry(name).or_insert_with(empty).node.value else {
+                return Err(Box::new(Problem::error(key, message).help("leave out what follows it")));
             };
+            table = inner;
         }
         // What is replaced keeps its place among the others: parameters may name those above them.
         let key = table.get(&last).map_or(key, |entry| entry.key);

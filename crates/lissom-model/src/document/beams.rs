@@ -9,7 +9,7 @@ use super::places::PlaceOrNode;
 use super::{Beam, Body, NodeReference, PointMass, Station};
 use crate::context::Context;
 use crate::expression::Expression;
-use crate::keys::{Shape, required};
+use crate::keys::Shape;
 use crate::line::Line;
 use crate::reader::Reader;
 use crate::report::{Located, Problem, Span};
@@ -148,11 +148,12 @@ fn stations(reader: &Reader<'_, '_>) -> Option<Vec<Station>> {
 }
 
 fn station<'c>(reader: &Reader<'c, '_>, node: &'c Node, what: &str) -> Option<(Station, Span)> {
-    let keys = vec![
-        required("at", Shape::Between(0.0, 1.0), "", "fraction of the beam"),
-        required("section", Shape::Name("sections"), "", "name of a section"),
-    ];
-    let inner = Reader::open(reader.context, node, (format!("an entry of {what}"), node.span), keys)?;
+    let inner = Reader::open(
+        reader.context,
+        node,
+        (format!("an entry of {what}"), node.span),
+        Shape::station_keys(),
+    )?;
     let (at, section) = (inner.number("at"), inner.name_in("section"));
     let at = at?;
     Some((Station { at: at.value, section: section? }, at.span))
@@ -170,7 +171,8 @@ impl Context<'_> {
 
 /// Places beams whose ends are known, until nothing moves any more: then the rest hangs on itself.
 fn place(context: &Context<'_>, mut drafts: Vec<Draft>, fixed: &BTreeMap<String, Vector3>) -> Vec<Beam> {
-    let order: Vec<String> = drafts.iter().map(|draft| draft.name.value.clone()).collect();
+    let order: BTreeMap<String, usize> =
+        drafts.iter().enumerate().map(|(index, draft)| (draft.name.value.clone(), index)).collect();
     let mut lines: BTreeMap<String, Option<Line>> = BTreeMap::new();
     let mut beams = Vec::new();
     loop {
@@ -180,7 +182,7 @@ fn place(context: &Context<'_>, mut drafts: Vec<Draft>, fixed: &BTreeMap<String,
             let known = |end: &PlaceOrNode| match end {
                 PlaceOrNode::Node(Located { value: NodeReference::Beam { beam, .. }, .. }) => {
                     // A beam that could not even be drafted has been complained about.
-                    lines.contains_key(beam) || !order.contains(beam)
+                    lines.contains_key(beam) || !order.contains_key(beam)
                 }
                 _ => true,
             };
@@ -202,7 +204,7 @@ fn place(context: &Context<'_>, mut drafts: Vec<Draft>, fixed: &BTreeMap<String,
         }
         drafts = waiting;
     }
-    beams.sort_by_key(|beam: &Beam| order.iter().position(|name| *name == beam.name.value));
+    beams.sort_by_key(|beam: &Beam| order.get(&beam.name.value));
     beams
 }
 

@@ -1,6 +1,6 @@
 //! Checks across tables: where nodes are, what hangs on what, and functions that fail during the analysis.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use lissom_motion::Vector3;
 
@@ -40,6 +40,30 @@ pub(super) fn check(context: &Context<'_>, document: &Document) {
     free_parts(context, document);
     functions(context, document);
     unused(context, document);
+    complete(context, document);
+}
+
+/// A part that was dropped without a word would change the model: whatever else is overlooked, this is told.
+fn complete(context: &Context<'_>, document: &Document) {
+    let read = [
+        ("materials", document.materials.len()),
+        ("sections", document.sections.len()),
+        ("points", document.points.len()),
+        ("beams", document.beams.len()),
+        ("bodies", document.bodies.len()),
+        ("point_masses", document.point_masses.len()),
+        ("joints", document.joints.len()),
+        ("springs", document.springs.len()),
+        ("loads", document.loads.len()),
+        ("outputs", document.outputs.len()),
+    ];
+    for (table, count) in read {
+        let names = context.names(table);
+        if let Some((_, span)) = names.first().filter(|_| names.len() != count && !context.has_errors()) {
+            let message = format!("an entry of [{table}] could not be read");
+            context.fail::<()>(*span, message, "please report this: the mistake in it is not recognised");
+        }
+    }
 }
 
 /// Groups of parts that hang together; the ground is a part.
@@ -101,14 +125,17 @@ fn free_parts(context: &Context<'_>, document: &Document) {
     if parts.len() != named || !read("joints", &document.joints) || !read("springs", &document.springs) {
         return;
     }
+    let mut sizes: BTreeMap<&str, usize> = BTreeMap::new();
+    for part in &parts {
+        *sizes.entry(groups.root(&part.value)).or_default() += 1;
+    }
     for part in &parts {
         let root = groups.root(&part.value);
-        let alone = parts.iter().all(|other| other.value == part.value || groups.root(&other.value) != root);
         let free = root != groups.root(GROUND);
         if free && statics {
             let message = format!("`{}` is not connected to the ground: it has no equilibrium", part.value);
             context.fail::<()>(part.span, message, "add a joint or spring that leads to \"ground\"");
-        } else if free && alone && parts.len() > 1 {
+        } else if free && sizes.get(root) == Some(&1) && parts.len() > 1 {
             let problem =
                 Problem::warning(part.span, format!("`{}` is not connected to anything", part.value));
             context.tell(
@@ -130,12 +157,15 @@ fn functions(context: &Context<'_>, document: &Document) {
     }
 }
 
-/// Sections and materials that nothing names are probably slips.
+/// Sections that no beam has are probably slips.
 fn unused(context: &Context<'_>, document: &Document) {
-    for section in &document.sections {
-        let name = &section.name;
-        let named = |beam: &Beam| beam.stations.iter().any(|station| station.section.value == name.value);
-        if document.beams.len() == context.names("beams").len() && !document.beams.iter().any(named) {
+    if document.beams.len() != context.names("beams").len() {
+        return;
+    }
+    let stations = document.beams.iter().flat_map(|beam| &beam.stations);
+    let used: BTreeSet<&str> = stations.map(|station| station.section.value.as_str()).collect();
+    for name in document.sections.iter().map(|section| &section.name) {
+        if !used.contains(name.value.as_str()) {
             let problem = Problem::warning(name.span, format!("no beam has the section `{}`", name.value));
             context.tell(problem.label("not used").help("name it in a beam, or remove it"));
         }

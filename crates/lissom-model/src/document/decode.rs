@@ -45,14 +45,12 @@ impl Document {
             return Err(Report::new(problems, &tree.sources));
         }
         let warnings = Report::new(problems, &tree.sources);
-        match document {
-            Some(document) => Ok(Self { warnings, sources: tree.sources, ..document }),
-            // Every decoder that gives nothing has told why; this is for the case that one forgot.
-            None => {
-                let problem = Problem::error(Span::default(), "the model could not be read");
-                Err(Report::new(vec![problem], &tree.sources))
-            }
+        if let Some(document) = document {
+            return Ok(Self { warnings, sources: tree.sources, ..document });
         }
+        // Every decoder that gives nothing has told why; this is for the case that one forgot.
+        let problem = Problem::error(Span::default(), "the model could not be read");
+        Err(Report::new(vec![problem], &tree.sources))
     }
 }
 

@@ -5,7 +5,7 @@ use lissom_motion::{Matrix3, Matrix6, Vector3};
 use super::decode::{each, each_of_kind};
 use super::{Material, Section};
 use crate::context::Context;
-use crate::keys::{Shape as Holds, optional, required};
+use crate::keys::Shape as Holds;
 use crate::reader::Reader;
 use crate::registry::Registry;
 use crate::report::{Located, Problem};
@@ -148,12 +148,8 @@ fn general(reader: &Reader<'_, '_>) -> Option<SectionProperties> {
 }
 
 fn described_mass<'c>(reader: &Reader<'c, '_>, node: &'c crate::text::Node) -> Option<Matrix6> {
-    let keys = vec![
-        required("per_length", Holds::Positive, "kg/m", "mass per length"),
-        required("inertia", Holds::Inertia, "kg m", "[J11, J22, J33] per length about the centre of mass"),
-        optional("center", Holds::Vector, "m", "[c2, c3]: centre of mass across the beam"),
-    ];
-    let inner = Reader::open(reader.context, node, (reader.words("mass"), node.span), keys)?;
+    let inner =
+        Reader::open(reader.context, node, (reader.words("mass"), node.span), Holds::slice_mass_keys())?;
     let per_length = inner.number("per_length");
     let inertia = inner.node("inertia").and_then(|node| slice_inertia(&inner, node));
     let center = match inner.node("center") {

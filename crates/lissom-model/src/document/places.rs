@@ -22,13 +22,11 @@ impl Context<'_> {
         let place = match &node.value {
             Value::Text(name) => {
                 let known = self.points.borrow().get(name.as_str()).copied();
-                match known {
-                    Some(place) => place?,
-                    None => {
-                        self.is_known("points", name, node.span, what);
-                        return None;
-                    }
-                }
+                let Some(place) = known else {
+                    self.is_known("points", name, node.span, what);
+                    return None;
+                };
+                place?
             }
             Value::List(_) => self.vector(node, what)?,
             _ => return self.wrong_type(node, what, "the name of a point, or three numbers"),

@@ -35,7 +35,7 @@ pub const VERSION: usize = 1;
 
 /// All the words at the top.
 pub(crate) static TOP: [Top; 15] = [
-    top("lissom", Holds::Value(Shape::Count(1, VERSION)), true, "Version of the file format."),
+    top("lissom", Holds::Value(Shape::Version), true, "Version of the file format."),
     top("title", Holds::Value(Shape::Text), false, "One line about the model."),
     top("gravity", Holds::Value(Shape::Vector), false, "Acceleration of gravity [m/s²]; none when left out."),
     top("parameters", Holds::Values(Shape::Number), false, "Numbers that expressions may name."),

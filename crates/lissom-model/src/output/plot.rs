@@ -34,8 +34,11 @@ pub struct Figure {
     title: String,
     quantity: String,
     unit: String,
-    curves: Vec<(String, Vec<(f64, f64)>)>,
+    curves: Vec<Curve>,
 }
+
+/// A name and points (time, value).
+type Curve = (String, Vec<(f64, f64)>);
 
 /// The figures of a record: one per output, or per output and unit where its columns have several.
 pub fn figures(record: &Record, title: &str) -> Vec<Figure> {
@@ -121,7 +124,7 @@ impl Figure {
         };
         let last = points().map(|point| point.0).fold(first, f64::max);
         let (factor, unit) = prefixed(points().fold(0.0, |most, point| point.1.abs().max(most)), &self.unit);
-        let curve = |(index, (name, points)): (usize, &(String, Vec<(f64, f64)>))| {
+        let curve = |(index, (name, points)): (usize, &Curve)| {
             let line = LinePlot::new()
                 .with_data(points.iter().map(|(time, value)| (*time, value / factor)))
                 .with_color(COLOURS[index % COLOURS.len()])

@@ -1,0 +1,162 @@
+//! Whatever the text, the decoder answers: it reads the model or tells what is wrong, and never breaks down.
+
+use std::fs;
+use std::path::Path;
+
+use lissom_model::Document;
+use proptest::prelude::*;
+
+mod support;
+
+fn good_files() -> Vec<String> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/good");
+    let mut paths: Vec<_> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    paths.sort();
+    paths.into_iter().map(|path| fs::read_to_string(path).unwrap()).collect()
+}
+
+/// Words, numbers, quoted texts, signs, blanks and line ends.
+fn tokens(text: &str) -> Vec<String> {
+    #[derive(PartialEq)]
+    enum Kind {
+        Word,
+        Blank,
+        Sign,
+    }
+    let kind = |c: char| match c {
+        _ if c.is_alphanumeric() || matches!(c, '_' | '.' | '-' | '+') => Kind::Word,
+        ' ' => Kind::Blank,
+        _ => Kind::Sign,
+    };
+    let mut tokens: Vec<String> = Vec::new();
+    let mut last = Kind::Sign;
+    for c in text.chars() {
+        let now = kind(c);
+        match tokens.last_mut() {
+            Some(token) if now == last && now != Kind::Sign => token.push(c),
+            _ => tokens.push(c.to_string()),
+        }
+        last = now;
+    }
+    tokens
+}
+
+const STRANGERS: [&str; 32] = [
+    "nan",
+    "-inf",
+    "1e400",
+    "-0",
+    "0",
+    "-1",
+    "1e-320",
+    "1e308",
+    "9223372036854775808",
+    "\"\"",
+    "\"t\"",
+    "\"s^\"",
+    "true",
+    "[]",
+    "{}",
+    "[[]]",
+    "\"ground\"",
+    "\"beam@0.5\"",
+    "\"beam@nan\"",
+    "ground",
+    "start",
+    "\n",
+    "=",
+    "\"",
+    "'''",
+    "]",
+    "#",
+    ".",
+    "0x10",
+    "1979-05-27",
+    "\u{0}",
+    "é",
+];
+
+/// Reads the text, shows the report, and looks at every span.
+fn answer(text: &str, overrides: &[(String, String)]) {
+    match Document::parse_with(text, "fuzz.toml", &support::registry(), overrides) {
+        Ok(document) => {
+            for beam in &document.beams {
+                assert!(beam.line.length().is_finite() && beam.properties(&document, 0.5).is_some());
+                assert!(beam.frame(0.5).iter().all(|entry| entry.is_finite()));
+            }
+        }
+        Err(report) => {
+            assert!(report.has_errors());
+            assert!(!report.render(false).is_empty());
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(3000))]
+
+    #[test]
+    fn random_bytes_are_answered(bytes in proptest::collection::vec(any::<u8>(), 0..200)) {
+        answer(&String::from_utf8_lossy(&bytes), &[]);
+    }
+
+    #[test]
+    fn random_lines_are_answered(text in "lissom = 1\n([\\[\\]a-z.=\"0-9{},\n ]{0,60}\n){0,5}") {
+        answer(&text, &[]);
+    }
+
+    #[test]
+    fn damaged_models_are_answered(
+        file in 0..4_usize,
+        damages in proptest::collection::vec((any::<prop::sample::Index>(), 0..4_u8, 0..STRANGERS.len()), 1..4),
+    ) {
+        let files = good_files();
+        let mut tokens = tokens(&files[file % files.len()]);
+        for (place, damage, stranger) in damages {
+            if tokens.is_empty() {
+                break;
+            }
+            let index = place.index(tokens.len());
+            match damage {
+                0 => drop(tokens.remove(index)),
+                1 => tokens.insert(index, tokens[index].clone()),
+                2 => {
+                    let other = (index * 7 + stranger * 13) % tokens.len();
+                    tokens.swap(index, other);
+                }
+                _ => tokens[index] = STRANGERS[stranger].to_owned(),
+            }
+        }
+        answer(&tokens.concat(), &[]);
+    }
+
+    #[test]
+    fn damaged_values_are_answered(
+        file in 0..4_usize,
+        place in any::<prop::sample::Index>(),
+        stranger in 0..STRANGERS.len(),
+    ) {
+        // Only numbers are replaced, so that most of these texts are still TOML.
+        let files = good_files();
+        let mut tokens = tokens(&files[file % files.len()]);
+        let numbers: Vec<usize> = (0..tokens.len()).filter(|index| tokens[*index].parse::<f64>().is_ok()).collect();
+        tokens[numbers[place.index(numbers.len())]] = STRANGERS[stranger].to_owned();
+        answer(&tokens.concat(), &[]);
+    }
+
+    #[test]
+    fn random_overrides_are_answered(path in "[a-z.\"]{0,12}|analysis\\.[a-z]{0,5}|beams\\.beam\\.[a-z]{1,8}", value in any::<String>()) {
+        answer(&good_files()[3], &[(path, value)]);
+    }
+}
+
+#[test]
+fn deep_and_long_texts_are_answered() {
+    let deep = format!("lissom = 1\na = {}{}", "[".repeat(50_000), "]".repeat(50_000));
+    answer(&deep, &[]);
+    answer(&format!("lissom = 1\n[{}]\n", "a.".repeat(50_000) + "b"), &[]);
+    answer(&format!("lissom = 1\n[parameters]\na = \"{}\"", "(".repeat(100_000)), &[]);
+    answer(&"[a]\n".repeat(10_000), &[]);
+    let points: Vec<String> = (0..3000).map(|i| format!("p{i} = [0, 0]\n")).collect();
+    answer(&format!("lissom = 1\n[points]\n{}", points.concat()), &[]);
+}

@@ -1,0 +1,108 @@
+//! The schema accepts every good model file and refuses what a schema can refuse.
+
+use std::fs;
+use std::path::Path;
+
+use serde_json::{Value, json};
+
+mod support;
+
+fn folder(name: &str) -> Vec<(String, String)> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(name);
+    fs::read_dir(folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .map(|path| {
+            (path.file_stem().unwrap().to_str().unwrap().to_owned(), fs::read_to_string(path).unwrap())
+        })
+        .collect()
+}
+
+fn json_of(text: &str) -> Option<Value> {
+    fn convert(value: toml::Value) -> Value {
+        match value {
+            toml::Value::String(text) => json!(text),
+            toml::Value::Integer(number) => json!(number),
+            toml::Value::Float(number) => json!(number),
+            toml::Value::Boolean(flag) => json!(flag),
+            toml::Value::Datetime(date) => json!({ "date": date.to_string() }),
+            toml::Value::Array(list) => list.into_iter().map(convert).collect(),
+            toml::Value::Table(table) => {
+                Value::Object(table.into_iter().map(|(key, value)| (key, convert(value))).collect())
+            }
+        }
+    }
+    text.parse::<toml::Table>().ok().map(|table| convert(toml::Value::Table(table)))
+}
+
+#[test]
+fn good_files_fit_the_schema() {
+    let schema = lissom_model::schema(&support::registry());
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    for (name, text) in folder("good") {
+        let errors: Vec<String> = validator
+            .iter_errors(&json_of(&text).unwrap())
+            .map(|error| format!("{}: {error}", error.instance_path()))
+            .collect();
+        assert!(errors.is_empty(), "{name}: {errors:#?}");
+    }
+}
+
+#[test]
+fn typical_mistakes_do_not_fit_the_schema() {
+    let schema = lissom_model::schema(&support::registry());
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    // What is wrong with these shows in one value alone, without looking anything up.
+    let seen = [
+        "unknown_",
+        "missing_",
+        "type_",
+        "vector_too_short",
+        "number_negative",
+        "number_zero",
+        "elements_",
+        "order_four",
+        "version_",
+        "step_zero",
+        "alpha_outside",
+        "radius_outside",
+        "penalty_negative",
+        "tolerance_zero",
+        "no_analysis",
+        "stations_outside",
+        "stiffness_five",
+        "mass_lacks_inertia",
+        "table_too_short",
+        "table_row_length",
+        "plane_wrong",
+        "steps_in_dynamics",
+        "output_energy_of",
+        "gravity_length",
+        "title_number",
+        "many_errors",
+    ];
+    let hidden = [
+        "unknown_material",
+        "unknown_section",
+        "unknown_point",
+        "unknown_point_only",
+        "unknown_part",
+        "unknown_joint",
+        "unknown_joint_output",
+        "unknown_shear_theory",
+        "missing_nu",
+        "missing_from",
+        "missing_section",
+    ];
+    let mut checked = 0;
+    for (name, text) in folder("bad") {
+        if hidden.contains(&name.as_str()) || !seen.iter().any(|start| name.starts_with(start)) {
+            continue;
+        }
+        if let Some(instance) = json_of(&text) {
+            assert!(!validator.is_valid(&instance), "{name} fits the schema");
+            checked += 1;
+        }
+    }
+    assert!(checked >= 40, "{checked}");
+}
