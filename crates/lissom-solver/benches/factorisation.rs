@@ -59,7 +59,7 @@ fn analysis(criterion: &mut Criterion) {
             for name in ["sparse", "skyline"] {
                 let Some(kind) = kind(name).filter(|_| !is_hopeless(name, family, size)) else { continue };
                 group.sample_size(10).bench_function(BenchmarkId::new(name, size), |bencher| {
-                    bencher.iter(|| (kind.real)(&structure))
+                    bencher.iter(|| (kind.real)(&structure));
                 });
             }
             group.finish();

@@ -8,13 +8,13 @@ use crate::scalar::Scalar;
 ///
 /// # Errors
 /// [`FactorError::NotFinite`] with the column of the first value that is not finite.
+#[inline(always)]
 pub(crate) fn largest_entry<S: Scalar>(pattern: &Pattern, values: &[S]) -> Result<f64, FactorError> {
-    const LANES: usize = 8;
+    const LANES: usize = 32;
     let mut largest = [0.0_f64; LANES];
     // Zero times a finite number is zero, and anything else is not.
     let mut probe = [0.0_f64; LANES];
-    let chunks = values.chunks_exact(LANES);
-    let rest = chunks.remainder();
+    let (chunks, rest) = values.as_chunks::<LANES>();
     for chunk in chunks {
         for lane in 0..LANES {
             let magnitude = chunk[lane].magnitude();
@@ -25,12 +25,17 @@ pub(crate) fn largest_entry<S: Scalar>(pattern: &Pattern, values: &[S]) -> Resul
     for (lane, value) in rest.iter().enumerate() {
         let magnitude = value.magnitude();
         probe[lane] += magnitude * 0.0;
-        largest[lane] = largest[lane].max(magnitude);
+        largest[lane] = if magnitude > largest[lane] { magnitude } else { largest[lane] };
     }
     if probe.iter().all(|&probe| probe == 0.0) {
         return Ok(largest.iter().fold(0.0, |largest, &lane| largest.max(lane)));
     }
+    Err(first_not_finite(pattern, values))
+}
+
+#[cold]
+fn first_not_finite<S: Scalar>(pattern: &Pattern, values: &[S]) -> FactorError {
     let entry = values.iter().position(|value| !value.magnitude().is_finite()).unwrap_or(0);
     let unknown = pattern.column_starts().partition_point(|&start| start <= entry) - 1;
-    Err(FactorError::NotFinite { unknown })
+    FactorError::NotFinite { unknown }
 }

@@ -13,7 +13,29 @@ mod sealed {
         /// `a b + c`. With `FUSED` each product is rounded together with its sum: one instruction where the
         /// processor is known to have it, a slow library call elsewhere.
         fn multiply_add<const FUSED: bool>(a: Self, b: Self, c: Self) -> Self;
+
+        /// Whether a number has a part beside the real one.
+        const COMPLEX: bool;
+
+        /// `Σ_p A[.., p] B[.., p]ᵀ` for `ROWS` rows and `COLUMNS` columns of two panels, given as slices and strides.
+        fn tile<const FUSED: bool, const ROWS: usize, const COLUMNS: usize>(
+            a: (&[Self], usize),
+            b: (&[Self], usize),
+            depth: usize,
+        ) -> [[Self; ROWS]; COLUMNS];
     }
+}
+
+/// So many numbers of a slice, from a place on.
+#[inline(always)]
+pub(crate) fn array<S, const COUNT: usize>(slice: &[S], at: usize) -> &[S; COUNT] {
+    slice[at..at + COUNT].try_into().expect("a slice of that length")
+}
+
+/// The same, to write to.
+#[inline(always)]
+pub(crate) fn array_mut<S, const COUNT: usize>(slice: &mut [S], at: usize) -> &mut [S; COUNT] {
+    (&mut slice[at..at + COUNT]).try_into().expect("a slice of that length")
 }
 
 /// A real or complex number in double precision. Sealed: `f64` and `Complex64` are all there is.
@@ -53,6 +75,27 @@ impl sealed::Arithmetic for f64 {
     fn multiply_add<const FUSED: bool>(a: f64, b: f64, c: f64) -> f64 {
         if FUSED { a.mul_add(b, c) } else { a * b + c }
     }
+
+    const COMPLEX: bool = false;
+
+    #[inline(always)]
+    fn tile<const FUSED: bool, const ROWS: usize, const COLUMNS: usize>(
+        (a, a_stride): (&[f64], usize),
+        (b, b_stride): (&[f64], usize),
+        depth: usize,
+    ) -> [[f64; ROWS]; COLUMNS] {
+        let mut sums = [[0.0; ROWS]; COLUMNS];
+        for p in 0..depth {
+            let left: &[f64; ROWS] = array(a, p * a_stride);
+            let right: &[f64; COLUMNS] = array(b, p * b_stride);
+            for j in 0..COLUMNS {
+                for i in 0..ROWS {
+                    sums[j][i] = f64::multiply_add::<FUSED>(left[i], right[j], sums[j][i]);
+                }
+            }
+        }
+        sums
+    }
 }
 
 impl Scalar for f64 {
@@ -87,6 +130,42 @@ impl sealed::Arithmetic for Complex64 {
             f64::multiply_add::<FUSED>(-a.im, b.im, real),
             f64::multiply_add::<FUSED>(a.re, b.im, imaginary),
         )
+    }
+
+    const COMPLEX: bool = true;
+
+    /// Products with the real and with the imaginary part of B are summed apart, so that the parts of A stay side
+    /// by side as they lie in memory; they are put together once, at the end.
+    #[inline(always)]
+    fn tile<const FUSED: bool, const ROWS: usize, const COLUMNS: usize>(
+        (a, a_stride): (&[Complex64], usize),
+        (b, b_stride): (&[Complex64], usize),
+        depth: usize,
+    ) -> [[Complex64; ROWS]; COLUMNS] {
+        let mut by_real = [[[0.0; 2]; ROWS]; COLUMNS];
+        let mut by_imaginary = [[[0.0; 2]; ROWS]; COLUMNS];
+        for p in 0..depth {
+            let left: &[Complex64; ROWS] = array(a, p * a_stride);
+            let left = left.map(|value| [value.re, value.im]);
+            let right: &[Complex64; COLUMNS] = array(b, p * b_stride);
+            for j in 0..COLUMNS {
+                for i in 0..ROWS {
+                    for part in 0..2 {
+                        let (real, imaginary) = (&mut by_real[j][i][part], &mut by_imaginary[j][i][part]);
+                        *real = f64::multiply_add::<FUSED>(left[i][part], right[j].re, *real);
+                        *imaginary = f64::multiply_add::<FUSED>(left[i][part], right[j].im, *imaginary);
+                    }
+                }
+            }
+        }
+        let mut sums = [[Complex64::new(0.0, 0.0); ROWS]; COLUMNS];
+        for j in 0..COLUMNS {
+            for i in 0..ROWS {
+                let (real, imaginary) = (by_real[j][i], by_imaginary[j][i]);
+                sums[j][i] = Complex64::new(real[0] - imaginary[1], real[1] + imaginary[0]);
+            }
+        }
+        sums
     }
 }
 

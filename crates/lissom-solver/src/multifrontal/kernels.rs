@@ -8,7 +8,7 @@
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use super::fronts::PADDING;
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, array, array_mut};
 
 /// Columns of a tile of a product: with two vectors of rows, twelve sums in sixteen or more registers.
 const PRODUCT_COLUMNS: usize = 6;
@@ -20,43 +20,13 @@ const HALF_TILE: usize = 2 * PADDING;
 pub(super) const BLOCK: usize = 32;
 
 #[inline(always)]
-pub(super) fn array<S: Scalar, const ROWS: usize>(slice: &[S], at: usize) -> &[S; ROWS] {
-    slice[at..at + ROWS].try_into().expect("a slice of that length")
-}
-
-#[inline(always)]
-pub(super) fn array_mut<S: Scalar, const ROWS: usize>(slice: &mut [S], at: usize) -> &mut [S; ROWS] {
-    (&mut slice[at..at + ROWS]).try_into().expect("a slice of that length")
-}
-
-/// `Σ_p A[.., p] B[.., p]ᵀ` for a tile; `a` and `b` begin at its first row and its first column.
-#[inline(always)]
-fn tile<S: Scalar, const FUSED: bool, const ROWS: usize, const COLUMNS: usize>(
-    (a, a_stride): (&[S], usize),
-    (b, b_stride): (&[S], usize),
-    depth: usize,
-) -> [[S; ROWS]; COLUMNS] {
-    let mut sums = [[S::zero(); ROWS]; COLUMNS];
-    for p in 0..depth {
-        let left: &[S; ROWS] = array(a, p * a_stride);
-        let right: &[S; COLUMNS] = array(b, p * b_stride);
-        for j in 0..COLUMNS {
-            for i in 0..ROWS {
-                sums[j][i] = S::multiply_add::<FUSED>(left[i], right[j], sums[j][i]);
-            }
-        }
-    }
-    sums
-}
-
-#[inline(always)]
 fn strip<S: Scalar, const FUSED: bool, const ADD: bool, const ROWS: usize, const COLUMNS: usize>(
     (c, c_stride): (&mut [S], usize),
     a: (&[S], usize),
     b: (&[S], usize),
     depth: usize,
 ) {
-    let sums = tile::<S, FUSED, ROWS, COLUMNS>(a, b, depth);
+    let sums = S::tile::<FUSED, ROWS, COLUMNS>(a, b, depth);
     for (j, sums) in sums.iter().enumerate() {
         let column: &mut [S; ROWS] = array_mut(c, j * c_stride);
         for i in 0..ROWS {
@@ -82,7 +52,7 @@ fn strips<S: Scalar, const FUSED: bool, const ADD: bool, const ROWS: usize, cons
             strip::<S, FUSED, ADD, ROWS, COLUMNS>(c, (&a[row..], a_stride), b, depth);
             row += ROWS;
         }
-        while row + HALF_TILE <= rows {
+        while !S::COMPLEX && row + HALF_TILE <= rows {
             let c = (&mut c[row + column * c_stride..], c_stride);
             strip::<S, FUSED, ADD, HALF_TILE, COLUMNS>(c, (&a[row..], a_stride), b, depth);
             row += HALF_TILE;
@@ -123,7 +93,7 @@ fn solve_tile<S: Scalar, const FUSED: bool, const ROWS: usize, const COLUMNS: us
 ) {
     let done = (&x[begin * x_stride..], x_stride);
     let factors = (&triangle[begin * t_stride + first..], t_stride);
-    let sums = tile::<S, FUSED, ROWS, COLUMNS>(done, factors, first - begin);
+    let sums = S::tile::<FUSED, ROWS, COLUMNS>(done, factors, first - begin);
     let mut block = [[S::zero(); ROWS]; COLUMNS];
     for j in 0..COLUMNS {
         let column: &[S; ROWS] = array(x, (first + j) * x_stride);
@@ -186,7 +156,7 @@ pub(super) fn solve_block<S: Scalar, const FUSED: bool, const ROWS: usize>(
         solve_columns::<S, FUSED, ROWS>(x, triangle, reciprocals, (begin, end));
         row += ROWS;
     }
-    while row + HALF_TILE <= rows {
+    while !S::COMPLEX && row + HALF_TILE <= rows {
         let x = (&mut x[row..], x_stride);
         solve_columns::<S, FUSED, HALF_TILE>(x, triangle, reciprocals, (begin, end));
         row += HALF_TILE;

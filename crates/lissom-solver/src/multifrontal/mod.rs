@@ -20,7 +20,7 @@ use fronts::Symbolic;
 
 use crate::entries::largest_entry;
 use crate::pattern::Pattern;
-use crate::report::{FactorError, FactorReport, Monitor};
+use crate::report::{FactorError, FactorReport};
 use crate::scalar::Scalar;
 use crate::solver::LinearSolver;
 use crate::structure::Structure;
@@ -80,10 +80,12 @@ impl<S: Scalar> LinearSolver<S> for Multifrontal<S> {
 
     fn factor(&mut self, values: &[S]) -> Result<FactorReport, FactorError> {
         assert_eq!(values.len(), self.pattern.entries(), "one value for each entry of the pattern");
-        let largest = largest_entry(&self.pattern, values)?;
-        let work = Factor { symbolic: &self.symbolic, numeric: &mut self.numeric, values };
-        let (monitor, largest_upper) = self.processor.dispatch(work)?;
-        Ok(monitor.report(largest_upper, largest))
+        self.processor.dispatch(Factor {
+            pattern: &self.pattern,
+            symbolic: &self.symbolic,
+            numeric: &mut self.numeric,
+            values,
+        })
     }
 
     fn solve(&mut self, right_hand_side: &mut [S]) {
@@ -100,22 +102,36 @@ impl<S: Scalar> LinearSolver<S> for Multifrontal<S> {
 }
 
 struct Factor<'a, S> {
+    pattern: &'a Pattern,
     symbolic: &'a Symbolic,
     numeric: &'a mut Numeric<S>,
     values: &'a [S],
 }
 
+impl<S: Scalar> Factor<'_, S> {
+    #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+    #[inline(always)]
+    fn run<const FUSED: bool, const ROWS: usize>(self) -> Result<FactorReport, FactorError> {
+        let largest = largest_entry(self.pattern, self.values)?;
+        let (monitor, largest_upper) = self.numeric.factor::<FUSED, ROWS>(self.symbolic, self.values)?;
+        Ok(monitor.report(largest_upper, largest))
+    }
+}
+
 impl<S: Scalar> pulp::WithSimd for Factor<'_, S> {
-    type Output = Result<(Monitor, f64), FactorError>;
+    type Output = Result<FactorReport, FactorError>;
 
     #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
     #[inline(always)]
     fn with_simd<V: pulp::Simd>(self, _: V) -> Self::Output {
-        // Two vectors of rows; with four lanes or more the processor multiplies and adds in one instruction.
-        match V::F64_LANES {
-            8 => self.numeric.factor::<true, 16>(self.symbolic, self.values),
-            4 => self.numeric.factor::<true, 8>(self.symbolic, self.values),
-            _ => self.numeric.factor::<false, 4>(self.symbolic, self.values),
+        // Two vectors of rows, of real or of complex numbers summed twice: twelve sums for six columns. With four
+        // lanes or more the processor multiplies and adds in one instruction.
+        if V::F64_LANES == 8 {
+            if S::COMPLEX { self.run::<true, 4>() } else { self.run::<true, 16>() }
+        } else if V::F64_LANES == 4 {
+            if S::COMPLEX { self.run::<true, 4>() } else { self.run::<true, 8>() }
+        } else {
+            self.run::<false, 4>()
         }
     }
 }

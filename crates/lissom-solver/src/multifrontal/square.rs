@@ -8,9 +8,9 @@
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use super::fronts::PADDING;
-use super::kernels::{BLOCK, absolute_products, array, array_mut, solve_block, subtract_product};
+use super::kernels::{BLOCK, absolute_products, solve_block, subtract_product};
 use crate::report::{FactorError, Monitor};
-use crate::scalar::Scalar;
+use crate::scalar::{Scalar, array, array_mut};
 
 /// Columns of the inner blocks.
 const WIDTH: usize = PADDING;
@@ -93,7 +93,7 @@ impl<S: Scalar> SquareWork<S> {
                     self.solve_upper::<FUSED>(square, stride, (first, row), &block, end);
                 }
                 let (done, rest) = square.split_at_mut(next * stride);
-                subtract_product::<S, FUSED, true, 8>(
+                subtract_product::<S, FUSED, true, PADDING>(
                     (&mut rest[next..], stride),
                     (&done[first * stride + next..], stride),
                     (&self.transposed[first * stride + next..], stride),
