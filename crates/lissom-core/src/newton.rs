@@ -130,7 +130,15 @@ pub fn solve<E: Equations>(
         let correction = equations.correct();
         outcome.iterations += 1;
         outcome.correction = correction.size;
-        if std::env::var_os("TRACE").is_some() { eprintln!("  it {} size {:.3e} ref {:.3e} ratio {:.2e} fresh {fresh}", outcome.iterations, correction.size, correction.reference, previous.map_or(0.0, |p| correction.size / p)); }
+        if std::env::var_os("TRACE").is_some() {
+            eprintln!(
+                "  it {} size {:.3e} ref {:.3e} ratio {:.2e} fresh {fresh}",
+                outcome.iterations,
+                correction.size,
+                correction.reference,
+                previous.map_or(0.0, |p| correction.size / p)
+            );
+        }
         match judge(&correction, previous, fresh, limits, memory) {
             Verdict::Converged => return Ok(outcome),
             Verdict::Stalled => {

@@ -79,7 +79,8 @@ fn springs_and_loads() {
                 Attachment::Coordinate => {
                     let placement = Placement {
                         nodes,
-                        at: random.vector(), at_tip: None,
+                        at: random.vector(),
+                        at_tip: None,
                         axis: Some(random.vector()),
                         second_axis: None,
                     };
@@ -157,7 +158,8 @@ fn all_joints() {
             }
             let placement = Placement {
                 nodes,
-                at: random.vector(), at_tip: None,
+                at: random.vector(),
+                at_tip: None,
                 axis: Some(axis),
                 second_axis: Some(random.vector()),
             };
@@ -189,7 +191,8 @@ fn violation_changes_agree_with_violations() {
         let (mut builder, nodes) = two_bodies(&mut random);
         let placement = Placement {
             nodes,
-            at: random.vector(), at_tip: None,
+            at: random.vector(),
+            at_tip: None,
             axis: Some(random.vector()),
             second_axis: Some(random.vector()),
         };
@@ -224,7 +227,8 @@ fn constraint_accelerations_are_second_derivatives() {
         let (mut builder, nodes) = two_bodies(&mut random);
         let placement = Placement {
             nodes,
-            at: random.vector(), at_tip: None,
+            at: random.vector(),
+            at_tip: None,
             axis: Some(random.vector()),
             second_axis: Some(random.vector()),
         };

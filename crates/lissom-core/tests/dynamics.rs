@@ -41,8 +41,13 @@ fn top() -> (System, State) {
     let spin = Vector3::new(0.0, 150.0, -4.615_38);
     let velocity = spin.cross(&center);
     builder.set_twist(node, Vector6::new(velocity.x, velocity.y, velocity.z, spin.x, spin.y, spin.z));
-    let placement =
-        Placement { nodes: [builder.ground(), node], at: Vector3::zeros(), at_tip: None, axis: None, second_axis: None };
+    let placement = Placement {
+        nodes: [builder.ground(), node],
+        at: Vector3::zeros(),
+        at_tip: None,
+        axis: None,
+        second_axis: None,
+    };
     builder.add_joint("pivot", joint_kind("spherical"), &placement, &Parameters::new()).expect("valid");
     builder.build(0.0).expect("valid")
 }
@@ -122,7 +127,8 @@ fn cantilever_rolls_up_to_a_circle() {
     );
     let placement = Placement {
         nodes: [builder.ground(), line.nodes[0]],
-        at: Vector3::zeros(), at_tip: None,
+        at: Vector3::zeros(),
+        at_tip: None,
         axis: None,
         second_axis: None,
     };
@@ -203,7 +209,8 @@ fn free_flexible_pendulum_keeps_its_energy_as_the_scheme_promises() {
         );
         let placement = Placement {
             nodes: [builder.ground(), line.nodes[0]],
-            at: Vector3::zeros(), at_tip: None,
+            at: Vector3::zeros(),
+            at_tip: None,
             axis: None,
             second_axis: None,
         };

@@ -1,11 +1,13 @@
-//! What the user asks for: consistent initial values, time steps, load steps.
+//! What the user asks for: consistent initial values, time steps, load steps, a count of freedoms.
 
 pub mod dynamics;
 mod equations;
 mod factorization;
 pub mod initial;
+pub mod mobility;
 mod step_error;
 
 pub use dynamics::{Settings, Simulation, StepReport, Totals};
 pub use initial::InitialError;
+pub use mobility::{Mobility, Redundant};
 pub use step_error::StepError;

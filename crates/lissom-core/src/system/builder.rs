@@ -150,8 +150,7 @@ impl Builder {
             return Err(ParameterError::new("kind", "acts on another joint's coordinate"));
         };
         let base = Motion::new(joint_rotation(frames, placement)?, placement.at);
-        let tip =
-            placement.at_tip.unwrap_or(self.nodes[placement.nodes[1]].motion.frame.position);
+        let tip = placement.at_tip.unwrap_or(self.nodes[placement.nodes[1]].motion.frame.position);
         let span = base.inverse_transform_point(&tip);
         let joint = build(parameters, &Geometry { span, planar: self.moves_in_plane(placement, &base) })?;
         let (values, relative) = joint.initial();

@@ -80,6 +80,15 @@ impl Layout {
         self.coordinate_rows[coordinate] as usize
     }
 
+    /// Joint and equation of a multiplier.
+    ///
+    /// # Panics
+    /// If there is no such multiplier.
+    pub fn constraint_name(&self, multiplier: usize) -> (&str, &'static str) {
+        let (joint, equation) = &self.multiplier_names[multiplier];
+        (joint, equation)
+    }
+
     /// Name of the unknown in `row`, as a person would call it.
     pub fn name_of(&self, row: usize) -> String {
         const FREEDOMS: [&str; 6] =
