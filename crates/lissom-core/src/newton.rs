@@ -130,7 +130,6 @@ pub fn solve<E: Equations>(
         let correction = equations.correct();
         outcome.iterations += 1;
         outcome.correction = correction.size;
-        if std::env::var_os("TRACE").is_some() {
             eprintln!(
                 "  it {} size {:.3e} ref {:.3e} ratio {:.2e} fresh {fresh}",
                 outcome.iterations,
