@@ -260,3 +260,55 @@ fn constraint_accelerations_are_second_derivatives() {
         }
     }
 }
+
+/// Places moved by one rigid motion leave every element's forces as they are in its own axes, and a beam
+/// that is moved rigidly from its stress-free state feels none.
+#[test]
+fn rigid_motion_changes_no_force() {
+    for (damping, offsets) in [(0.0, false), (0.3, true)] {
+        let mut random = Random::new(17);
+        let systems = [
+            beam::<2>(damping, offsets, &mut random),
+            beam::<3>(damping, offsets, &mut random),
+            beam::<4>(damping, offsets, &mut random),
+        ];
+        for (system, state) in &systems {
+            let moved = |here: &Configuration, turn: &Motion| {
+                let mut there = here.displaced(system, 0, 0.0, false);
+                for node in &mut there.at.nodes[1..] {
+                    node.frame = *turn * node.frame;
+                }
+                there.residual(system, 0.0)
+            };
+            let turn = random.motion();
+            let here = Configuration::random(system, state, 0.4, &mut random);
+            let before = here.residual(system, 0.0);
+            for (a, b) in before.iter().zip(moved(&here, &turn)) {
+                assert!((a - b).abs() < 1e-11 * (1.0 + a.abs()), "{a} {b}");
+            }
+            let mut still = Configuration::random(system, state, 0.0, &mut random);
+            // A rigid motion, rates included: every node has the same twist in space.
+            let spatial = random.screw();
+            for node in &mut still.at.nodes[1..] {
+                node.twist = node.frame.adjoint_inverse_times(&spatial);
+            }
+            for force in moved(&still, &Motion::identity()).iter().chain(&still.residual(system, 0.0)) {
+                assert!(force.abs() < 1e-12, "{force}");
+            }
+        }
+    }
+}
+
+/// Forces of a beam are the gradient of its energy.
+#[test]
+fn beam_forces_are_the_gradient_of_the_energy() {
+    let mut random = Random::new(23);
+    let (system, state) = beam::<4>(0.0, true, &mut random);
+    let here = Configuration::random(&system, &state, 0.4, &mut random);
+    let forces = here.residual(&system, 0.0);
+    for (row, force) in forces.iter().enumerate() {
+        let slope =
+            difference(|step| vec![system.energy(&here.displaced(&system, row, step, false).at).strain])[0];
+        assert!((force - slope).abs() < 1e-9 * (1.0 + force.abs()), "row {row}: {force} {slope}");
+    }
+}

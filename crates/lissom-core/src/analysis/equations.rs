@@ -13,6 +13,9 @@ use crate::system::{Chart, Kinematics, LOCKED, Layout, Linearization, Point, Sta
 /// Corrections of rotations larger than this are cut short [rad].
 const LARGEST_ROTATION: f64 = 1.0;
 
+/// Multipliers are wanted to fewer digits than places, from which the motion goes on.
+const MULTIPLIER_WEIGHT: f64 = 1e-2;
+
 /// Everything a step needs besides system and state, allocated once.
 pub(crate) struct Workspace {
     pub(crate) unit: UnitStart,
@@ -130,30 +133,18 @@ impl StepEquations<'_> {
         }
     }
 
+    /// Applies the corrections. Places are measured by the largest scaled correction; multipliers by
+    /// their largest correction relative to the largest multiplier, in the same units: they may still
+    /// change where the places are found already.
     fn add_corrections(&mut self) -> Correction {
+        let places = self.measure_places();
+        if !places.size.is_finite() {
+            return places;
+        }
+        let cut = if places.size > LARGEST_ROTATION { LARGEST_ROTATION / places.size } else { 1.0 };
         let count = self.system.layout().coordinate_count();
-        let (mut size, mut reference) = (0.0_f64, 0.0_f64);
-        let mut finite = true;
-        for (i, stage) in self.scheme.stages.iter().enumerate() {
-            let work = &*self.work;
-            let from_start = self.scheme.dynamic && self.scheme.increments == Increments::FromStart;
-            let rate = if from_start { stage.abscissa } else { 0.0 };
-            for row in 0..count {
-                let correction = work.sizes[row] * work.residuals[i][row].abs();
-                finite &= correction.is_finite();
-                if correction > size {
-                    size = correction;
-                }
-                // What the step has to find out: how far it departs from going straight on.
-                let departure = work.increments[i][row] - rate * work.unit.rate[row];
-                reference = reference.max(work.sizes[row] * departure.abs());
-            }
-        }
-        if !finite {
-            return Correction { size: f64::NAN, reference };
-        }
-        let cut = if size > LARGEST_ROTATION { LARGEST_ROTATION / size } else { 1.0 };
         let factor = self.scaled.multiplier_factor();
+        let (mut change, mut largest) = (0.0_f64, 0.0_f64);
         for stage in 0..self.scheme.stages.len() {
             let work = &mut *self.work;
             let (motion, constraints) = work.residuals[stage].split_at(count);
@@ -161,7 +152,33 @@ impl StepEquations<'_> {
                 *value -= cut * correction;
             }
             for (value, correction) in work.multipliers[stage].iter_mut().zip(constraints) {
-                *value -= cut * factor * correction;
+                let correction = cut * factor * correction;
+                *value -= correction;
+                change = change.max(correction.abs());
+                largest = largest.max(value.abs());
+            }
+        }
+        let Correction { size, reference } = places;
+        let multipliers = if largest > 0.0 { MULTIPLIER_WEIGHT * change / largest * reference } else { 0.0 };
+        Correction { size: size.max(multipliers), reference }
+    }
+
+    fn measure_places(&self) -> Correction {
+        let count = self.system.layout().coordinate_count();
+        let (mut size, mut reference) = (0.0_f64, 0.0_f64);
+        let work = &*self.work;
+        for (i, stage) in self.scheme.stages.iter().enumerate() {
+            let from_start = self.scheme.dynamic && self.scheme.increments == Increments::FromStart;
+            let rate = if from_start { stage.abscissa } else { 0.0 };
+            for row in 0..count {
+                let correction = work.sizes[row] * work.residuals[i][row].abs();
+                if !correction.is_finite() {
+                    return Correction { size: f64::NAN, reference };
+                }
+                size = size.max(correction);
+                // What the step has to find out: how far it departs from going straight on.
+                let departure = work.increments[i][row] - rate * work.unit.rate[row];
+                reference = reference.max(work.sizes[row] * departure.abs());
             }
         }
         Correction { size, reference }
