@@ -17,6 +17,7 @@ use std::sync::Arc;
 
 use factorisation::Numeric;
 use fronts::Symbolic;
+use triangular::FrontVectors;
 
 use crate::entries::largest_entry;
 use crate::pattern::Pattern;
@@ -34,7 +35,7 @@ pub struct Multifrontal<S> {
     symbolic: Symbolic,
     numeric: Numeric<S>,
     vector: Vec<S>,
-    front_vector: Vec<S>,
+    front_vectors: FrontVectors<S>,
 }
 
 impl<S: Scalar> Multifrontal<S> {
@@ -54,7 +55,7 @@ impl<S: Scalar> Multifrontal<S> {
             processor: pulp::Arch::new(),
             numeric: Numeric::new(&symbolic, diagonal),
             vector: vec![S::zero(); symbolic.unknowns.len()],
-            front_vector: vec![S::zero(); fronts::padded(symbolic.largest_boundary)],
+            front_vectors: FrontVectors::new(&symbolic),
             symbolic,
             pattern,
         }
@@ -67,7 +68,7 @@ impl<S: Scalar> Multifrontal<S> {
             factors: &self.numeric.factors,
             right_hand_side,
             vector: &mut self.vector,
-            front_vector: &mut self.front_vector,
+            front_vectors: &mut self.front_vectors,
             transposed,
         });
     }
@@ -141,7 +142,7 @@ struct Solve<'a, S> {
     factors: &'a [S],
     right_hand_side: &'a mut [S],
     vector: &'a mut [S],
-    front_vector: &'a mut [S],
+    front_vectors: &'a mut FrontVectors<S>,
     transposed: bool,
 }
 
@@ -158,10 +159,10 @@ impl<S: Scalar> Solve<'_, S> {
                 self.symbolic,
                 self.factors,
                 self.vector,
-                self.front_vector,
+                self.front_vectors,
             );
         } else {
-            triangular::solve::<S, FUSED>(self.symbolic, self.factors, self.vector, self.front_vector);
+            triangular::solve::<S, FUSED>(self.symbolic, self.factors, self.vector, self.front_vectors);
         }
         for (&value, &unknown) in self.vector.iter().zip(unknowns) {
             self.right_hand_side[unknown as usize] = value;

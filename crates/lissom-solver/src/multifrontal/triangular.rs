@@ -3,51 +3,116 @@
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use super::fronts::{Front, PADDING, Symbolic};
-use crate::scalar::Scalar;
+use super::fronts::{Front, PADDING, Symbolic, padded};
+use crate::scalar::{Scalar, array, array_mut};
 
 /// Columns of a panel that are read side by side.
 const COLUMNS: usize = 4;
 
-/// `x = U⁻¹ L⁻¹ x`; `front_vector` has room for the largest padded boundary.
+/// Room for the pivots and for the boundary of any one front, padded.
+pub(super) struct FrontVectors<S> {
+    pivots: Vec<S>,
+    boundary: Vec<S>,
+}
+
+impl<S: Scalar> FrontVectors<S> {
+    pub(super) fn new(symbolic: &Symbolic) -> Self {
+        FrontVectors {
+            pivots: vec![S::zero(); padded(symbolic.largest_pivots)],
+            boundary: vec![S::zero(); padded(symbolic.largest_boundary)],
+        }
+    }
+}
+
+/// `x = U⁻¹ L⁻¹ x`.
 #[inline(always)]
 pub(super) fn solve<S: Scalar, const FUSED: bool>(
     symbolic: &Symbolic,
     factors: &[S],
     x: &mut [S],
-    front_vector: &mut [S],
+    vectors: &mut FrontVectors<S>,
 ) {
     for front in &symbolic.fronts {
         let (square, lower, _) = pieces(front, factors);
-        let rows = &symbolic.boundaries[front.rows.clone()];
-        let pivots = &mut x[front.first..front.first + front.pivots];
-        let stride = front.square_stride();
-        for (step, column) in square.chunks_exact(stride.max(1)).enumerate() {
-            let known = pivots[step];
-            for (value, &factor) in pivots[step + 1..].iter_mut().zip(&column[step + 1..]) {
-                *value = S::multiply_add::<FUSED>(-known, factor, *value);
-            }
-        }
-        let sums = &mut front_vector[..front.panel_stride()];
+        let pivots = &mut vectors.pivots[..front.square_stride()];
+        let place = &mut x[front.first..front.first + front.pivots];
+        pivots[..front.pivots].copy_from_slice(place);
+        solve_lower::<S, FUSED>(pivots, square, front.pivots);
+        place.copy_from_slice(&pivots[..front.pivots]);
+        let sums = &mut vectors.boundary[..front.panel_stride()];
         sums.fill(S::zero());
-        add_columns::<S, FUSED>(sums, lower, pivots);
-        for (&row, &sum) in rows.iter().zip(&*sums) {
+        add_columns::<S, FUSED>(sums, lower, place);
+        for (&row, &sum) in symbolic.boundaries[front.rows.clone()].iter().zip(&*sums) {
             x[row as usize] -= sum;
         }
     }
     for front in symbolic.fronts.iter().rev() {
         let (square, _, upper) = pieces(front, factors);
-        gather(symbolic, front, x, front_vector);
-        let pivots = &mut x[front.first..front.first + front.pivots];
-        subtract_dots::<S, FUSED>(pivots, upper, &front_vector[..front.panel_stride()]);
-        let stride = front.square_stride();
-        for (step, column) in square.chunks_exact(stride.max(1)).enumerate().rev() {
-            let known = pivots[step] * column[step];
-            pivots[step] = known;
-            for (value, &factor) in pivots[..step].iter_mut().zip(column) {
-                *value = S::multiply_add::<FUSED>(-known, factor, *value);
+        gather(symbolic, front, x, &mut vectors.boundary);
+        let pivots = &mut vectors.pivots[..front.square_stride()];
+        let place = &mut x[front.first..front.first + front.pivots];
+        pivots[..front.pivots].copy_from_slice(place);
+        subtract_dots::<S, FUSED>(
+            &mut pivots[..front.pivots],
+            upper,
+            &vectors.boundary[..front.panel_stride()],
+        );
+        solve_upper::<S, FUSED>(pivots, square, front.pivots);
+        place.copy_from_slice(&pivots[..front.pivots]);
+    }
+}
+
+/// `x = L11⁻¹ x` for a padded vector, four columns at a time.
+#[inline(always)]
+fn solve_lower<S: Scalar, const FUSED: bool>(x: &mut [S], square: &[S], pivots: usize) {
+    let stride = x.len();
+    let whole = pivots / COLUMNS * COLUMNS;
+    for first in (0..whole).step_by(COLUMNS) {
+        let columns = &square[first * stride..(first + COLUMNS) * stride];
+        let known: &mut [S; COLUMNS] = array_mut(x, first);
+        for column in 0..COLUMNS {
+            let factors: &[S; COLUMNS] = array(columns, column * stride + first);
+            for row in column + 1..COLUMNS {
+                known[row] = S::multiply_add::<FUSED>(-known[column], factors[row], known[row]);
             }
         }
+        let known = known.map(|value| -value);
+        let rest = &mut x[first + COLUMNS..];
+        add_four::<S, FUSED>(rest, columns, stride, first + COLUMNS, &known);
+    }
+    for step in whole..pivots {
+        let known = -x[step];
+        for row in step + 1..pivots {
+            x[row] = S::multiply_add::<FUSED>(known, square[row + step * stride], x[row]);
+        }
+    }
+}
+
+/// `x = U11⁻¹ x` for a padded vector, four columns at a time. The diagonal holds reciprocals.
+#[inline(always)]
+fn solve_upper<S: Scalar, const FUSED: bool>(x: &mut [S], square: &[S], pivots: usize) {
+    let stride = x.len();
+    let whole = pivots / COLUMNS * COLUMNS;
+    for step in (whole..pivots).rev() {
+        let column = &square[step * stride..(step + 1) * stride];
+        x[step] *= column[step];
+        let known = -x[step];
+        for (x, &factor) in x[..step].iter_mut().zip(column) {
+            *x = S::multiply_add::<FUSED>(known, factor, *x);
+        }
+    }
+    for first in (0..whole).step_by(COLUMNS).rev() {
+        let columns = &square[first * stride..(first + COLUMNS) * stride];
+        let known: &mut [S; COLUMNS] = array_mut(x, first);
+        for column in (0..COLUMNS).rev() {
+            let factors: &[S; COLUMNS] = array(columns, column * stride + first);
+            known[column] *= factors[column];
+            for row in 0..column {
+                known[row] = S::multiply_add::<FUSED>(-known[column], factors[row], known[row]);
+            }
+        }
+        let known = known.map(|value| -value);
+        add_four::<S, FUSED>(&mut x[..first], columns, stride, 0, &known);
     }
 }
 
@@ -57,7 +122,7 @@ pub(super) fn solve_transposed<S: Scalar, const FUSED: bool>(
     symbolic: &Symbolic,
     factors: &[S],
     x: &mut [S],
-    front_vector: &mut [S],
+    vectors: &mut FrontVectors<S>,
 ) {
     for front in &symbolic.fronts {
         let (square, _, upper) = pieces(front, factors);
@@ -68,7 +133,7 @@ pub(super) fn solve_transposed<S: Scalar, const FUSED: bool>(
             let (known, rest) = pivots.split_at_mut(step);
             rest[0] = subtract_dot::<S, FUSED>(rest[0], column, known) * column[step];
         }
-        let sums = &mut front_vector[..front.panel_stride()];
+        let sums = &mut vectors.boundary[..front.panel_stride()];
         sums.fill(S::zero());
         add_columns::<S, FUSED>(sums, upper, pivots);
         for (&row, &sum) in rows.iter().zip(&*sums) {
@@ -77,9 +142,9 @@ pub(super) fn solve_transposed<S: Scalar, const FUSED: bool>(
     }
     for front in symbolic.fronts.iter().rev() {
         let (square, lower, _) = pieces(front, factors);
-        gather(symbolic, front, x, front_vector);
+        gather(symbolic, front, x, &mut vectors.boundary);
         let pivots = &mut x[front.first..front.first + front.pivots];
-        subtract_dots::<S, FUSED>(pivots, lower, &front_vector[..front.panel_stride()]);
+        subtract_dots::<S, FUSED>(pivots, lower, &vectors.boundary[..front.panel_stride()]);
         let stride = front.square_stride();
         for (step, column) in square.chunks_exact(stride.max(1)).enumerate().rev() {
             let (own, known) = pivots[step..].split_at_mut(1);
@@ -115,24 +180,34 @@ fn add_columns<S: Scalar, const FUSED: bool>(sums: &mut [S], panel: &[S], x: &[S
     let (fours, ones) = x.as_chunks::<COLUMNS>();
     let (panel_fours, panel_ones) = panel.split_at(fours.len() * COLUMNS * stride);
     for (x, columns) in fours.iter().zip(panel_fours.chunks_exact(COLUMNS * stride)) {
-        let (a, rest) = columns.split_at(stride);
-        let (b, rest) = rest.split_at(stride);
-        let (c, d) = rest.split_at(stride);
-        let panels = tiles(a).iter().zip(tiles(b)).zip(tiles(c)).zip(tiles(d));
-        for (sums, (((a, b), c), d)) in tiles_mut(sums).iter_mut().zip(panels) {
-            for i in 0..PADDING {
-                let first = S::multiply_add::<FUSED>(x[0], a[i], sums[i]);
-                let second = S::multiply_add::<FUSED>(x[1], b[i], first);
-                let third = S::multiply_add::<FUSED>(x[2], c[i], second);
-                sums[i] = S::multiply_add::<FUSED>(x[3], d[i], third);
-            }
-        }
+        add_four::<S, FUSED>(sums, columns, stride, 0, x);
     }
     for (&x, column) in ones.iter().zip(panel_ones.chunks_exact(stride)) {
         for (sums, column) in tiles_mut(sums).iter_mut().zip(tiles(column)) {
             for i in 0..PADDING {
                 sums[i] = S::multiply_add::<FUSED>(x, column[i], sums[i]);
             }
+        }
+    }
+}
+
+/// `sums += P x` for four columns, from a row on.
+#[inline(always)]
+fn add_four<S: Scalar, const FUSED: bool>(
+    sums: &mut [S],
+    columns: &[S],
+    stride: usize,
+    row: usize,
+    x: &[S; COLUMNS],
+) {
+    let column = |index: usize| tiles(&columns[index * stride + row..(index + 1) * stride]);
+    let panels = column(0).iter().zip(column(1)).zip(column(2)).zip(column(3));
+    for (sums, (((a, b), c), d)) in tiles_mut(sums).iter_mut().zip(panels) {
+        for i in 0..PADDING {
+            let first = S::multiply_add::<FUSED>(x[0], a[i], sums[i]);
+            let second = S::multiply_add::<FUSED>(x[1], b[i], first);
+            let third = S::multiply_add::<FUSED>(x[2], c[i], second);
+            sums[i] = S::multiply_add::<FUSED>(x[3], d[i], third);
         }
     }
 }
