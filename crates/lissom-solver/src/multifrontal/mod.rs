@@ -179,3 +179,43 @@ impl<S: Scalar> pulp::WithSimd for Solve<'_, S> {
         if V::F64_LANES >= 4 { self.run::<true>() } else { self.run::<false>() }
     }
 }
+
+#[cfg(all(test, feature = "samples"))]
+mod tests {
+    use super::*;
+    use crate::samples::{Model, Sample, backward_error, chain, grid, right_hand_side};
+    use num_complex::Complex64;
+
+    /// Every level of vector instructions this processor has, and none.
+    fn processors() -> Vec<pulp::Arch> {
+        let mut processors = vec![pulp::Arch::Scalar, pulp::Arch::new()];
+        #[cfg(target_arch = "x86_64")]
+        processors.extend(pulp::x86::V3::try_new().map(pulp::Arch::V3));
+        processors
+    }
+
+    fn solves<S: Sample>(model: &Model) {
+        let structure = model.structure();
+        let values: Vec<S> = model.values(&structure.pattern, 1, 1.0);
+        let b: Vec<S> = right_hand_side(model.size, 2);
+        for processor in processors() {
+            let mut solver = Multifrontal::<S>::new(&structure);
+            solver.processor = processor;
+            solver.factor(&values).expect("a regular matrix");
+            for transposed in [false, true] {
+                let mut x = b.clone();
+                solver.triangular(&mut x, transposed);
+                let error = backward_error(&structure.pattern, &values, &x, &b, transposed);
+                assert!(error < 1e-12, "{processor:?}: {error:e}");
+            }
+        }
+    }
+
+    #[test]
+    fn every_level_of_vector_instructions_solves() {
+        for model in [chain(300), grid(600)] {
+            solves::<f64>(&model);
+            solves::<Complex64>(&model);
+        }
+    }
+}
