@@ -13,6 +13,7 @@ pub mod functions;
 mod keys;
 pub mod line;
 pub mod lower;
+mod manual;
 pub mod output;
 mod reader;
 pub mod registry;
@@ -24,5 +25,6 @@ mod text;
 mod values;
 
 pub use document::Document;
-pub use schema::schema;
+pub use manual::manual;
 pub use report::{Located, Problem, Report, Severity, Sources, Span};
+pub use schema::schema;

@@ -27,6 +27,27 @@ pub use outputs::{Output, OutputKind, OutputSource};
 pub use tables::VERSION;
 
 /// A model as it was written, checked.
+///
+/// ```
+/// use lissom_model::Document;
+/// use lissom_model::registry::Registry;
+///
+/// let text = r#"
+/// lissom = 1
+/// [point_masses.ball]
+/// mass = 0.2
+/// velocity = [3, 0, "sqrt(2)"]
+/// [analysis]
+/// kind = "dynamics"
+/// end = 1
+/// step = 1e-3
+/// "#;
+/// let document = Document::parse(text, "ball.toml", &Registry::default()).expect("a good model");
+/// assert_eq!(document.point_masses[0].mass, 0.2);
+///
+/// let report = Document::parse(&text.replace("mass = 0.2", "mas = 0.2"), "ball.toml", &Registry::default());
+/// assert!(report.expect_err("a bad model").render(false).contains("did you mean `mass`?"));
+/// ```
 #[derive(Clone, Debug)]
 pub struct Document {
     /// One line about the model.

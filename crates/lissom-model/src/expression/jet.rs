@@ -112,7 +112,7 @@ pub enum Function {
 }
 
 /// The functions by name.
-pub(super) const NAMES: &[(&str, Function)] = &[
+pub(crate) const NAMES: &[(&str, Function)] = &[
     ("sin", Function::Sin),
     ("cos", Function::Cos),
     ("tan", Function::Tan),

@@ -10,6 +10,7 @@ mod token;
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+pub(crate) use jet::NAMES as FUNCTION_NAMES;
 pub use jet::{Function, Jet};
 
 /// Depth of the stack an expression may need.

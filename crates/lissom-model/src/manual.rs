@@ -1,0 +1,189 @@
+//! The reference of the model file as Markdown, made of the same descriptions the decoder and the schema read.
+
+use std::fmt::Write;
+
+use crate::document::tables::{Holds, Variants, tops, variants};
+use crate::expression::FUNCTION_NAMES;
+use crate::keys::{Key, Shape};
+use crate::registry::{ChoiceEntry, KindEntry, Registry};
+
+const INTRODUCTION: &str = "\
+A model is a TOML file. Units are SI, angles radians, axes right-handed.
+
+- **Numbers.** Wherever a number stands, a text may stand instead: an expression of the `[parameters]`, such as
+  `\"L/2\"`. A parameter may name those above it.
+- **Expressions** know `+ - * / ^ ( )`, `pi`, the parameters, and the functions below; `-t^2` is `-(t^2)`.
+  `step(x)` is 0 below and 1 from zero on; `smoothstep(x)` goes from 0 at 0 to 1 at 1 with continuous second
+  derivative. Functions of time name `t` [s]; curves and twists name `s`, from 0 to 1 along the beam.
+- **Functions of time** are a number, an expression of `t`, or
+  `{ table = [[t, value], …], interpolation = \"linear\" }` (or `\"spline\"`); before and after the table the end
+  values hold.
+- **Places** are three numbers or the name of an entry of `[points]`.
+- **Nodes** are `\"ground\"`, the name of a body or point mass, `\"beam.start\"`, `\"beam.end\"` or `\"beam@0.5\"`.
+  Beams, bodies and point masses share one set of names.
+- **Sections** count axial, shear 2, shear 3, torsion, bending 2, bending 3; axis 1 runs along the beam, axis 3 leans
+  to the beam's `up`. Without `up`, it leans to global z, or to y (then x) where the beam runs along z.
+";
+
+/// The reference of the files that [`Document::parse`](crate::Document::parse) reads with `registry`.
+pub fn manual(registry: &Registry) -> String {
+    let mut text = String::from("# The model file\n\n");
+    text.push_str(INTRODUCTION);
+    let names: Vec<String> = FUNCTION_NAMES.iter().map(|(name, _)| format!("`{name}`")).collect();
+    line(&mut text, &format!("\nFunctions: {}.", names.join(", ")));
+    for top in tops() {
+        let must = if top.required { " Required." } else { "" };
+        match &top.holds {
+            Holds::Value(shape) => {
+                line(
+                    &mut text,
+                    &format!("\n## `{}`\n\n{}{must} Holds {}.", top.name, top.summary, words(shape)),
+                );
+            }
+            Holds::Values(shape) => {
+                let heading =
+                    format!("\n## `[{}]`\n\n{} Each entry is {}.", top.name, top.summary, words(shape));
+                line(&mut text, &heading);
+            }
+            Holds::Table => {
+                line(&mut text, &format!("\n## `[{}]`\n\n{}{must}", top.name, top.summary));
+                forms(&mut text, top.name, registry);
+            }
+            Holds::Entries => {
+                line(&mut text, &format!("\n## `[{}.…]`\n\n{}{must}", top.name, top.summary));
+                forms(&mut text, top.name, registry);
+            }
+        }
+    }
+    text
+}
+
+fn line(text: &mut String, words: &str) {
+    text.push_str(words);
+    text.push('\n');
+}
+
+fn forms(text: &mut String, name: &str, registry: &Registry) {
+    let Variants { tag, all } = variants(name, registry);
+    for form in &all {
+        if let Some(tag) = tag {
+            line(text, &format!("\n### `{tag} = \"{}\"`\n\n{}", form.word, form.summary));
+        }
+        // The word that chooses the form stands in its heading.
+        keys(text, form.keys.iter().filter(|key| Some(key.name) != tag));
+        let kinds: &[KindEntry] = match name {
+            "joints" => &registry.joints,
+            "springs" => &registry.springs,
+            "loads" => &registry.loads,
+            _ => &[],
+        };
+        if let Some(entry) =
+            kinds.iter().find(|entry| entry.name == form.word).filter(|entry| !entry.sample.is_empty())
+        {
+            line(text, &format!("\n```toml\n{}\n```", entry.sample.trim_end()));
+        }
+    }
+    if name == "analysis" {
+        choices(text, "Schemes", &registry.schemes);
+        choices(text, "Solvers", &registry.solvers);
+    }
+}
+
+fn choices(text: &mut String, heading: &str, table: &[ChoiceEntry]) {
+    line(text, &format!("\n{heading}; the first is the default:\n"));
+    for entry in table {
+        let own: Vec<String> =
+            entry.parameters.iter().map(|parameter| format!("`{}`", parameter.name)).collect();
+        let own = if own.is_empty() { String::new() } else { format!(" Takes {}.", own.join(", ")) };
+        line(text, &format!("- `{}`: {}{own}", entry.name, entry.summary));
+    }
+}
+
+fn keys<'k>(text: &mut String, keys: impl Iterator<Item = &'k Key>) {
+    let mut heading = Some("\n| key | holds | unit | |\n| --- | --- | --- | --- |");
+    for key in keys {
+        if let Some(heading) = heading.take() {
+            line(text, heading);
+        }
+        let must = if key.required { "**required**; " } else { "" };
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "| `{}` | {} | {} | {must}{} |",
+            key.name,
+            words(&key.holds),
+            key.unit,
+            key.summary
+        );
+    }
+}
+
+/// What a shape holds, in words.
+fn words(shape: &Shape) -> String {
+    let fixed = match shape {
+        Shape::Text => "a text",
+        Shape::Version => "the number 1",
+        Shape::Number => "a number",
+        Shape::Positive => "a number > 0",
+        Shape::NotNegative => "a number ≥ 0",
+        Shape::Between(least, most) => return format!("a number from {least:.4} to {most}"),
+        Shape::Count(least, most) => return format!("a whole number from {least} to {most}"),
+        Shape::Flag => "`true` or `false`",
+        Shape::Vector => "three numbers",
+        Shape::Direction => "three numbers, not all zero",
+        Shape::Choice(words) => {
+            let quoted: Vec<String> = words.iter().map(|word| format!("`\"{word}\"`")).collect();
+            return quoted.join(", ");
+        }
+        Shape::Name(table) => return format!("the name of an entry of `[{table}]`"),
+        Shape::Place => "a place",
+        Shape::PlaceOrNode => "a place or a node",
+        Shape::Node => "a node",
+        Shape::Function => "a function of time",
+        Shape::Profile => "a number or an expression of `s`",
+        Shape::Curve => "three expressions of `s`",
+        Shape::Axes => "two vectors",
+        Shape::Inertia => "three numbers or a 3 x 3 matrix",
+        Shape::Stiffness => "six numbers or a 6 x 6 matrix",
+        Shape::SectionMass => "six numbers, a 6 x 6 matrix, or a table",
+        Shape::Shear => "a number, two numbers, or a word",
+        Shape::Stations => "a list of tables",
+        Shape::Rows => "a list of pairs",
+        Shape::Pair => "two numbers",
+    };
+    fixed.to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_word_of_the_format_is_in_the_manual() {
+        const KIND: KindEntry = KindEntry {
+            name: "revolute",
+            summary: "Turns about an axis.",
+            sample: "axis = [0, 0, 1]",
+            parameters: &[],
+            acts_on: crate::registry::ActsOn::TwoNodes(crate::registry::FrameRule::Axis),
+        };
+        const SCHEME: ChoiceEntry =
+            ChoiceEntry { name: "radau-iia", summary: "Third order.", parameters: &[] };
+        let registry = Registry { joints: vec![KIND], schemes: vec![SCHEME], ..Registry::default() };
+        let text = manual(&registry);
+        for top in tops() {
+            assert!(text.contains(top.name) && text.contains(top.summary), "{}", top.name);
+            for key in variants(top.name, &registry).all.iter().flat_map(|form| &form.keys) {
+                assert!(text.contains(&format!("`{}", key.name)), "{} {}", top.name, key.name);
+            }
+        }
+        for words in [
+            "### `kind = \"revolute\"`",
+            "Turns about an axis.",
+            "- `radau-iia`: Third order.",
+            "`smoothstep`",
+        ] {
+            assert!(text.contains(words), "{words}");
+        }
+    }
+}
