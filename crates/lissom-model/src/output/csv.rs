@@ -1,4 +1,4 @@
-//! Results as comma-separated values: a heading `t [s],midspan.x [m],…`, then one line per record.
+//! Results as comma-separated values: a heading `time,midspan.x,…`, then one line per record.
 
 use std::io::{self, Write};
 use std::time::{Duration, Instant};
@@ -33,9 +33,9 @@ impl<W: Write> CsvWriter<W> {
 
 impl<W: Write> Writer for CsvWriter<W> {
     fn begin(&mut self, columns: &[Column]) -> io::Result<()> {
-        self.lines.extend_from_slice(b"t [s]");
+        self.lines.extend_from_slice(b"time");
         for column in columns {
-            write!(self.lines, ",{}", quoted(&column.heading()))?;
+            write!(self.lines, ",{}", quoted(&column.name()))?;
         }
         self.lines.push(b'\n');
         self.flush()
@@ -92,7 +92,7 @@ mod tests {
         writer.row(0.1, &[1.0, -2.5e-12]).unwrap();
         writer.row(0.2, &[f64::NAN, 1e300]).unwrap();
         writer.finish().unwrap();
-        let wanted = "t [s],midspan.x [m],\"energy, total\"\n0.1,1,-2.5e-12\n0.2,NaN,1e300\n";
+        let wanted = "time,midspan.x,\"energy, total\"\n0.1,1,-2.5e-12\n0.2,NaN,1e300\n";
         assert_eq!(String::from_utf8(writer.to).unwrap(), wanted);
     }
 

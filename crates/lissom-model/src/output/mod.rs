@@ -32,11 +32,10 @@ impl Column {
         Self { output, component, quantity, unit }
     }
 
-    /// Heading, as `midspan.x [m]`.
-    pub fn heading(&self) -> String {
+    /// Name of output and component, as `midspan.x`.
+    pub fn name(&self) -> String {
         let dot = if self.component.is_empty() { "" } else { "." };
-        let unit = if self.unit.is_empty() { String::new() } else { format!(" [{}]", self.unit) };
-        format!("{}{dot}{}{unit}", self.output, self.component)
+        format!("{}{dot}{}", self.output, self.component)
     }
 }
 

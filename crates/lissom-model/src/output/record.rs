@@ -19,7 +19,7 @@ pub struct Record {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RecordError {
     /// There is no heading.
-    #[error("the table has no heading `t [s],…`")]
+    #[error("the table has no heading `time,…`")]
     NoHeading,
     /// A line has too many or too few numbers, or something that is none.
     #[error("line {0} does not hold one number per column")]
@@ -33,15 +33,15 @@ impl Record {
         self.columns.iter().position(found).map(|index| self.values[index].as_slice())
     }
 
-    /// Reads what a [`CsvWriter`](super::CsvWriter) has written. Quantities are not in the text: they are taken
-    /// as the outputs' names.
+    /// Reads what a [`CsvWriter`](super::CsvWriter) has written. Quantities and units are not in the text:
+    /// quantities are taken as the outputs' names.
     ///
     /// # Errors
     /// If the text is something else. A last line without end, as of an interrupted run, is left out.
     pub fn from_csv(text: &str) -> Result<Self, RecordError> {
         let whole = text.rfind('\n').map_or("", |end| &text[..end]);
         let mut lines = whole.lines();
-        let heading = lines.next().map(fields).filter(|fields| fields[0] == "t [s]");
+        let heading = lines.next().map(fields).filter(|fields| fields[0] == "time");
         let columns: Vec<Column> =
             heading.ok_or(RecordError::NoHeading)?.iter().skip(1).map(|heading| column(heading)).collect();
         let mut record = Self { values: vec![Vec::new(); columns.len()], columns, times: Vec::new() };
@@ -90,12 +90,8 @@ fn fields(line: &str) -> Vec<String> {
 
 /// From a heading back to a column.
 fn column(heading: &str) -> Column {
-    let (name, unit) = match heading.strip_suffix(']').and_then(|rest| rest.rsplit_once(" [")) {
-        Some((name, unit)) => (name, unit),
-        None => (heading, ""),
-    };
-    let (output, component) = name.split_once('.').unwrap_or((name, ""));
-    Column::new(output, component, output, unit)
+    let (output, component) = heading.rsplit_once('.').unwrap_or((heading, ""));
+    Column::new(output, component, output, "")
 }
 
 impl Writer for Record {
@@ -127,8 +123,8 @@ mod tests {
     #[test]
     fn a_table_comes_back_from_its_text() {
         let columns = vec![
-            Column::new("a", "x", "a", "m"),
-            Column::new("b", "", "b", "J"),
+            Column::new("a.b", "x", "a.b", ""),
+            Column::new("b", "", "b", ""),
             Column::new("q, \"r\"", "", "q, \"r\"", ""),
         ];
         let mut record = Record::default();
@@ -154,7 +150,7 @@ mod tests {
     fn other_texts_are_refused() {
         assert_eq!(Record::from_csv(""), Err(RecordError::NoHeading));
         assert_eq!(Record::from_csv("a,b\n1,2\n"), Err(RecordError::NoHeading));
-        assert_eq!(Record::from_csv("t [s],a\n1,2\n1\n"), Err(RecordError::BadLine(3)));
-        assert_eq!(Record::from_csv("t [s],a\n1,x\n"), Err(RecordError::BadLine(2)));
+        assert_eq!(Record::from_csv("time,a\n1,2\n1\n"), Err(RecordError::BadLine(3)));
+        assert_eq!(Record::from_csv("time,a\n1,x\n"), Err(RecordError::BadLine(2)));
     }
 }
