@@ -1,0 +1,122 @@
+//! `lissom kinds`: what a model can be made of, from the registry.
+
+use std::fmt::Write;
+
+use clap::Args;
+use lissom_core::registry::{Parameter, ParameterType};
+use lissom_model::lower::registry::registry;
+use lissom_model::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry};
+
+use super::{Exit, Failure};
+use crate::terminal;
+
+/// List the kinds of joints, springs, loads, schemes and solvers, with parameters and samples.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  lissom kinds                    everything
+  lissom kinds revolute           one kind")]
+pub(super) struct Kinds {
+    /// Only kinds whose name contains this.
+    name: Option<String>,
+}
+
+impl Kinds {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let registry = registry();
+        let wanted = self.name.as_deref().unwrap_or_default();
+        let mut text = String::new();
+        let parts =
+            [("joints", &registry.joints), ("springs", &registry.springs), ("loads", &registry.loads)];
+        for (table, kinds) in parts {
+            let told =
+                kinds.iter().filter(|kind| kind.name.contains(wanted)).map(|kind| of_kind(table, kind));
+            section(&mut text, &format!("[{table}.*]  kind = \"…\""), told);
+        }
+        let choices = [("scheme", &registry.schemes), ("solver", &registry.solvers)];
+        for (word, choices) in choices {
+            let told = choices.iter().filter(|choice| choice.name.contains(wanted)).map(of_choice);
+            section(&mut text, &format!("[analysis]  {word} = \"…\"  (the first is the default)"), told);
+        }
+        if text.is_empty() {
+            let message = format!("there is no kind whose name contains `{wanted}`; see `lissom kinds`");
+            return Err(Failure::new(Exit::BadModel, message));
+        }
+        terminal::print(&text);
+        Ok(Exit::Done)
+    }
+}
+
+fn section(text: &mut String, heading: &str, entries: impl Iterator<Item = String>) {
+    let mut entries = entries.peekable();
+    if entries.peek().is_none() {
+        return;
+    }
+    if !text.is_empty() {
+        text.push('\n');
+    }
+    text.push_str(heading);
+    text.push('\n');
+    text.extend(entries);
+}
+
+fn of_kind(table: &str, kind: &KindEntry) -> String {
+    let mut text = format!("\n  {}: {}\n    between     {}\n", kind.name, kind.summary, place(kind.acts_on));
+    parameters(&mut text, kind.parameters);
+    let (name, entry) = (table.strip_suffix('s').unwrap_or(table), kind.sample.trim());
+    let _ = writeln!(text, "    sample      [{table}.my_{name}]");
+    if !entry.contains("kind =") {
+        let _ = writeln!(text, "                kind = \"{}\"", kind.name);
+    }
+    for line in entry.lines() {
+        let _ = writeln!(text, "                {line}");
+    }
+    text
+}
+
+fn of_choice(choice: &ChoiceEntry) -> String {
+    let mut text = format!("\n  {}: {}\n", choice.name, choice.summary);
+    parameters(&mut text, choice.parameters);
+    text
+}
+
+fn parameters(text: &mut String, parameters: &[Parameter]) {
+    for (index, parameter) in parameters.iter().enumerate() {
+        let heading = if index == 0 { "parameters" } else { "" };
+        let unit = if parameter.unit.is_empty() { String::new() } else { format!(" [{}]", parameter.unit) };
+        let need = if parameter.required { "" } else { ", optional" };
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "    {heading:<11} {}: {}{unit}{need}. {}",
+            parameter.name,
+            holds(parameter.holds),
+            parameter.summary
+        );
+    }
+}
+
+fn holds(holds: ParameterType) -> String {
+    match holds {
+        ParameterType::Number => "number".to_owned(),
+        ParameterType::Positive => "positive number".to_owned(),
+        ParameterType::NotNegative => "number, not negative".to_owned(),
+        ParameterType::Vector => "three numbers".to_owned(),
+        ParameterType::Direction => "direction".to_owned(),
+        ParameterType::Flag => "true or false".to_owned(),
+        ParameterType::Function => "number or expression of t".to_owned(),
+        ParameterType::Choice(words) => words.join(" | "),
+    }
+}
+
+/// The keys that say what a kind is attached to.
+fn place(acts_on: ActsOn) -> &'static str {
+    match acts_on {
+        ActsOn::TwoNodes(FrameRule::None) => "base, tip; at (default: the tip's place)",
+        ActsOn::TwoNodes(FrameRule::Axis) => "base, tip; at (default: the tip's place), axis",
+        ActsOn::TwoNodes(FrameRule::TwoAxes) => "base, tip; at (default: the tip's place), axis, second_axis",
+        ActsOn::TwoPlaces => "base, tip; at_base, at_tip (default: the nodes' places)",
+        ActsOn::OneNode => "on; at (default: the node's place)",
+        ActsOn::JointCoordinate => "joint: the one whose relative rotation it acts on",
+    }
+}

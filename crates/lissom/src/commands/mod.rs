@@ -1,0 +1,157 @@
+//! The subcommands. A new one is a file here, a variant of [`Command`] and a line in [`Line::run`].
+
+mod check;
+mod kinds;
+mod plot;
+mod run;
+mod schema;
+
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Args, Parser, Subcommand};
+use lissom::{Document, FileError, FolderError, Model, Override, Report};
+
+use crate::terminal;
+
+/// How the program ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Exit {
+    /// All that was asked for is there.
+    Done,
+    /// The model or the command line is wrong.
+    BadModel,
+    /// There is no solution, or it cannot be written.
+    Failed,
+    /// Ctrl-C.
+    Interrupted,
+}
+
+impl Exit {
+    /// The number other programs see.
+    pub(crate) fn code(self) -> u8 {
+        match self {
+            Self::Done => 0,
+            Self::BadModel => 2,
+            Self::Failed => 3,
+            Self::Interrupted => 130,
+        }
+    }
+}
+
+/// Why a command could not do its work: the exit code, and the words for a person.
+pub(crate) struct Failure {
+    exit: Exit,
+    words: String,
+}
+
+impl Failure {
+    /// A failure told in one sentence.
+    fn new(exit: Exit, error: impl std::fmt::Display) -> Self {
+        Self { exit, words: format!("error: {error}\n") }
+    }
+
+    /// Results that cannot be read or written.
+    fn folder(exit: Exit, error: &FolderError) -> Self {
+        match error {
+            FolderError::File(error) => Self::file(exit, error),
+            other => Self::new(exit, other),
+        }
+    }
+
+    /// A file that cannot be read or written.
+    fn file(exit: Exit, error: &FileError) -> Self {
+        let help = error.help.as_ref().map_or_else(String::new, |help| format!("  help: {help}\n"));
+        Self { exit, words: format!("error: {error}\n{help}") }
+    }
+}
+
+impl From<Report> for Failure {
+    fn from(report: Report) -> Self {
+        Self { exit: Exit::BadModel, words: report.render(terminal::in_colour()) + &format!("{report}\n") }
+    }
+}
+
+/// Flexible multibody dynamics: simulates mechanisms of rigid bodies, flexible beams, joints and springs,
+/// described in a TOML file.
+#[derive(Parser)]
+#[command(
+    name = "lissom",
+    version,
+    after_help = "\
+Examples:
+  lissom run examples/pendulum.toml            simulate; results go to out/pendulum
+  lissom check examples/four-bar.toml          look for mistakes and redundant constraints
+  lissom kinds                                 what a model can be made of
+  lissom schema > lissom.schema.json           for editors that complete and check
+
+Exit code: 0 all is done; 2 wrong model or command line; 3 no solution; 130 interrupted by Ctrl-C."
+)]
+pub(crate) struct Line {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Run(run::Run),
+    Check(check::Check),
+    Kinds(kinds::Kinds),
+    Schema(schema::Schema),
+    Plot(plot::Plot),
+}
+
+impl Line {
+    /// Does what the command line asks for.
+    pub(crate) fn run(self) -> ExitCode {
+        let outcome = match self.command {
+            Command::Run(command) => command.run(),
+            Command::Check(command) => command.run(),
+            Command::Kinds(command) => command.run(),
+            Command::Schema(command) => command.run(),
+            Command::Plot(command) => command.run(),
+        };
+        let exit = outcome.unwrap_or_else(|failure| {
+            terminal::complain(&failure.words);
+            failure.exit
+        });
+        ExitCode::from(exit.code())
+    }
+}
+
+/// A model file and what is changed in it, as every command that reads a model takes them.
+#[derive(Args)]
+struct ModelArguments {
+    /// The model file.
+    #[arg(value_name = "MODEL.toml")]
+    model: PathBuf,
+
+    /// Put another value into the model, as `analysis.step=1e-4`; may be repeated.
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = parse_override)]
+    set: Vec<Override>,
+}
+
+impl ModelArguments {
+    /// The text and the checked document.
+    fn read(&self) -> Result<(Model, Document), Failure> {
+        let model = Model::read(&self.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let document = model.document(&self.set)?;
+        Ok((model, document))
+    }
+}
+
+fn parse_override(text: &str) -> Result<Override, String> {
+    match text.split_once('=') {
+        Some((path, value)) if !path.trim().is_empty() => {
+            Ok((path.trim().to_owned(), value.trim().to_owned()))
+        }
+        _ => Err("it must be PATH=VALUE, as `analysis.step=1e-4`".to_owned()),
+    }
+}
+
+/// The warnings of a model, on the terminal.
+fn show_warnings(document: &Document) {
+    if !document.warnings.is_empty() {
+        terminal::complain(&document.warnings.render(terminal::in_colour()));
+    }
+}

@@ -1,0 +1,26 @@
+//! `lissom schema`: the JSON schema of model files.
+
+use clap::Args;
+use lissom_model::lower::registry::registry;
+
+use super::{Exit, Failure};
+use crate::terminal;
+
+/// Print the JSON schema of model files, for editors that complete and check while one types.
+#[derive(Args)]
+#[command(after_help = "\
+Example:
+  lissom schema > lissom.schema.json
+
+Then put this line first in a model file, for editors with a TOML language server:
+  #:schema ./lissom.schema.json")]
+pub(super) struct Schema {}
+
+impl Schema {
+    // All commands have one signature.
+    #[expect(clippy::unused_self, clippy::unnecessary_wraps)]
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        terminal::print(&format!("{:#}\n", lissom_model::schema(&registry())));
+        Ok(Exit::Done)
+    }
+}

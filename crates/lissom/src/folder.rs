@@ -1,0 +1,123 @@
+//! The folder a run leaves behind: `history.csv`, `summary.json` and the plots. Knows no simulation.
+
+use std::fs::File;
+use std::io::{BufWriter, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use lissom_model::files::{self, FileError};
+use lissom_model::output::{CsvWriter, FigureError, Record, RecordError, Summary, figures};
+use serde_json::Value;
+
+/// Name of the table in the folder.
+const HISTORY: &str = "history.csv";
+/// Name of the summary in the folder.
+const SUMMARY: &str = "summary.json";
+
+/// Results that cannot be left in the folder.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FolderError {
+    /// A file or folder cannot be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The table of results is none.
+    #[error("`{path}`: {error}")]
+    Record {
+        /// The file.
+        path: String,
+        /// What is wrong with it.
+        error: RecordError,
+    },
+    /// A plot cannot be drawn.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+}
+
+/// A folder of results.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ResultFolder {
+    path: PathBuf,
+}
+
+impl ResultFolder {
+    /// The folder, created with those above it where it is missing. What a former run summed up there is
+    /// removed: an old summary beside new results would lie.
+    ///
+    /// # Errors
+    /// If it cannot be created or written to.
+    pub fn create(path: &Path) -> Result<Self, FileError> {
+        files::create_folder(path)?;
+        let summary = path.join(SUMMARY);
+        match std::fs::remove_file(&summary) {
+            Err(error) if error.kind() != ErrorKind::NotFound => {
+                Err(files::failure(files::Action::Write, &summary, error))
+            }
+            _ => Ok(Self { path: path.to_owned() }),
+        }
+    }
+
+    /// A folder left by a former run: its table and its title. Units and quantities come from the summary;
+    /// where that is missing, as after a crash, columns have none.
+    ///
+    /// # Errors
+    /// If there is no table, or a text that is none.
+    pub fn open(path: &Path) -> Result<(Self, Record, String), FolderError> {
+        let history = path.join(HISTORY);
+        let text = files::read_text(&history)?;
+        let mut record = Record::from_csv(&text)
+            .map_err(|error| FolderError::Record { path: history.display().to_string(), error })?;
+        let summary = files::read_text(&path.join(SUMMARY)).unwrap_or_default();
+        let summary: Value = serde_json::from_str(&summary).unwrap_or_default();
+        for column in &mut record.columns {
+            let name = column.name();
+            let known = summary["columns"].as_array().into_iter().flatten();
+            if let Some(known) = known.into_iter().find(|known| known["name"] == name.as_str()) {
+                column.quantity = known["quantity"].as_str().unwrap_or_default().to_owned();
+                column.unit = known["unit"].as_str().unwrap_or_default().to_owned();
+            }
+        }
+        let title = summary["title"].as_str().unwrap_or_default().to_owned();
+        Ok((Self { path: path.to_owned() }, record, title))
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// A writer of its table, emptied.
+    ///
+    /// # Errors
+    /// If the file cannot be created.
+    pub fn history(&self) -> Result<CsvWriter<BufWriter<File>>, FileError> {
+        files::create_file(&self.path.join(HISTORY)).map(CsvWriter::new)
+    }
+
+    /// Writes the summary.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write_summary(&self, summary: &Summary) -> Result<(), FileError> {
+        files::write(&self.path.join(SUMMARY), summary.to_json().as_bytes())
+    }
+
+    /// Draws every output of `record`, as SVG and as PNG. What can be drawn is drawn, even when something
+    /// else cannot.
+    ///
+    /// # Errors
+    /// The first plot that could not be drawn or written.
+    pub fn write_plots(&self, record: &Record, title: &str) -> Result<(), FolderError> {
+        let mut first = Ok(());
+        for figure in figures(record, title) {
+            let svg = figure.svg().map_err(FolderError::from).and_then(|text| {
+                Ok(files::write(&self.path.join(format!("{}.svg", figure.name)), text.as_bytes())?)
+            });
+            let png = figure
+                .png()
+                .map_err(FolderError::from)
+                .and_then(|bytes| Ok(files::write(&self.path.join(format!("{}.png", figure.name)), &bytes)?));
+            first = first.and(svg).and(png);
+        }
+        first
+    }
+}

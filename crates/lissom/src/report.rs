@@ -1,0 +1,88 @@
+//! What a run came to.
+
+use std::io;
+use std::time::Duration;
+
+use lissom_core::analysis::{StepError, Totals};
+use lissom_core::elements::Energy;
+
+/// Why a run ended early.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// A step has no solution.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// A writer did not take the results.
+    #[error("the results cannot be written: {0}")]
+    Write(#[from] io::Error),
+}
+
+/// How a run ended.
+#[derive(Debug)]
+pub enum Stopped {
+    /// At its planned end.
+    End,
+    /// Because it was told to.
+    Interrupted,
+    /// Because it could not go on.
+    Failed(RunError),
+}
+
+impl Stopped {
+    /// The word in the summary.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::End => "end",
+            Self::Interrupted => "interrupted",
+            Self::Failed(_) => "failed",
+        }
+    }
+}
+
+/// Energies at the first and last recorded instant, and the largest change between.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EnergyChange {
+    /// At the first record [J].
+    pub start: Energy,
+    /// At the last record [J].
+    pub end: Energy,
+    /// Largest difference of the total from its start, over all records [J].
+    pub largest: f64,
+}
+
+/// What a run came to.
+#[derive(Debug)]
+pub struct RunReport {
+    /// How it ended.
+    pub stopped: Stopped,
+    /// Time reached [s].
+    pub time: f64,
+    /// Rows recorded.
+    pub records: usize,
+    /// Counts over all steps.
+    pub totals: Totals,
+    /// From before the initial values to the last record.
+    pub wall: Duration,
+    /// Steps alone, without initial values, outputs and writing.
+    pub solving: Duration,
+    /// Largest violation of a constraint, evaluated outright, over all records [m, rad].
+    pub violation: f64,
+    /// Energy over all records.
+    pub energy: EnergyChange,
+}
+
+impl RunReport {
+    /// Whether the planned end was reached.
+    pub fn is_complete(&self) -> bool {
+        matches!(self.stopped, Stopped::End)
+    }
+
+    /// Why it failed, if it did.
+    pub fn error(&self) -> Option<&RunError> {
+        match &self.stopped {
+            Stopped::Failed(error) => Some(error),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,269 @@
+//! One model on its way from start to end: steps, and what is recorded on the way. The only loop over steps
+//! there is. Knows no files and no terminal.
+
+use std::io;
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use lissom_core::analysis::{InitialError, Simulation, StepError, StepReport};
+use lissom_model::channels::Channel;
+use lissom_model::lower::{Lowered, Plan, lower};
+use lissom_model::output::{Column, Record, Writer};
+use lissom_model::{Document, Report};
+
+use crate::pace::Pace;
+use crate::report::{EnergyChange, RunError, RunReport, Stopped};
+
+/// A session that cannot start.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SessionError {
+    /// The model is wrong.
+    #[error(transparent)]
+    Model(#[from] Report),
+    /// There are no consistent initial values.
+    #[error(transparent)]
+    Initial(#[from] InitialError),
+}
+
+/// Where a session stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Progress {
+    /// Time [s].
+    pub time: f64,
+    /// Time at which it ends [s].
+    pub end: f64,
+    /// Planned steps done.
+    pub done: usize,
+    /// Planned steps in all.
+    pub planned: usize,
+}
+
+/// A model on its way.
+pub struct Session {
+    simulation: Simulation,
+    channels: Vec<Channel>,
+    columns: Vec<Column>,
+    pace: Pace,
+    tally: Tally,
+    scale: f64,
+    began: Instant,
+}
+
+/// What is summed up over the records.
+#[derive(Default)]
+struct Tally {
+    records: usize,
+    solving: Duration,
+    violation: f64,
+    energy: EnergyChange,
+    values: Vec<f64>,
+    violations: Vec<f64>,
+}
+
+/// The columns of a lowered model's outputs.
+pub(crate) fn columns(channels: &[Channel]) -> Vec<Column> {
+    let of = |channel: &Channel| {
+        let quantity = channel.kind.name().replace('_', " ");
+        let column = |(component, unit): (&String, &&'static str)| {
+            Column::new(&channel.name, component, &quantity, unit)
+        };
+        channel.components.iter().zip(&channel.units).map(column).collect::<Vec<_>>()
+    };
+    channels.iter().flat_map(of).collect()
+}
+
+impl Session {
+    /// A session at the start of what `document` asks for.
+    ///
+    /// # Errors
+    /// If the model is wrong, or has no consistent initial values.
+    pub fn new(document: &Document) -> Result<Self, SessionError> {
+        Ok(Self::start(lower(document)?)?)
+    }
+
+    /// A session at the start of a lowered model.
+    ///
+    /// # Errors
+    /// If there are no consistent initial values.
+    pub fn start(lowered: Lowered) -> Result<Self, InitialError> {
+        let began = Instant::now();
+        let Lowered { system, state, settings, plan, channels } = lowered;
+        let pace = Pace::new(plan, settings.step_size);
+        let simulation = Simulation::new(system, state, settings)?;
+        let violations = vec![0.0; simulation.system().layout().multiplier_rows().len()];
+        Ok(Self {
+            columns: columns(&channels),
+            tally: Tally { violations, ..Tally::default() },
+            scale: simulation.scaled().scale(),
+            simulation,
+            channels,
+            pace,
+            began,
+        })
+    }
+
+    /// The simulation: system, state, totals.
+    pub fn simulation(&self) -> &Simulation {
+        &self.simulation
+    }
+
+    /// From when to when, in how many steps.
+    pub fn plan(&self) -> &Plan {
+        self.pace.plan()
+    }
+
+    /// What is recorded, in the order of [`values`](Self::values).
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Scale factor s of the planned step.
+    pub fn scale(&self) -> f64 {
+        self.scale
+    }
+
+    /// Where it stands.
+    pub fn progress(&self) -> Progress {
+        let plan = self.pace.plan();
+        Progress { time: self.pace.time(), end: plan.end, done: self.pace.reached(), planned: plan.steps }
+    }
+
+    /// Whether the end is reached.
+    pub fn is_finished(&self) -> bool {
+        self.pace.is_finished()
+    }
+
+    /// Appends the values of all columns, now.
+    pub fn values(&self, out: &mut Vec<f64>) {
+        for channel in &self.channels {
+            channel.evaluate(self.simulation.system(), self.simulation.state(), out);
+        }
+    }
+
+    /// Takes one step. In statics a step that fails is halved and tried again. On failure the state stays
+    /// where it was.
+    ///
+    /// # Errors
+    /// If the step has no solution.
+    pub fn advance(&mut self) -> Result<StepReport, StepError> {
+        loop {
+            self.simulation.set_step_size(self.pace.next_size());
+            let began = Instant::now();
+            let outcome = self.simulation.step();
+            self.tally.solving += began.elapsed();
+            match outcome {
+                Ok(report) => {
+                    let most = self.simulation.settings().limits.max_iterations;
+                    self.pace.accept(2 * report.iterations <= most);
+                    return Ok(report);
+                }
+                Err(error) => {
+                    if !self.pace.refuse() {
+                        return Err(error);
+                    }
+                    self.simulation.note_rejected();
+                }
+            }
+        }
+    }
+
+    /// Runs to the end. `writers` receive a row at the start, after every `output_every` planned steps, and
+    /// at the last step taken, whatever the reason that it is the last. `watch` is asked after every step
+    /// whether to go on.
+    pub fn run(
+        &mut self,
+        writers: &mut [&mut dyn Writer],
+        watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    ) -> RunReport {
+        let stopped = match self.steps(writers, watch) {
+            Ok(ControlFlow::Continue(())) => Stopped::End,
+            Ok(ControlFlow::Break(())) => Stopped::Interrupted,
+            Err(error) => Stopped::Failed(error),
+        };
+        let finished = writers.iter_mut().try_for_each(|writer| writer.finish());
+        let stopped = match (stopped, finished) {
+            (Stopped::Failed(error), _) => Stopped::Failed(error),
+            (_, Err(error)) => Stopped::Failed(error.into()),
+            (stopped, Ok(())) => stopped,
+        };
+        RunReport {
+            stopped,
+            time: self.pace.time(),
+            records: self.tally.records,
+            totals: *self.simulation.totals(),
+            wall: self.began.elapsed(),
+            solving: self.tally.solving,
+            violation: self.tally.violation,
+            energy: self.tally.energy,
+        }
+    }
+
+    /// Runs to the end and keeps the results in memory.
+    pub fn record(&mut self) -> (Record, RunReport) {
+        let mut record = Record::default();
+        let report = self.run(&mut [&mut record], &mut |_| ControlFlow::Continue(()));
+        (record, report)
+    }
+
+    fn steps(
+        &mut self,
+        writers: &mut [&mut dyn Writer],
+        watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, RunError> {
+        for writer in writers.iter_mut() {
+            writer.begin(&self.columns)?;
+        }
+        self.write_row(writers)?;
+        let every = self.pace.plan().output_every;
+        let mut recorded = true;
+        while !self.pace.is_finished() {
+            if let Err(error) = self.advance() {
+                if !recorded {
+                    self.write_row(writers)?;
+                }
+                return Err(error.into());
+            }
+            recorded = self.pace.is_at_planned() && self.pace.reached().is_multiple_of(every);
+            if recorded {
+                self.write_row(writers)?;
+            }
+            if watch(&self.progress()).is_break() && !self.pace.is_finished() {
+                if !recorded {
+                    self.write_row(writers)?;
+                }
+                return Ok(ControlFlow::Break(()));
+            }
+        }
+        if !recorded {
+            self.write_row(writers)?;
+        }
+        Ok(ControlFlow::Continue(()))
+    }
+
+    fn write_row(&mut self, writers: &mut [&mut dyn Writer]) -> io::Result<()> {
+        let mut values = std::mem::take(&mut self.tally.values);
+        values.clear();
+        self.values(&mut values);
+        self.tally.values = values;
+        self.take_stock();
+        let time = self.pace.time();
+        writers.iter_mut().try_for_each(|writer| writer.row(time, &self.tally.values))
+    }
+
+    /// Violations and energy at a recorded instant.
+    fn take_stock(&mut self) {
+        let at = &self.simulation.state().kinematics;
+        let tally = &mut self.tally;
+        self.simulation.system().violations(at, &mut tally.violations);
+        tally.violation = tally.violations.iter().fold(tally.violation, |most, value| most.max(value.abs()));
+        let now = self.simulation.system().energy(at);
+        if tally.records == 0 {
+            tally.energy.start = now;
+        }
+        tally.energy.end = now;
+        let change = (now.total() - tally.energy.start.total()).abs();
+        tally.energy.largest = tally.energy.largest.max(change);
+        tally.records += 1;
+    }
+}

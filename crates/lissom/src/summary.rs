@@ -1,0 +1,122 @@
+//! The facts of `summary.json`: what was asked for, and what it came to. Scripts read these names.
+
+use lissom_core::elements::Energy;
+use lissom_core::scaling::Representative;
+use lissom_model::Document;
+use lissom_model::lower::Lowered;
+use lissom_model::output::Summary;
+use serde_json::{Value, json};
+
+use crate::model::Override;
+use crate::report::RunReport;
+use crate::session::{Session, columns};
+
+fn tell(summary: &mut Summary, name: &str, fact: Value) {
+    summary.insert(name, fact).expect("a JSON value can be said in JSON");
+}
+
+/// What is known before the first step. A run that cannot even start is told as failed, with `steps` zero;
+/// [`of_run`] replaces this.
+pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered: &Lowered) -> Summary {
+    let Lowered { system, settings, plan, channels, .. } = lowered;
+    let layout = system.layout();
+    let multipliers = layout.multiplier_rows().len();
+    let mut summary = Summary::new();
+    let mut tell = |name: &str, fact: Value| tell(&mut summary, name, fact);
+    tell("model", json!(name));
+    tell("title", json!(document.title));
+    tell("version", json!(crate::VERSION));
+    tell("set", overrides.iter().map(|(path, value)| (path.clone(), json!(value))).collect());
+    tell("stopped", json!("failed"));
+    tell("time", json!(plan.start));
+    tell("start", json!(plan.start));
+    tell("end", json!(plan.end));
+    tell("scheme", json!(settings.scheme.name));
+    tell("step_size", json!(settings.step_size));
+    tell("planned_steps", json!(plan.steps));
+    tell("steps", json!(0));
+    let scaling = &settings.scaling;
+    tell(
+        "scaling",
+        json!({ "by": scaling.by.name(), "augmented": scaling.augmented, "penalty": scaling.penalty }),
+    );
+    tell("solver", json!(settings.solver.name));
+    tell("tolerance", json!(settings.limits.tolerance));
+    tell("bodies", json!(document.bodies.len() + document.point_masses.len()));
+    tell("beams", json!(document.beams.len()));
+    tell("elements", json!(document.beams.iter().map(|beam| beam.elements.value).sum::<usize>()));
+    tell("nodes", json!(layout.node_count() - 1));
+    tell("joints", json!(document.joints.len()));
+    tell("unknowns", json!(layout.size()));
+    tell("multipliers", json!(multipliers));
+    let columns = columns(channels);
+    let column = |column: &crate::Column| json!({ "name": column.name(), "quantity": column.quantity, "unit": column.unit });
+    tell("columns", columns.iter().map(column).collect());
+    let warnings = document.warnings.problems().map(|problem| json!(problem.message));
+    tell("warnings", warnings.collect());
+    summary
+}
+
+/// Adds what a run came to.
+pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
+    let simulation = session.simulation();
+    let totals = &report.totals;
+    let mut tell = |name: &str, fact: Value| tell(summary, name, fact);
+    tell("stopped", json!(report.stopped.name()));
+    if let Some(error) = report.error() {
+        tell("error", json!(error.to_string()));
+    }
+    tell("time", json!(report.time));
+    tell("records", json!(report.records));
+    tell("steps", json!(totals.steps));
+    tell("rejected_steps", json!(totals.rejected_steps));
+    tell("stagnated_steps", json!(totals.stagnated_steps));
+    tell("newton_iterations", json!(totals.newton_iterations));
+    tell("factorizations", json!(totals.factorizations));
+    tell("factor_entries", json!(simulation.factor_entries()));
+    tell("smallest_relative_pivot", json!(totals.smallest_relative_pivot));
+    tell("wall_seconds", json!(report.wall.as_secs_f64()));
+    tell("solve_seconds", json!(report.solving.as_secs_f64()));
+    tell("max_constraint_violation", json!(report.violation));
+    tell("max_carried_violation", json!(totals.max_constraint_violation));
+    tell("velocity_correction", json!(simulation.velocity_correction()));
+    let energy = &report.energy;
+    tell(
+        "energy",
+        json!({
+            "start": of_energy(&energy.start),
+            "end": of_energy(&energy.end),
+            "largest_change": energy.largest,
+        }),
+    );
+    let scaling = &simulation.settings().scaling;
+    tell(
+        "scaling",
+        json!({
+            "by": scaling.by.name(),
+            "augmented": scaling.augmented,
+            "penalty": scaling.penalty,
+            "scale": session.scale(),
+        }),
+    );
+    let Representative { mass, damping, stiffness, length } = *simulation.representative();
+    tell(
+        "representative",
+        json!({ "mass": mass, "damping": damping, "stiffness": stiffness, "length": length }),
+    );
+}
+
+/// Adds why a run could not start.
+pub fn of_failed_start(summary: &mut Summary, error: &dyn std::error::Error) {
+    tell(summary, "stopped", json!("failed"));
+    tell(summary, "error", json!(error.to_string()));
+}
+
+fn of_energy(energy: &Energy) -> Value {
+    json!({
+        "kinetic": energy.kinetic,
+        "strain": energy.strain,
+        "potential": energy.potential,
+        "total": energy.total(),
+    })
+}

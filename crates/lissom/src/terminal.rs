@@ -1,0 +1,90 @@
+//! What a person at a terminal sees and does: texts, a progress bar, Ctrl-C. Output that nobody takes, as
+//! behind a closed pipe, is no reason to stop.
+
+use std::io::{IsTerminal, Write, stderr, stdout};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use lissom::Progress;
+
+use crate::commands::Exit;
+
+/// How often the progress bar is looked after.
+const REFRESH: Duration = Duration::from_millis(50);
+
+/// Writes results.
+pub(crate) fn print(text: &str) {
+    let mut out = stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// Writes complaints.
+pub(crate) fn complain(text: &str) {
+    let _ = stderr().lock().write_all(text.as_bytes());
+}
+
+/// Whether complaints are in colour.
+pub(crate) fn in_colour() -> bool {
+    stderr().is_terminal() && std::env::var_os("NO_COLOR").is_none_or(|value| value.is_empty())
+}
+
+/// A bar of steps on the terminal; nothing in a pipe.
+pub(crate) struct Bar {
+    bar: ProgressBar,
+    drawn: Instant,
+}
+
+impl Bar {
+    /// A bar for `steps` planned steps, or none.
+    pub(crate) fn new(steps: usize, shown: bool) -> Self {
+        let bar = if shown && stderr().is_terminal() {
+            ProgressBar::new(steps as u64)
+        } else {
+            ProgressBar::hidden()
+        };
+        let style = ProgressStyle::with_template("{bar:30} {msg}  {per_sec} steps  {eta} left");
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("━╸ "));
+        Self { bar, drawn: Instant::now() }
+    }
+
+    /// Shows where a session stands.
+    pub(crate) fn show(&mut self, progress: &Progress) {
+        if self.drawn.elapsed() < REFRESH || self.bar.is_hidden() {
+            return;
+        }
+        self.drawn = Instant::now();
+        self.bar.set_position(progress.done as u64);
+        self.bar.set_message(format!("t = {:.4} of {} s", progress.time, progress.end));
+    }
+
+    /// Takes it away.
+    pub(crate) fn clear(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+/// Whether Ctrl-C was pressed.
+#[derive(Clone, Default)]
+pub(crate) struct Interrupt(Arc<AtomicBool>);
+
+impl Interrupt {
+    /// From now on the first Ctrl-C is noted and the second ends the program.
+    pub(crate) fn listen() -> Self {
+        let interrupt = Self::default();
+        let noted = interrupt.clone();
+        // Where no handler can be set, Ctrl-C ends the program as ever.
+        let _ = ctrlc::set_handler(move || {
+            if noted.0.swap(true, Ordering::Relaxed) {
+                std::process::exit(i32::from(Exit::Interrupted.code()));
+            }
+        });
+        interrupt
+    }
+
+    /// Whether it was pressed.
+    pub(crate) fn is_noted(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
