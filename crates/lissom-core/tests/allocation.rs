@@ -1,0 +1,82 @@
+//! Nothing is allocated within a step.
+
+use std::alloc::{GlobalAlloc, Layout, System as Heap};
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use lissom_core::analysis::{Settings, Simulation};
+use lissom_core::elements::beam::SectionLaw;
+use lissom_core::elements::beam_line::{BeamLineDescription, add_beam_line};
+use lissom_core::joints;
+use lissom_core::newton::Limits;
+use lissom_core::registry::Parameters;
+use lissom_core::scaling::ScalingChoice;
+use lissom_core::schemes::{generalized_alpha, radau_iia};
+use lissom_core::system::{Builder, Placement};
+use lissom_motion::{Matrix6, Motion, Vector3};
+
+struct Counting;
+
+static COUNT: AtomicUsize = AtomicUsize::new(0);
+
+// SAFETY: every call goes on to the system's allocator unchanged.
+#[allow(unsafe_code, reason = "an allocator can only be counted from inside")]
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        COUNT.fetch_add(1, Ordering::Relaxed);
+        unsafe { Heap.alloc(layout) }
+    }
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        unsafe { Heap.dealloc(pointer, layout) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+#[test]
+fn a_step_allocates_nothing() {
+    for scheme in [generalized_alpha::hht(-0.1).expect("valid"), radau_iia::two_stages()] {
+        let mut builder = Builder::new();
+        builder.set_gravity(Vector3::new(0.0, -9.81, 0.0));
+        let line = add_beam_line(
+            &mut builder,
+            &BeamLineDescription {
+                name: "beam",
+                elements: 4,
+                order: 3,
+                frame: &|s| Motion::translation(Vector3::new(s, 0.0, 0.0)),
+                law: &|_| SectionLaw { stiffness: Matrix6::identity() * 1e2, damping: 1e-4 },
+                mass: &|_| Matrix6::identity(),
+                ends: [None, None],
+            },
+        );
+        let placement = Placement {
+            nodes: [builder.ground(), line.nodes[0]],
+            at: Vector3::zeros(),
+            at_tip: None,
+            axis: Some(Vector3::z()),
+            second_axis: None,
+        };
+        let revolute = joints::KINDS.iter().find(|kind| kind.name == "revolute").expect("registered");
+        builder.add_joint("hinge", revolute, &placement, &Parameters::new()).expect("valid");
+        let (system, state) = builder.build(0.0).expect("valid");
+        let settings = Settings {
+            scheme,
+            step_size: 1e-2,
+            scaling: ScalingChoice::default(),
+            limits: Limits::default(),
+            solver: lissom_solver::kind("sparse").expect("registered"),
+        };
+        let mut simulation = Simulation::new(system, state, settings).expect("consistent");
+        simulation.step().expect("converges");
+        // Another step size asks for a new tangent.
+        simulation.set_step_size(5e-3);
+        let before = COUNT.load(Ordering::Relaxed);
+        for _ in 0..20 {
+            simulation.step().expect("converges");
+        }
+        let allocated = COUNT.load(Ordering::Relaxed) - before;
+        assert!(simulation.totals().factorizations > 1, "a new tangent must be among the steps");
+        assert_eq!(allocated, 0, "{}", simulation.settings().scheme.name);
+    }
+}
