@@ -51,9 +51,7 @@ impl Place {
     fn frame(&self, at: &Kinematics) -> Motion {
         match self {
             Self::Carried { node, offset } => at.nodes[*node].frame * Motion::translation(*offset),
-            Self::OnBeam { probe, xi, point, .. } => {
-                probe.frame_at(at, *xi) * Motion::translation(*point)
-            }
+            Self::OnBeam { probe, xi, point, .. } => probe.frame_at(at, *xi) * Motion::translation(*point),
         }
     }
 
@@ -68,10 +66,7 @@ impl Place {
                 let rotation = probe.frame_at(at, *xi).rotation;
                 let twist = probe.twist_at(at, *xi);
                 let angular = rotation_part(&twist);
-                (
-                    rotation.apply(&(translation_part(&twist) + angular.cross(point))),
-                    rotation.apply(&angular),
-                )
+                (rotation.apply(&(translation_part(&twist) + angular.cross(point))), rotation.apply(&angular))
             }
         }
     }
@@ -106,8 +101,7 @@ impl Channel {
                 let joint = &system.joints()[*index];
                 let mut mu = Equations::default();
                 let first = joint.first_multiplier;
-                mu[..joint.equations()]
-                    .copy_from_slice(&state.multipliers[first..first + joint.equations()]);
+                mu[..joint.equations()].copy_from_slice(&state.multipliers[first..first + joint.equations()]);
                 out.extend_from_slice(joint.reaction(at, &mu).as_slice());
             }
             Source::Drive(index) => {
@@ -262,9 +256,8 @@ fn place(
 }
 
 fn components(kind: OutputKind, source: &Source) -> (Vec<String>, Vec<&'static str>) {
-    let three = |letter: &str, unit: &'static str| {
-        ((1..=3).map(|k| format!("{letter}{k}")).collect(), vec![unit; 3])
-    };
+    let three =
+        |letter: &str, unit: &'static str| ((1..=3).map(|k| format!("{letter}{k}")).collect(), vec![unit; 3]);
     let words = |words: &[&str], units: &[&'static str]| {
         (words.iter().map(|&word| word.to_owned()).collect(), units.to_vec())
     };

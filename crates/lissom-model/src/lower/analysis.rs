@@ -73,9 +73,7 @@ fn scheme(analysis: &Analysis) -> Result<Scheme, Problem> {
             Ok(None)
         }
     };
-    let parameters =
-        SchemeParameters { alpha: given("alpha")?, spectral_radius: given("spectral_radius")? };
-    let kind = schemes::kind(name)
-        .ok_or_else(|| Problem::error(span, format!("unknown scheme `{name}`")))?;
+    let parameters = SchemeParameters { alpha: given("alpha")?, spectral_radius: given("spectral_radius")? };
+    let kind = schemes::kind(name).ok_or_else(|| Problem::error(span, format!("unknown scheme `{name}`")))?;
     (kind.build)(&parameters).map_err(|error| Problem::error(span, error.to_string()))
 }

@@ -83,8 +83,7 @@ fn joint(
         return Err(Problem::error(component.name.span, format!("joint `{name}` joins a node with itself"))
             .help("beams that share a node are joined already"));
     }
-    let coordinates =
-        builder.add_joint(name, kind, &placement, &component.parameters).map_err(fault)?;
+    let coordinates = builder.add_joint(name, kind, &placement, &component.parameters).map_err(fault)?;
     names.coordinates.insert(name.clone(), coordinates);
     Ok(())
 }
@@ -136,9 +135,7 @@ fn element(
             let nodes = [names.node(base)?, names.node(tip)?];
             Attached::TwoNodes(nodes, nodes.map(|node| local(builder, node, at)))
         }
-        Attachment::JointCoordinate { joint } => {
-            Attached::Coordinate(coordinate(component, joint, names)?)
-        }
+        Attachment::JointCoordinate { joint } => Attached::Coordinate(coordinate(component, joint, names)?),
     };
     (kind.build)(builder, attached, &component.parameters)
         .map_err(|error| parameter_problem(component, &error))

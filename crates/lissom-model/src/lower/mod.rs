@@ -76,10 +76,7 @@ fn no_node(reference: &Located<NodeReference>, beam: &str, line: &BeamLine, frac
 
 /// A core complaint about a component's parameter, underlined.
 fn parameter_problem(component: &Component, error: &ParameterError) -> Problem {
-    Problem::error(
-        component.span_of(&error.parameter),
-        format!("`{}`: {error}", component.name.value),
-    )
+    Problem::error(component.span_of(&error.parameter), format!("`{}`: {error}", component.name.value))
 }
 
 /// Makes the system a document describes.
@@ -99,9 +96,9 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
         Ok(chosen) => chosen,
         Err(problem) => return Err(document.report(vec![problem])),
     };
-    let built = builder.build(document.analysis.start).map_err(|error| {
-        document.report(vec![Problem::error(document.analysis.span, error.to_string())])
-    });
+    let built = builder
+        .build(document.analysis.start)
+        .map_err(|error| document.report(vec![Problem::error(document.analysis.span, error.to_string())]));
     let (system, state) = built?;
     let channels = channels::of(document, &system, &state, &names.resolver(), &mut problems);
     stop_at(document, &mut problems)?;

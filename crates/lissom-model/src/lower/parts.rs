@@ -26,16 +26,11 @@ fn bodies(document: &Document, builder: &mut Builder, names: &mut Names) {
     for body in &document.bodies {
         let frame = Motion::new(Rotation::from_matrix(&body.axes), body.position);
         let node = builder.add_node(&body.name.value, frame, Freedoms::Full);
-        builder.add_inertia(
-            node,
-            &Inertia::of_rigid_body(body.mass, &body.center_of_mass, &body.inertia),
-        );
+        builder.add_inertia(node, &Inertia::of_rigid_body(body.mass, &body.center_of_mass, &body.inertia));
         names.nodes.insert(body.name.value.clone(), node);
         let (velocity, angular) = initial_motion(document.initial.as_ref(), &frame);
-        let velocity = body
-            .velocity
-            .as_ref()
-            .map_or(velocity, |given| frame.rotation.apply_inverse(&given.value));
+        let velocity =
+            body.velocity.as_ref().map_or(velocity, |given| frame.rotation.apply_inverse(&given.value));
         let angular = body.angular_velocity.as_ref().map_or(angular, |given| given.value);
         builder.set_twist(node, screw(&velocity, &angular));
     }
@@ -51,10 +46,7 @@ fn point_masses(document: &Document, builder: &mut Builder, names: &mut Names) {
             Some(Plane::Zx) => Freedoms::Planar(2, 0),
         };
         let node = builder.add_node(&mass.name.value, frame, freedoms);
-        builder.add_inertia(
-            node,
-            &Inertia::of_rigid_body(mass.mass, &Vector3::zeros(), &Matrix3::zeros()),
-        );
+        builder.add_inertia(node, &Inertia::of_rigid_body(mass.mass, &Vector3::zeros(), &Matrix3::zeros()));
         names.nodes.insert(mass.name.value.clone(), node);
         let (velocity, _) = initial_motion(document.initial.as_ref(), &frame);
         let velocity = mass.velocity.as_ref().map_or(velocity, |given| given.value);
@@ -65,12 +57,8 @@ fn point_masses(document: &Document, builder: &mut Builder, names: &mut Names) {
 /// Velocity and angular velocity, in body axes, of a frame in the rigid motion of the start.
 fn initial_motion(initial: Option<&InitialMotion>, frame: &Motion) -> (Vector3, Vector3) {
     let Some(initial) = initial else { return (Vector3::zeros(), Vector3::zeros()) };
-    let velocity =
-        initial.velocity + initial.angular_velocity.cross(&(frame.position - initial.about));
-    (
-        frame.rotation.apply_inverse(&velocity),
-        frame.rotation.apply_inverse(&initial.angular_velocity),
-    )
+    let velocity = initial.velocity + initial.angular_velocity.cross(&(frame.position - initial.about));
+    (frame.rotation.apply_inverse(&velocity), frame.rotation.apply_inverse(&initial.angular_velocity))
 }
 
 /// Adds the beams, each after those whose nodes it shares.
@@ -91,7 +79,10 @@ fn beams(document: &Document, builder: &mut Builder, names: &mut Names, problems
                 problems.push(
                     Problem::error(
                         beam.name.span,
-                        format!("beam `{}` shares a node of a beam that shares one of its own", beam.name.value),
+                        format!(
+                            "beam `{}` shares a node of a beam that shares one of its own",
+                            beam.name.value
+                        ),
                     )
                     .help("let one of them start at a point, and join them with a clamp"),
                 );
@@ -136,10 +127,9 @@ fn add_beam(
             order: beam.order,
             frame: &|s| Motion::new(Rotation::from_matrix(&beam.frame(s)), beam.line.position(s)),
             law: &|s| {
-                properties(s).map_or(
-                    SectionLaw { stiffness: Matrix6::zeros(), damping: 0.0 },
-                    |section| SectionLaw { stiffness: section.stiffness, damping: section.damping },
-                )
+                properties(s).map_or(SectionLaw { stiffness: Matrix6::zeros(), damping: 0.0 }, |section| {
+                    SectionLaw { stiffness: section.stiffness, damping: section.damping }
+                })
             },
             mass: &|s| properties(s).map_or_else(Matrix6::zeros, |section| section.mass),
             ends,
@@ -148,8 +138,7 @@ fn add_beam(
     for (k, &node) in line.nodes.iter().enumerate() {
         let is_own = (k > 0 || ends[0].is_none()) && (k + 1 < line.nodes.len() || ends[1].is_none());
         if is_own {
-            let (velocity, angular) =
-                initial_motion(document.initial.as_ref(), &builder.initial_frame(node));
+            let (velocity, angular) = initial_motion(document.initial.as_ref(), &builder.initial_frame(node));
             builder.set_twist(node, screw(&velocity, &angular));
         }
     }
