@@ -211,6 +211,52 @@ mod tests {
         }
     }
 
+    /// Elimination by the book, in the solver's order: smallest pivot, growth, worst cancellation.
+    fn monitor(solver: &Multifrontal<f64>, values: &[f64]) -> (f64, f64, f64) {
+        let order = &solver.symbolic.unknowns;
+        let entry = |row: u32, column: u32| solver.pattern.position(row as usize, column as usize);
+        let mut matrix: Vec<Vec<f64>> = order
+            .iter()
+            .map(|&row| order.iter().map(|&column| entry(row, column).map_or(0.0, |at| values[at])).collect())
+            .collect();
+        let mut terms: Vec<f64> = (0..order.len()).map(|step| matrix[step][step].abs()).collect();
+        let (mut smallest, mut largest, mut cancellation) = (f64::INFINITY, 0.0_f64, f64::INFINITY);
+        for step in 0..order.len() {
+            let pivot_row = matrix[step].clone();
+            smallest = smallest.min(pivot_row[step].abs());
+            cancellation = cancellation.min(pivot_row[step].abs() / terms[step]);
+            largest = pivot_row[step..].iter().fold(largest, |largest, value| largest.max(value.abs()));
+            for row in step + 1..order.len() {
+                let factor = matrix[row][step] / pivot_row[step];
+                terms[row] += (factor * pivot_row[row]).abs();
+                for column in step..order.len() {
+                    matrix[row][column] -= factor * pivot_row[column];
+                }
+            }
+        }
+        (
+            smallest,
+            largest / values.iter().fold(0.0, |largest: f64, value| largest.max(value.abs())),
+            cancellation,
+        )
+    }
+
+    #[test]
+    fn the_report_is_that_of_plain_elimination() {
+        for model in [chain(200), grid(400)] {
+            let structure = model.structure();
+            let values: Vec<f64> = model.values(&structure.pattern, 3, 1.0);
+            let mut solver = Multifrontal::<f64>::new(&structure);
+            assert!(solver.symbolic.fronts.len() > 3);
+            let report = solver.factor(&values).expect("a regular matrix");
+            let (smallest, growth, cancellation) = monitor(&solver, &values);
+            let close = |a: f64, b: f64| (a - b).abs() < 1e-9 * b;
+            assert!(close(report.smallest_pivot, smallest), "{report:?}: {smallest}");
+            assert!(close(report.growth, growth), "{report:?}: {growth}");
+            assert!(close(report.worst_cancellation, cancellation), "{report:?}: {cancellation}");
+        }
+    }
+
     #[test]
     fn every_level_of_vector_instructions_solves() {
         for model in [chain(300), grid(600)] {

@@ -12,8 +12,8 @@ pub(super) struct Supernode {
 }
 
 /// Model of the time a front takes, in units of one multiplication and addition at full speed. Only ratios matter, and
-/// those not much: measured chains, trees and grids took the same time within 4 % when each number was tripled or
-/// divided by three.
+/// those not much: with all but the cost of a pivot varied between a third and three times these values, chains and
+/// trees of 300 and 2 000 unknowns took the same time within 6 %, grids within 10 %.
 mod cost {
     /// Setting up a front, in factorisation and in the solves that follow it.
     pub(super) const FRONT: f64 = 1500.0;
