@@ -133,6 +133,22 @@ impl StepEquations<'_> {
         }
     }
 
+    /// Linearises at the last stage.
+    pub(crate) fn linearize(&mut self) {
+        let last = self.scheme.stages.len() - 1;
+        let layout = self.system.layout();
+        let mut linearization = std::mem::replace(&mut self.work.linearization, Linearization::empty());
+        let mut increments = std::mem::take(&mut self.work.node_increments);
+        spread(layout, &self.work.increments[last], &mut increments);
+        let chart = match self.scheme.increments {
+            Increments::FromStart => Chart::Increments(&increments),
+            Increments::Departure => Chart::Departures(&self.start.kinematics.nodes),
+        };
+        self.system.linearize(&self.point(last), chart, &mut linearization);
+        self.work.node_increments = increments;
+        self.work.linearization = linearization;
+    }
+
     /// Applies the corrections. Places are measured by the largest scaled correction; multipliers by
     /// their largest correction relative to the largest multiplier, in the same units: they may still
     /// change where the places are found already.
@@ -221,18 +237,7 @@ impl Equations for StepEquations<'_> {
     }
 
     fn renew_tangent(&mut self) -> Result<(), FactorError> {
-        let last = self.scheme.stages.len() - 1;
-        let layout = self.system.layout();
-        let mut linearization = std::mem::replace(&mut self.work.linearization, Linearization::empty());
-        let mut increments = std::mem::take(&mut self.work.node_increments);
-        spread(layout, &self.work.increments[last], &mut increments);
-        let chart = match self.scheme.increments {
-            Increments::FromStart => Chart::Increments(&increments),
-            Increments::Departure => Chart::Departures(&self.start.kinematics.nodes),
-        };
-        self.system.linearize(&self.point(last), chart, &mut linearization);
-        self.work.node_increments = increments;
-        self.work.linearization = linearization;
+        self.linearize();
         let work = &mut *self.work;
         let report = work.factorization.factor(&self.scaled, &self.scheme.coupling, &work.linearization)?;
         work.report = Some(report);
