@@ -27,28 +27,34 @@
 mod condition;
 mod dense;
 mod entries;
+mod extended;
 mod multifrontal;
 mod ordering;
 mod pattern;
 #[cfg(feature = "pivoting")]
 mod pivoting;
+mod refinement;
 mod report;
 #[cfg(feature = "samples")]
 pub mod samples;
 mod scalar;
+mod singular_values;
 mod skyline;
 mod solver;
 mod structure;
 
 pub use condition::condition_estimate;
 pub use dense::Dense;
+pub use extended::Extended;
 pub use multifrontal::Multifrontal;
 pub use ordering::{minimum_degree_order, profile_order};
 pub use pattern::Pattern;
 #[cfg(feature = "pivoting")]
 pub use pivoting::Pivoting;
+pub use refinement::{Refined, refined_solution};
 pub use report::{FactorError, FactorReport, TINY_PIVOT};
 pub use scalar::Scalar;
+pub use singular_values::{condition_number, singular_values};
 pub use skyline::Skyline;
 pub use solver::{KINDS, LinearSolver, SolverKind, kind};
 pub use structure::{Group, Structure, StructureError};

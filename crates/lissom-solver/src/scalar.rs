@@ -68,6 +68,10 @@ pub trait Scalar:
     fn magnitude(self) -> f64;
     /// Whether no part is infinite or not a number.
     fn is_finite(self) -> bool;
+    /// Real and imaginary part.
+    fn parts(self) -> [f64; 2];
+    /// From real and imaginary part; a real number leaves the imaginary part out.
+    fn from_parts(real: f64, imaginary: f64) -> Self;
 }
 
 impl sealed::Arithmetic for f64 {
@@ -118,6 +122,14 @@ impl Scalar for f64 {
     #[inline(always)]
     fn is_finite(self) -> bool {
         f64::is_finite(self)
+    }
+    #[inline(always)]
+    fn parts(self) -> [f64; 2] {
+        [self, 0.0]
+    }
+    #[inline(always)]
+    fn from_parts(real: f64, _imaginary: f64) -> Self {
+        real
     }
 }
 
@@ -189,5 +201,13 @@ impl Scalar for Complex64 {
     #[inline(always)]
     fn is_finite(self) -> bool {
         self.re.is_finite() && self.im.is_finite()
+    }
+    #[inline(always)]
+    fn parts(self) -> [f64; 2] {
+        [self.re, self.im]
+    }
+    #[inline(always)]
+    fn from_parts(real: f64, imaginary: f64) -> Self {
+        Complex64::new(real, imaginary)
     }
 }

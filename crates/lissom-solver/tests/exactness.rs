@@ -135,6 +135,36 @@ fn the_condition_estimate_is_close_to_the_truth() {
 }
 
 #[test]
+fn the_complex_condition_estimate_is_close_to_the_truth() {
+    for model in [chain(60), closed_loop(80)] {
+        let structure = model.structure();
+        let pattern = &structure.pattern;
+        let mut twist = 0.0;
+        let turned = |value: &f64| {
+            twist += 0.1;
+            value * Complex64::new(1.0, 0.3 * f64::sin(twist))
+        };
+        let values: Vec<Complex64> = model.values::<f64>(pattern, 3, 1.0).iter().map(turned).collect();
+        let mut solver = (kind("sparse").unwrap().complex)(&structure);
+        solver.factor(&values).unwrap();
+        let norm_of = |column: &[Complex64]| column.iter().map(|x| x.norm()).sum::<f64>();
+        let mut inverse_norm = 0.0_f64;
+        for unknown in 0..model.size {
+            let mut column = vec![Complex64::default(); model.size];
+            column[unknown] = Complex64::new(1.0, 0.0);
+            solver.solve(&mut column);
+            inverse_norm = inverse_norm.max(norm_of(&column));
+        }
+        let starts = pattern.column_starts();
+        let norm =
+            (0..model.size).map(|j| norm_of(&values[starts[j]..starts[j + 1]])).fold(0.0_f64, f64::max);
+        let estimate = condition_estimate(&mut *solver, pattern, &values);
+        let exact = norm * inverse_norm;
+        assert!(estimate <= exact * (1.0 + 1e-9) && estimate > exact / 3.0, "{estimate:e} for {exact:e}");
+    }
+}
+
+#[test]
 fn nothing_to_solve_is_no_difficulty() {
     let structure = Structure::ungrouped(Arc::new(Pattern::from_entries(0, [])));
     for kind in KINDS {
