@@ -1,16 +1,30 @@
-//! Plots of results over time, one figure per output and unit. The drawing itself is done by kuva; only this
-//! module knows it.
+//! Plots of results over time: one figure per output, with a panel for each unit. The drawing itself is done by
+//! kuva; only this module knows it.
 
+use kuva::backend::png::PngBackend;
+use kuva::backend::svg::SvgBackend;
 use kuva::plot::LinePlot;
 use kuva::plot::legend::LegendPosition;
+use kuva::render::figure::Figure as Panels;
 use kuva::render::layout::Layout;
 use kuva::render::plots::Plot;
+use kuva::render::render::{Scene, render_multiple};
 use kuva::render::theme::Theme;
 
-use super::{Column, Record};
+use super::Record;
 
 /// Most points of a drawn curve.
 const POINTS: usize = 2000;
+
+/// Curves of a panel that are drawn without dashes.
+const SOLID: usize = 3;
+
+/// Width of a figure.
+const WIDTH: f64 = 760.0;
+/// Height of a figure of one panel.
+const HEIGHT: f64 = 460.0;
+/// Height of each of several panels.
+const PANEL_HEIGHT: f64 = 340.0;
 
 /// Blue, vermilion, green, purple, orange, sky blue, black (after Okabe and Ito 2008): told apart also by
 /// people who do not see all colours, and on paper.
@@ -26,12 +40,18 @@ pub struct FigureError {
     pub reason: String,
 }
 
-/// One drawing: curves over time with a common unit.
+/// One drawing: curves over time, those of a common unit in one panel.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
     /// Name, fit for a file.
     pub name: String,
     title: String,
+    panels: Vec<Panel>,
+}
+
+/// Curves with a common unit.
+#[derive(Clone, Debug, PartialEq)]
+struct Panel {
     quantity: String,
     unit: String,
     curves: Vec<Curve>,
@@ -40,35 +60,30 @@ pub struct Figure {
 /// A name and points (time, value).
 type Curve = (String, Vec<(f64, f64)>);
 
-/// The figures of a record: one per output, or per output and unit where its columns have several.
+/// The figures of a record: one per output.
 pub fn figures(record: &Record, title: &str) -> Vec<Figure> {
-    let mut figures: Vec<(&Column, Vec<usize>)> = Vec::new();
-    for (index, column) in record.columns.iter().enumerate() {
-        let same = |other: &Column| other.output == column.output && other.unit == column.unit;
-        match figures.iter_mut().find(|(first, _)| same(first)) {
-            Some((_, members)) => members.push(index),
-            None => figures.push((column, vec![index])),
+    let mut figures: Vec<(&str, Figure)> = Vec::new();
+    for (column, values) in record.columns.iter().zip(&record.values) {
+        let output = column.output.as_str();
+        let known = figures.iter().position(|(known, _)| *known == output);
+        let index = known.unwrap_or_else(|| {
+            let name = output.replace(|c: char| !c.is_alphanumeric() && c != '-', "_");
+            let title = if title.is_empty() { output.to_owned() } else { format!("{title}: {output}") };
+            figures.push((output, Figure { name, title, panels: Vec::new() }));
+            figures.len() - 1
+        });
+        let panels = &mut figures[index].1.panels;
+        let curve = (column.component.clone(), thinned(&record.times, values));
+        match panels.iter_mut().find(|panel| panel.unit == column.unit) {
+            Some(panel) => panel.curves.push(curve),
+            None => panels.push(Panel {
+                quantity: column.quantity.clone(),
+                unit: column.unit.clone(),
+                curves: vec![curve],
+            }),
         }
     }
-    let several = |output: &str| figures.iter().filter(|(first, _)| first.output == output).count() > 1;
-    let figure = |(first, members): &(&Column, Vec<usize>)| {
-        let plain = |text: &str| text.replace(|c: char| !c.is_alphanumeric() && c != '-', "_");
-        let suffix = if several(&first.output) { format!("_{}", plain(&first.unit)) } else { String::new() };
-        let output = &first.output;
-        Figure {
-            name: format!("{}{suffix}", plain(output)),
-            title: if title.is_empty() { output.clone() } else { format!("{title}: {output}") },
-            quantity: first.quantity.clone(),
-            unit: first.unit.clone(),
-            curves: members
-                .iter()
-                .map(|&index| {
-                    (record.columns[index].component.clone(), thinned(&record.times, &record.values[index]))
-                })
-                .collect(),
-        }
-    };
-    figures.iter().map(figure).collect()
+    figures.into_iter().map(|(_, figure)| figure).collect()
 }
 
 /// At most [`POINTS`] points of a curve: both extremes of every stretch of time, and both ends.
@@ -100,8 +115,7 @@ impl Figure {
     /// # Errors
     /// If there is nothing to draw.
     pub fn svg(&self) -> Result<String, FigureError> {
-        let (plots, layout) = self.draw()?;
-        Ok(kuva::render_to_svg(plots, layout))
+        Ok(SvgBackend.render_scene(&self.draw()?))
     }
 
     /// The drawing as the bytes of a PNG file.
@@ -109,19 +123,36 @@ impl Figure {
     /// # Errors
     /// If there is nothing to draw, or the drawing library fails.
     pub fn png(&self) -> Result<Vec<u8>, FigureError> {
-        let (plots, layout) = self.draw()?;
-        kuva::render_to_png(plots, layout, 2.0).map_err(|reason| self.failure(reason))
+        PngBackend::new().with_scale(2.0).render_scene(&self.draw()?).map_err(|reason| self.failure(reason))
     }
 
     fn failure(&self, reason: impl Into<String>) -> FigureError {
         FigureError { figure: self.name.clone(), reason: reason.into() }
     }
 
-    fn draw(&self) -> Result<(Vec<Plot>, Layout), FigureError> {
+    fn draw(&self) -> Result<Scene, FigureError> {
+        let mut panels: Vec<(Vec<Plot>, Layout)> = self.panels.iter().filter_map(Panel::draw).collect();
+        if panels.len() > 1 {
+            let (plots, layouts): (Vec<_>, Vec<_>) = panels.into_iter().unzip();
+            let figure = Panels::new(plots.len(), 1)
+                .with_title(self.title.as_str())
+                .with_title_size(16)
+                .with_cell_size(WIDTH, PANEL_HEIGHT)
+                .with_plots(plots)
+                .with_layouts(layouts);
+            return Ok(figure.render());
+        }
+        let (plots, layout) = panels.pop().ok_or_else(|| self.failure("it has no finite values"))?;
+        let layout = layout.with_height(HEIGHT).with_title(self.title.as_str()).with_title_size(16);
+        Ok(render_multiple(plots, layout))
+    }
+}
+
+impl Panel {
+    /// Curves and axes, if there is anything to draw.
+    fn draw(&self) -> Option<(Vec<Plot>, Layout)> {
         let points = || self.curves.iter().flat_map(|(_, points)| points);
-        let Some(&(first, _)) = points().next() else {
-            return Err(self.failure("it has no finite values"));
-        };
+        let &(first, _) = points().next()?;
         let last = points().map(|point| point.0).fold(first, f64::max);
         let (factor, unit) = prefixed(points().fold(0.0, |most, point| point.1.abs().max(most)), &self.unit);
         let curve = |(index, (name, points)): (usize, &Curve)| {
@@ -129,18 +160,16 @@ impl Figure {
                 .with_data(points.iter().map(|(time, value)| (*time, value / factor)))
                 .with_color(COLOURS[index % COLOURS.len()])
                 .with_stroke_width(1.6);
-            // Beyond the colours, dashes.
-            let line = if index < COLOURS.len() { line } else { line.with_dashed() };
+            // From the fourth on dashes, through which a curve below still shows: a sum below its parts.
+            let line = if index < SOLID { line } else { line.with_dashed() };
             Plot::Line(if name.is_empty() { line } else { line.with_legend(name.as_str()) })
         };
         let plots: Vec<Plot> = self.curves.iter().enumerate().map(curve).collect();
         let theme = Theme { grid_color: "#e4e4e4".into(), legend_border: "none".into(), ..Theme::light() };
         let mut layout = Layout::auto_from_plots(&plots)
-            .with_width(760.0)
-            .with_height(460.0)
+            .with_width(WIDTH)
+            .with_height(PANEL_HEIGHT)
             .with_theme(theme)
-            .with_title(self.title.as_str())
-            .with_title_size(16)
             .with_x_label("time [s]")
             .with_y_label(format!("{}{unit}", self.quantity))
             .with_legend_position(LegendPosition::OutsideRightTop);
@@ -155,7 +184,7 @@ impl Figure {
             let room = if high == 0.0 { 1.0 } else { 0.1 * high.abs() };
             layout = layout.with_y_axis_min(low - room).with_y_axis_max(high + room);
         }
-        Ok((plots, layout))
+        Some((plots, layout))
     }
 }
 
@@ -177,7 +206,7 @@ fn prefixed(most: f64, unit: &str) -> (f64, String) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::output::Writer;
+    use crate::output::{Column, Writer};
 
     fn record(rows: u32, value: impl Fn(f64) -> Vec<f64>, columns: &[Column]) -> Record {
         let mut record = Record::default();
@@ -201,9 +230,13 @@ mod tests {
         let record = record(5000, |t| vec![t.sin(), t.cos(), 0.0, 1.0, t], &columns);
         let figures = figures(&record, "Tip crank");
         let names: Vec<&str> = figures.iter().map(|figure| figure.name.as_str()).collect();
-        assert_eq!(names, ["mid_span", "root_N", "root_N_m"]);
+        assert_eq!(names, ["mid_span", "root"]);
         let svg = figures[0].svg().unwrap();
         for words in ["Tip crank: mid span", "displacement [m]", "time [s]", ">x<", ">z<", COLOURS[2]] {
+            assert!(svg.contains(words), "{words}");
+        }
+        let svg = figures[1].svg().unwrap();
+        for words in ["Tip crank: root", "reaction [N]", "reaction [N m]"] {
             assert!(svg.contains(words), "{words}");
         }
         assert!(figures[1].png().unwrap().starts_with(b"\x89PNG"));
