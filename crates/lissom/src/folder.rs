@@ -72,8 +72,8 @@ impl ResultFolder {
             let name = column.name();
             let known = summary["columns"].as_array().into_iter().flatten();
             if let Some(known) = known.into_iter().find(|known| known["name"] == name.as_str()) {
-                column.quantity = known["quantity"].as_str().unwrap_or_default().to_owned();
-                column.unit = known["unit"].as_str().unwrap_or_default().to_owned();
+                let word = |fact: &str| known[fact].as_str().unwrap_or_default().to_owned();
+                (column.quantity, column.unit) = (word("quantity"), word("unit"));
             }
         }
         let title = summary["title"].as_str().unwrap_or_default().to_owned();

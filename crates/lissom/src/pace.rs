@@ -137,7 +137,7 @@ mod tests {
 
     #[test]
     fn load_steps_halve_grow_back_and_meet_every_planned_instant() {
-        let mut pace = Pace::new(plan(4.5, 4, true), 1.0);
+        let mut pace = Pace::new(plan(6.5, 6, true), 1.0);
         let mut met = Vec::new();
         let mut sizes = Vec::new();
         while !pace.is_finished() {
@@ -154,8 +154,8 @@ mod tests {
                 met.push(pace.time());
             }
         }
-        assert_eq!(met, [1.5, 2.5, 3.5, 4.5]);
-        assert!((sizes.iter().sum::<f64>() - 4.0).abs() < 1e-12);
+        assert_eq!(met, [1.5, 2.5, 3.5, 4.5, 5.5, 6.5]);
+        assert!((sizes.iter().sum::<f64>() - 6.0).abs() < 1e-12);
         assert_eq!(sizes.iter().copied().fold(1.0, f64::min), 0.0625);
         assert_eq!(*sizes.last().unwrap(), 1.0, "{sizes:?}");
     }

@@ -42,68 +42,76 @@ fn count(number: usize, one: &str, many: &str) -> String {
 }
 
 fn told(name: &str, document: &Document, lowered: &Lowered, freedom: &Mobility) -> String {
-    let layout = lowered.system.layout();
-    let (plan, settings) = (&lowered.plan, &lowered.settings);
     let mut text = match &document.title {
         Some(title) => format!("{name}: {title}\n"),
         None => format!("{name}\n"),
     };
-    let mut line = |name: &str, words: String| {
+    let lines = [
+        ("parts", parts(document, lowered)),
+        ("linked by", links(document)),
+        ("unknowns", unknowns(lowered, freedom)),
+        (
+            "freedoms",
+            format!(
+                "{}: {} coordinates less {} independent constraints of {}",
+                freedom.freedoms, freedom.coordinates, freedom.rank, freedom.constraints
+            ),
+        ),
+        ("analysis", analysis(lowered)),
+        ("outputs", outputs(lowered)),
+    ];
+    for (name, words) in lines {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  {name:<10}{words}");
-    };
-    let elements: usize = document.beams.iter().map(|beam| beam.elements.value).sum();
-    line(
-        "parts",
-        [
-            count(document.bodies.len(), "body", "bodies"),
-            count(document.point_masses.len(), "point mass", "point masses"),
-            format!(
-                "{} of {}",
-                count(document.beams.len(), "beam", "beams"),
-                count(elements, "element", "elements")
-            ),
-            count(layout.node_count() - 1, "node", "nodes"),
-        ]
-        .join(", "),
-    );
-    line(
-        "linked by",
-        [
-            count(document.joints.len(), "joint", "joints"),
-            count(document.springs.len(), "spring", "springs"),
-            count(document.loads.len(), "load", "loads"),
-        ]
-        .join(", "),
-    );
-    line(
-        "unknowns",
-        format!(
-            "{}: {} coordinates ({} algebraic), {} multipliers",
-            layout.size(),
-            layout.coordinate_count(),
-            lowered.state.kinematics.coordinates.len(),
-            freedom.constraints
-        ),
-    );
-    line(
-        "freedoms",
-        format!(
-            "{}: {} coordinates less {} independent constraints of {}",
-            freedom.freedoms, freedom.coordinates, freedom.rank, freedom.constraints
-        ),
-    );
-    let kind = if plan.is_static { "load steps" } else { "steps" };
-    line(
-        "analysis",
-        format!(
-            "{} … {} s in {} {kind} of {} s, {}, solver {}",
-            plan.start, plan.end, plan.steps, settings.step_size, settings.scheme.name, settings.solver.name
-        ),
-    );
-    let columns: usize = lowered.channels.iter().map(|channel| channel.components.len()).sum();
-    line("outputs", format!("{columns} columns of {}", count(lowered.channels.len(), "output", "outputs")));
+    }
     text
+}
+
+fn parts(document: &Document, lowered: &Lowered) -> String {
+    let elements: usize = document.beams.iter().map(|beam| beam.elements.value).sum();
+    format!(
+        "{}, {}, {} of {}, {}",
+        count(document.bodies.len(), "body", "bodies"),
+        count(document.point_masses.len(), "point mass", "point masses"),
+        count(document.beams.len(), "beam", "beams"),
+        count(elements, "element", "elements"),
+        // The ground is none.
+        count(lowered.system.layout().node_count() - 1, "node", "nodes"),
+    )
+}
+
+fn links(document: &Document) -> String {
+    format!(
+        "{}, {}, {}",
+        count(document.joints.len(), "joint", "joints"),
+        count(document.springs.len(), "spring", "springs"),
+        count(document.loads.len(), "load", "loads"),
+    )
+}
+
+fn unknowns(lowered: &Lowered, freedom: &Mobility) -> String {
+    format!(
+        "{}: {} coordinates ({} algebraic), {} multipliers",
+        lowered.system.layout().size(),
+        freedom.coordinates,
+        lowered.state.kinematics.coordinates.len(),
+        freedom.constraints
+    )
+}
+
+fn analysis(lowered: &Lowered) -> String {
+    let (plan, settings) = (&lowered.plan, &lowered.settings);
+    let kind = if plan.is_static { "load steps" } else { "steps" };
+    format!(
+        "{} … {} s in {} {kind} of {} s, {}, solver {}",
+        plan.start, plan.end, plan.steps, settings.step_size, settings.scheme.name, settings.solver.name
+    )
+}
+
+fn outputs(lowered: &Lowered) -> String {
+    let columns = lowered.channels.iter().map(|channel| channel.components.len()).sum();
+    let outputs = count(lowered.channels.len(), "output", "outputs");
+    format!("{outputs}, {}", count(columns, "column", "columns"))
 }
 
 fn warning(redundant: &Redundant) -> String {

@@ -61,14 +61,16 @@ fn section(text: &mut String, heading: &str, entries: impl Iterator<Item = Strin
 }
 
 fn of_kind(table: &str, kind: &KindEntry) -> String {
-    let mut text = format!("\n  {}: {}\n    between     {}\n", kind.name, kind.summary, place(kind.acts_on));
+    let (place, sample) = place(kind.acts_on);
+    let mut text = format!("\n  {}: {}\n    acts on     {place}\n", kind.name, kind.summary);
     parameters(&mut text, kind.parameters);
-    let (name, entry) = (table.strip_suffix('s').unwrap_or(table), kind.sample.trim());
+    let name = table.strip_suffix('s').unwrap_or(table);
+    // Writing to a string cannot fail.
     let _ = writeln!(text, "    sample      [{table}.my_{name}]");
-    if !entry.contains("kind =") {
-        let _ = writeln!(text, "                kind = \"{}\"", kind.name);
-    }
-    for line in entry.lines() {
+    for line in std::iter::once(&*format!("kind = \"{}\"", kind.name))
+        .chain(sample.lines())
+        .chain(kind.sample.lines())
+    {
         let _ = writeln!(text, "                {line}");
     }
     text
@@ -109,14 +111,20 @@ fn holds(holds: ParameterType) -> String {
     }
 }
 
-/// The keys that say what a kind is attached to.
-fn place(acts_on: ActsOn) -> &'static str {
+/// The keys that say what a kind is attached to, and a sample of those that are needed.
+fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
+    const TWO: &str = "base = \"ground\"\ntip = \"my_body\"\nat = [0.0, 0.0, 0.0]";
+    const PLACES: &str = "base = \"ground\"\ntip = \"my_body\"\nat_base = [0.0, 0.0, 0.0]";
     match acts_on {
-        ActsOn::TwoNodes(FrameRule::None) => "base, tip; at (default: the tip's place)",
-        ActsOn::TwoNodes(FrameRule::Axis) => "base, tip; at (default: the tip's place), axis",
-        ActsOn::TwoNodes(FrameRule::TwoAxes) => "base, tip; at (default: the tip's place), axis, second_axis",
-        ActsOn::TwoPlaces => "base, tip; at_base, at_tip (default: the nodes' places)",
-        ActsOn::OneNode => "on; at (default: the node's place)",
-        ActsOn::JointCoordinate => "joint: the one whose relative rotation it acts on",
+        ActsOn::TwoNodes(FrameRule::None) => ("base, tip, at (default: the tip's place)", TWO),
+        ActsOn::TwoNodes(FrameRule::Axis) => ("base, tip, at (default: the tip's place), axis", TWO),
+        ActsOn::TwoNodes(FrameRule::TwoAxes) => {
+            ("base, tip, at (default: the tip's place), axis, second_axis", TWO)
+        }
+        ActsOn::TwoPlaces => ("base, tip, at_base, at_tip (default: the nodes' places)", PLACES),
+        ActsOn::OneNode => ("on, at (default: the node's place)", "on = \"my_body\""),
+        ActsOn::JointCoordinate => {
+            ("joint, the one whose relative rotation it acts on", "joint = \"my_hinge\"")
+        }
     }
 }

@@ -150,7 +150,7 @@ fn told(heading: &str, session: &Session, report: &RunReport, folder: &Path) -> 
     };
     let stopped = if report.is_complete() { String::new() } else { format!(" of {} s", plan.end) };
     line(
-        "done",
+        if report.is_complete() { "done" } else { "reached" },
         format!(
             "{} … {} s{stopped} in {} steps, {}, {} unknowns",
             plan.start,

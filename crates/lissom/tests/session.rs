@@ -1,0 +1,108 @@
+//! Sessions in memory: many at once, step by step, and interrupted.
+
+use std::ops::ControlFlow;
+
+use lissom::{Document, Model, Session, Stopped};
+
+const SPRING: &str = r#"
+lissom = 1
+[point_masses.weight]
+mass = 1
+position = [1, 0, 0]
+velocity = [0.3, 0, 0]
+[springs.spring]
+kind = "point"
+base = "ground"
+tip = "weight"
+at_base = [0, 0, 0]
+stiffness = 100
+[outputs.weight]
+kind = "position"
+of = "weight"
+[analysis]
+kind = "dynamics"
+end = 0.5
+step = 0.01
+"#;
+
+fn set(path: &str, value: impl std::fmt::Display) -> (String, String) {
+    (path.to_owned(), format!("{value}"))
+}
+
+#[test]
+fn sessions_may_go_to_other_threads() {
+    fn is_send<T: Send>() {}
+    fn is_sync<T: Sync>() {}
+    is_send::<Session>();
+    is_send::<Document>();
+    is_sync::<Document>();
+    is_sync::<Model>();
+}
+
+/// A study of convergence: sessions at several step sizes in parallel threads.
+#[test]
+fn errors_shrink_with_the_step_as_the_scheme_promises() {
+    let model = Model::from_text("spring.toml", SPRING);
+    let exact = 1.0 + 0.03 * 5.0_f64.sin();
+    for (scheme, order) in [("radau-iia", 3), ("generalized-alpha", 2)] {
+        let error = |step: f64| {
+            let overrides = [set("analysis.step", step), set("analysis.scheme", scheme)];
+            let (record, report) = model.session(&overrides).unwrap().record();
+            assert!(report.is_complete());
+            assert_eq!(record.times.last(), Some(&0.5));
+            (record.column("weight", "x").unwrap().last().unwrap() - exact).abs()
+        };
+        let [coarse, fine] = std::thread::scope(|scope| {
+            let threads = [0.01, 0.005].map(|step| scope.spawn(move || error(step)));
+            threads.map(|thread| thread.join().unwrap())
+        });
+        let ratio = coarse / fine;
+        assert!((ratio.log2() - f64::from(order)).abs() < 0.3, "{scheme}: {coarse:e} {fine:e}");
+    }
+}
+
+#[test]
+fn a_session_goes_step_by_step() {
+    let model = Model::from_text("spring.toml", SPRING);
+    let mut session = model.session(&[set("analysis.end", 0.055)]).unwrap();
+    assert_eq!(session.columns()[1].name(), "weight.y");
+    let mut steps = 0;
+    while !session.is_finished() {
+        session.advance().unwrap();
+        steps += 1;
+    }
+    assert_eq!(steps, 6);
+    assert_eq!(session.progress().time, 0.055);
+    let mut values = Vec::new();
+    session.values(&mut values);
+    assert!((values[0] - 1.0 - 0.03 * 0.55_f64.sin()).abs() < 1e-6, "{values:?}");
+    // The clock inside agrees.
+    assert!((session.simulation().state().kinematics.time - 0.055).abs() < 1e-15);
+}
+
+#[test]
+fn an_interrupted_session_can_go_on() {
+    let model = Model::from_text("spring.toml", SPRING);
+    let whole = model.session(&[]).unwrap().record().0;
+    let mut session = model.session(&[]).unwrap();
+    let mut first = lissom::Record::default();
+    let report = session.run(&mut [&mut first], &mut |progress| {
+        if progress.done == 20 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    assert!(matches!(report.stopped, Stopped::Interrupted));
+    assert_eq!((report.time, first.times.len()), (0.2, 21));
+    let (rest, report) = session.record();
+    assert!(report.is_complete() && report.totals.steps == 50);
+    assert_eq!(rest.times.len(), 31);
+    assert_eq!(rest.column("weight", "x").unwrap().last(), whole.column("weight", "x").unwrap().last());
+}
+
+#[test]
+fn wrong_models_are_told_apart_from_failing_ones() {
+    let model = Model::from_text("spring.toml", SPRING);
+    let error = model.session(&[set("analysis.step", 0)]).err().unwrap();
+    assert!(matches!(error, lissom::SessionError::Model(_)), "{error}");
+    let (record, report) = model.session(&[set("analysis.max_iterations", 1)]).unwrap().record();
+    assert!(report.error().is_some() && !report.is_complete());
+    assert_eq!(record.times, [0.0]);
+}
