@@ -110,6 +110,23 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
 pub fn of_failed_start(summary: &mut Summary, error: &dyn std::error::Error) {
     tell(summary, "stopped", json!("failed"));
     tell(summary, "error", json!(error.to_string()));
+    for name in ["records", "rejected_steps", "stagnated_steps", "newton_iterations", "factorizations"] {
+        tell(summary, name, json!(0));
+    }
+    // The names are there, so that scripts need not ask.
+    for name in [
+        "factor_entries",
+        "smallest_relative_pivot",
+        "wall_seconds",
+        "solve_seconds",
+        "max_constraint_violation",
+        "max_carried_violation",
+        "velocity_correction",
+        "energy",
+        "representative",
+    ] {
+        tell(summary, name, Value::Null);
+    }
 }
 
 fn of_energy(energy: &Energy) -> Value {

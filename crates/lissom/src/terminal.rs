@@ -32,7 +32,8 @@ pub(crate) fn in_colour() -> bool {
 
 /// A bar of steps on the terminal; nothing in a pipe.
 pub(crate) struct Bar {
-    bar: ProgressBar,
+    shown: ProgressBar,
+    began: Instant,
     drawn: Instant,
 }
 
@@ -44,24 +45,26 @@ impl Bar {
         } else {
             ProgressBar::hidden()
         };
-        let style = ProgressStyle::with_template("{bar:30} {msg}  {per_sec} steps  {eta} left");
+        let style = ProgressStyle::with_template("{bar:30} {msg}, {eta} left");
         bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("━╸ "));
-        Self { bar, drawn: Instant::now() }
+        let now = Instant::now();
+        Self { shown: bar, began: now, drawn: now }
     }
 
     /// Shows where a session stands.
     pub(crate) fn show(&mut self, progress: &Progress) {
-        if self.drawn.elapsed() < REFRESH || self.bar.is_hidden() {
+        if self.drawn.elapsed() < REFRESH || self.shown.is_hidden() {
             return;
         }
         self.drawn = Instant::now();
-        self.bar.set_position(progress.done as u64);
-        self.bar.set_message(format!("t = {:.4} of {} s", progress.time, progress.end));
+        self.shown.set_position(progress.done as u64);
+        let speed = progress.done as f64 / self.began.elapsed().as_secs_f64();
+        self.shown.set_message(format!("t = {:.4} of {} s, {speed:.0} steps/s", progress.time, progress.end));
     }
 
     /// Takes it away.
     pub(crate) fn clear(&self) {
-        self.bar.finish_and_clear();
+        self.shown.finish_and_clear();
     }
 }
 

@@ -282,6 +282,14 @@ fn check_counts_freedoms_and_names_redundant_constraints() {
     assert_eq!(run.errors.matches("redundant constraint").count(), 3, "{}", run.errors);
     assert!(run.errors.contains("of joint `again` follows from `pivot`"), "{}", run.errors);
     assert!(!folder.path().join("out").exists());
+    // To run it is a failed solution, told in the summary before any step.
+    let run = lissom(&["run", "twice.toml", "--quiet"], folder.path());
+    assert_eq!(run.code, 3);
+    assert!(run.errors.contains("joint `again`"), "{}", run.errors);
+    let facts = summary(&folder.path().join("out/twice"));
+    assert_eq!((&facts["stopped"], &facts["steps"]), (&"failed".into(), &0.into()));
+    assert!(facts["error"].as_str().unwrap().contains("joint `again`"));
+    assert!(facts.get("max_carried_violation").is_some());
 }
 
 #[test]
