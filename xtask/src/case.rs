@@ -1,0 +1,316 @@
+//! What a `case.toml` says: models to run, what is compared with what, and how close it has to be. Runs
+//! nothing.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use lissom::{Model, Override};
+use serde::Deserialize;
+
+/// A case that cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum CaseError {
+    /// A file cannot be read.
+    #[error("{path}: {reason}")]
+    Unreadable {
+        /// The file.
+        path: String,
+        /// Why.
+        reason: String,
+    },
+    /// The case contradicts itself.
+    #[error("case `{case}`: {reason}")]
+    Wrong {
+        /// Name of the case.
+        case: String,
+        /// What is wrong.
+        reason: String,
+    },
+}
+
+/// One verification case.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Case {
+    /// Folder name.
+    #[serde(skip)]
+    pub(crate) name: String,
+    /// Folder.
+    #[serde(skip)]
+    pub(crate) folder: PathBuf,
+    /// One line.
+    pub(crate) title: String,
+    /// Rigid, statics, dynamics or invariants: where it stands in the report.
+    pub(crate) group: String,
+    /// Whose problem it is and where the reference digits come from.
+    pub(crate) source: String,
+    /// Whether it is part of `--quick`.
+    #[serde(default)]
+    pub(crate) quick: bool,
+    /// A file below the folder of references without which the case is skipped.
+    pub(crate) needs: Option<String>,
+    /// Why the whole case cannot be run yet.
+    pub(crate) open: Option<String>,
+    /// What was learnt: differences to a reference, and who is right.
+    #[serde(default)]
+    pub(crate) findings: Vec<String>,
+    /// Model files with what is changed in them, by name; `main` if none is named.
+    #[serde(default)]
+    pub(crate) runs: BTreeMap<String, Run>,
+    /// Values compared.
+    #[serde(default)]
+    pub(crate) quantity: Vec<Quantity>,
+    /// Curves compared.
+    #[serde(default)]
+    pub(crate) curve: Vec<Curve>,
+    /// Families of meshes or steps.
+    #[serde(default)]
+    pub(crate) refinement: Vec<Refinement>,
+    /// Checks over the project's examples.
+    #[serde(default)]
+    pub(crate) invariant: Vec<Invariant>,
+}
+
+/// A model and what is changed in it.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Run {
+    /// File in the case's folder; `model.toml` if it is not given.
+    pub(crate) model: Option<String>,
+    /// Paths into the model and what is put there.
+    #[serde(default)]
+    pub(crate) set: BTreeMap<String, toml::Value>,
+}
+
+impl Run {
+    /// The model.
+    pub(crate) fn model(&self, folder: &Path) -> Result<Model, CaseError> {
+        let path = folder.join(self.model.as_deref().unwrap_or("model.toml"));
+        Model::read(&path).map_err(|error| CaseError::Unreadable {
+            path: path.display().to_string(),
+            reason: error.to_string(),
+        })
+    }
+
+    /// What is changed, and further changes after it.
+    pub(crate) fn overrides(&self, further: &BTreeMap<String, toml::Value>) -> Vec<Override> {
+        let mut all = self.set.clone();
+        all.extend(further.iter().map(|(path, value)| (path.clone(), value.clone())));
+        all.into_iter().map(|(path, value)| (path, value.to_string())).collect()
+    }
+}
+
+/// How a number is found from a run.
+#[derive(Clone, Copy, Debug, Default, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Measure {
+    /// Value at the time `at`.
+    #[default]
+    Value,
+    /// Largest value from `from` on.
+    Maximum,
+    /// Mean of largest and smallest value from `from` on.
+    Middle,
+    /// Circular frequency [rad/s] from the crossings of the middle, from `from` on.
+    Frequency,
+    /// Load (time) at which the value grows beyond all bounds: root of the inverse as a parabola in the square of the
+    /// time, through the last three records; for symmetric problems.
+    Divergence,
+    /// The same with the time itself.
+    DivergenceOneSided,
+    /// Largest `load` over the value, where the curve through the last four records turns: a limit point.
+    Limit,
+    /// Whether the run reaches its end: 1 or 0.
+    Completes,
+}
+
+/// One number to compare, or several of a kind of which the worst is told.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Quantity {
+    /// In words.
+    pub(crate) name: String,
+    /// Run; `main` if it is not given.
+    pub(crate) run: Option<String>,
+    /// Formula over columns, with `tip_x` for the component `x` of the output `tip`.
+    pub(crate) value: Option<String>,
+    /// How it is measured.
+    #[serde(default)]
+    pub(crate) measure: Measure,
+    /// Formula of the load, for limit points.
+    pub(crate) load: Option<String>,
+    /// When; the end if it is not given.
+    pub(crate) at: Option<f64>,
+    /// From when on, for measures over a stretch of time.
+    pub(crate) from: Option<f64>,
+    /// What it should be.
+    pub(crate) reference: Option<f64>,
+    /// Several, instead of `at`, `value` and `reference`: time, formula, reference.
+    #[serde(default)]
+    pub(crate) entries: Vec<(f64, String, f64)>,
+    /// Allowed difference over `scale`.
+    pub(crate) tolerance: f64,
+    /// What differences are divided by; the largest reference if it is not given.
+    pub(crate) scale: Option<f64>,
+    /// Why the tolerance is wider than the reference's uncertainty.
+    pub(crate) because: Option<String>,
+    /// Why it may fail for now.
+    pub(crate) open: Option<String>,
+    /// Whom it is compared with, if not with the source.
+    pub(crate) against: Option<String>,
+}
+
+/// Curves to compare, drawn over each other.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Curve {
+    /// In words; also the name of the plot.
+    pub(crate) name: String,
+    /// Run; `main` if it is not given.
+    pub(crate) run: Option<String>,
+    /// Formulas over columns.
+    pub(crate) values: Vec<String>,
+    /// What each is called in the plot.
+    pub(crate) labels: Vec<String>,
+    /// Unit of all.
+    #[serde(default)]
+    pub(crate) unit: String,
+    /// Comma-separated reference in the case's folder; without it the curve is only drawn.
+    pub(crate) file: Option<String>,
+    /// Columns of the reference, counted from 0, the time being 0.
+    #[serde(default)]
+    pub(crate) columns: Vec<usize>,
+    /// Compared up to here.
+    pub(crate) until: Option<f64>,
+    /// Allowed difference over `scale`.
+    pub(crate) tolerance: Option<f64>,
+    /// What differences are divided by; the largest reference value if it is not given.
+    pub(crate) scale: Option<f64>,
+    /// Why the tolerance is wider than the reference's uncertainty.
+    pub(crate) because: Option<String>,
+    /// Why it may fail for now.
+    pub(crate) open: Option<String>,
+    /// Whom it is compared with, if not with the source.
+    pub(crate) against: Option<String>,
+}
+
+/// A family of meshes or steps of one run, each half as fine as the next unless `ratio` says otherwise.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Refinement {
+    /// In words, as `mesh, 4-node elements`.
+    pub(crate) name: String,
+    /// Run; `main` if it is not given.
+    pub(crate) run: Option<String>,
+    /// From coarse to fine.
+    pub(crate) levels: Vec<BTreeMap<String, toml::Value>>,
+    /// How much finer each is than the one before.
+    #[serde(default = "two")]
+    pub(crate) ratio: f64,
+    /// Formulas over columns whose vector is followed.
+    pub(crate) values: Vec<String>,
+    /// When; the end if it is not given.
+    pub(crate) at: Option<f64>,
+    /// Exact values; without them the finest level stands in.
+    #[serde(default)]
+    pub(crate) reference: Vec<f64>,
+    /// The least order that must be seen.
+    pub(crate) order: f64,
+    /// Errors below this, relative to the largest value, are round-off.
+    #[serde(default = "round_off")]
+    pub(crate) floor: f64,
+    /// Why it may fail for now.
+    pub(crate) open: Option<String>,
+}
+
+/// What must not change a result.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub(crate) enum Change {
+    /// The parts stand in reverse order in the file.
+    Order,
+    /// The whole model is turned in space.
+    Turned,
+    /// Millimetres and tonnes instead of metres and kilograms.
+    Units,
+}
+
+/// A change to an example of the project that must not change its results.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Invariant {
+    /// File in the folder of examples, without its ending.
+    pub(crate) example: String,
+    /// What is changed.
+    pub(crate) change: Change,
+    /// Compared up to here [s].
+    pub(crate) end: f64,
+    /// Allowed relative difference.
+    pub(crate) tolerance: f64,
+    /// Why it may fail for now.
+    pub(crate) open: Option<String>,
+}
+
+fn two() -> f64 {
+    2.0
+}
+
+fn round_off() -> f64 {
+    1e-11
+}
+
+impl Case {
+    /// Reads the case in `folder`.
+    pub(crate) fn read(folder: &Path) -> Result<Self, CaseError> {
+        let path = folder.join("case.toml");
+        let unreadable = |reason: String| CaseError::Unreadable { path: path.display().to_string(), reason };
+        let text = std::fs::read_to_string(&path).map_err(|error| unreadable(error.to_string()))?;
+        let mut case: Self = toml::from_str(&text).map_err(|error| unreadable(error.to_string()))?;
+        case.name = folder.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        folder.clone_into(&mut case.folder);
+        if case.runs.is_empty() {
+            case.runs.insert("main".to_owned(), Run::default());
+        }
+        case.check()?;
+        Ok(case)
+    }
+
+    /// A complaint about this case.
+    pub(crate) fn wrong(&self, reason: impl Into<String>) -> CaseError {
+        CaseError::Wrong { case: self.name.clone(), reason: reason.into() }
+    }
+
+    /// The run called `name`.
+    pub(crate) fn run(&self, name: Option<&str>) -> Result<&Run, CaseError> {
+        let name = name.unwrap_or("main");
+        self.runs.get(name).ok_or_else(|| self.wrong(format!("there is no run `{name}`")))
+    }
+
+    fn check(&self) -> Result<(), CaseError> {
+        let named = (self.quantity.iter().map(|quantity| &quantity.run))
+            .chain(self.curve.iter().map(|curve| &curve.run))
+            .chain(self.refinement.iter().map(|refinement| &refinement.run));
+        for name in named {
+            self.run(name.as_deref())?;
+        }
+        for curve in &self.curve {
+            let lengths = [
+                curve.labels.len(),
+                if curve.file.is_some() { curve.columns.len() } else { curve.values.len() },
+            ];
+            if lengths.iter().any(|length| *length != curve.values.len()) {
+                return Err(self
+                    .wrong(format!("curve `{}`: values, labels and columns differ in number", curve.name)));
+            }
+        }
+        for refinement in &self.refinement {
+            if refinement.levels.len() < 3 && refinement.reference.is_empty() || refinement.levels.len() < 2 {
+                return Err(self.wrong(format!("refinement `{}` has too few levels", refinement.name)));
+            }
+            if !refinement.reference.is_empty() && refinement.reference.len() != refinement.values.len() {
+                return Err(self.wrong(format!("refinement `{}`: one reference per value", refinement.name)));
+            }
+        }
+        Ok(())
+    }
+}

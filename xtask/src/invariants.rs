@@ -1,0 +1,109 @@
+//! Results that must not depend on how a model is written, checked on the project's examples.
+
+use std::ops::Range;
+use std::path::Path;
+
+use lissom::{Model, Record};
+
+use crate::case::{Change, Invariant};
+use crate::outcome::{Row, Verdict};
+use crate::runs::{finish, short};
+use crate::transform::{in_millimetres, reversed, turned, unit_factor};
+
+/// Runs an example as it stands and changed, and compares all outputs.
+pub(crate) fn invariant(root: &Path, invariant: &Invariant) -> Row {
+    let change = match invariant.change {
+        Change::Order => "parts in reverse order",
+        Change::Turned => "turned in space",
+        Change::Units => "in mm, t, s",
+    };
+    let mut row = Row {
+        quantity: format!("{}: {change}", invariant.example),
+        against: "the example as it stands".to_owned(),
+        reference: String::new(),
+        ours: format!("all outputs to {} s", short(invariant.end)),
+        difference: None,
+        tolerance: short(invariant.tolerance),
+        grid: String::new(),
+        wall: None,
+        verdict: Verdict::Pass,
+        is_comparison: false,
+    };
+    match difference(root, invariant, &mut row) {
+        Ok(difference) => {
+            row.difference = Some(difference);
+            let words = format!("differs by {difference:.2e}");
+            row.verdict = Verdict::of(difference <= invariant.tolerance, words, invariant.open.as_deref());
+        }
+        Err(words) => row.verdict = Verdict::of(false, words, invariant.open.as_deref()),
+    }
+    row
+}
+
+fn difference(root: &Path, invariant: &Invariant, row: &mut Row) -> Result<f64, String> {
+    let path = root.join("examples").join(format!("{}.toml", invariant.example));
+    let text = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+    let table = || text.parse::<toml::Table>().map_err(|error| error.to_string());
+    let written = |table: &toml::Table| toml::to_string(table).map_err(|error| error.to_string());
+    let changed = match invariant.change {
+        Change::Order => reversed(&text),
+        Change::Turned => written(&turned(&table()?))?,
+        Change::Units => written(&in_millimetres(&table()?))?,
+    };
+    let overrides = [("analysis.end".to_owned(), invariant.end.to_string())];
+    let run = |name: &str, text: &str| {
+        let document =
+            Model::from_text(name, text).document(&overrides).map_err(|report| report.render(false))?;
+        let finished = finish(&document)?;
+        match finished.failure {
+            Some(failure) => Err(format!("{name} failed {failure}")),
+            None => Ok(finished),
+        }
+    };
+    let (base, other) = (run(&invariant.example, &text)?, run("changed", &changed)?);
+    row.grid.clone_from(&base.grid);
+    row.wall = Some(base.wall);
+    Ok(worst(invariant.change, &base.record, &other.record))
+}
+
+/// Largest difference of an output, over the output's largest value. The components of an output share it: the
+/// moment of a spherical joint is nothing but round-off of its force.
+fn worst(change: Change, base: &Record, other: &Record) -> f64 {
+    let mut worst = 0.0_f64;
+    let mut first = 0;
+    while first < base.columns.len() {
+        let output = &base.columns[first].output;
+        let count = base.columns[first..].iter().take_while(|column| column.output == *output).count();
+        worst = worst.max(of_output(change, base, other, first..first + count));
+        first += count;
+    }
+    worst
+}
+
+fn of_output(change: Change, base: &Record, other: &Record, range: Range<usize>) -> f64 {
+    let column = &base.columns[range.start];
+    let Some(start) = other.columns.iter().position(|candidate| candidate == column) else { return f64::NAN };
+    let (mut most, mut difference) = (0.0_f64, 0.0_f64);
+    for row in 0..base.times.len().min(other.times.len()) {
+        let ours = values(change, base, range.clone(), row, false);
+        let theirs = values(change, other, start..start + range.len(), row, change == Change::Units);
+        for (a, b) in ours.iter().zip(&theirs) {
+            most = most.max(a.abs());
+            difference = difference.max((a - b).abs());
+        }
+    }
+    if most > 0.0 { difference / most } else { difference }
+}
+
+/// The values of an output in SI. Directions turn with the model, lengths do not: there, lengths of vectors.
+fn values(change: Change, record: &Record, range: Range<usize>, row: usize, scaled: bool) -> Vec<f64> {
+    let value = |k: usize| {
+        let factor = if scaled { unit_factor(&record.columns[k].unit) } else { 1.0 };
+        record.values[k][row] / factor
+    };
+    let values: Vec<f64> = range.clone().map(value).collect();
+    if change != Change::Turned || range.len() % 3 != 0 {
+        return values;
+    }
+    values.chunks(3).map(|vector| vector.iter().map(|value| value * value).sum::<f64>().sqrt()).collect()
+}

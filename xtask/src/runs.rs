@@ -1,0 +1,112 @@
+//! Runs of models, each made once however often it is asked for. Knows nothing of references.
+
+use std::cell::RefCell;
+use std::collections::BTreeMap;
+use std::rc::Rc;
+use std::time::{Duration, Instant};
+
+use lissom::{Document, Override, Record};
+use lissom_model::document::AnalysisKind;
+
+use crate::case::{Case, Run};
+
+/// What a run came to.
+pub(crate) struct Finished {
+    /// What was recorded.
+    pub(crate) record: Record,
+    /// Why it ended early, if it did.
+    pub(crate) failure: Option<String>,
+    /// How long it took.
+    pub(crate) wall: Duration,
+    /// Mesh and step, in words.
+    pub(crate) grid: String,
+}
+
+/// Runs by model and overrides.
+#[derive(Default)]
+pub(crate) struct Runs {
+    finished: RefCell<BTreeMap<(String, Vec<Override>), Rc<Finished>>>,
+}
+
+impl Runs {
+    /// The run, made now or before.
+    pub(crate) fn get(
+        &self,
+        case: &Case,
+        run: &Run,
+        further: &BTreeMap<String, toml::Value>,
+    ) -> Result<Rc<Finished>, String> {
+        let overrides = run.overrides(further);
+        let key = (run.model.clone().unwrap_or_default(), overrides);
+        if let Some(known) = self.finished.borrow().get(&key) {
+            return Ok(Rc::clone(known));
+        }
+        let model = run.model(&case.folder).map_err(|error| error.to_string())?;
+        let document = model.document(&key.1).map_err(|report| report.render(false))?;
+        let finished = Rc::new(finish(&document)?);
+        self.finished.borrow_mut().insert(key, Rc::clone(&finished));
+        Ok(finished)
+    }
+
+    /// Time taken by all runs together.
+    pub(crate) fn wall(&self) -> Duration {
+        self.finished.borrow().values().map(|run| run.wall).sum()
+    }
+}
+
+/// Runs a document to its end.
+pub(crate) fn finish(document: &Document) -> Result<Finished, String> {
+    let began = Instant::now();
+    let mut session = lissom::Session::new(document).map_err(|error| error.to_string())?;
+    let (record, report) = session.record();
+    Ok(Finished {
+        failure: report.error().map(|error| format!("at {}: {error}", report.time)),
+        record,
+        wall: began.elapsed(),
+        grid: grid(document),
+    })
+}
+
+/// Mesh and step in words, as `8 + 4 × 4 nodes, 50 load steps`.
+fn grid(document: &Document) -> String {
+    let mut words = Vec::new();
+    for order in 1..=3 {
+        let mut counts: Vec<usize> = document
+            .beams
+            .iter()
+            .filter(|beam| beam.order == order)
+            .map(|beam| beam.elements.value)
+            .collect();
+        let alike = counts.len() > 3 && counts.iter().all(|count| *count == counts[0]);
+        let repeated = if alike { format!("{}·", counts.len()) } else { String::new() };
+        counts.truncate(if alike { 1 } else { counts.len() });
+        if !counts.is_empty() {
+            let counts: Vec<String> = counts.iter().map(ToString::to_string).collect();
+            words.push(format!("{repeated}{} × {}-node", counts.join("+"), order + 1));
+        }
+    }
+    words.push(match &document.analysis.kind {
+        AnalysisKind::Dynamics { step } => {
+            let scheme =
+                document.analysis.scheme.as_ref().map_or("radau-iia", |scheme| scheme.value.as_str());
+            format!("h = {} s ({scheme})", short(step.value))
+        }
+        AnalysisKind::Statics { steps } => format!("{steps} load steps"),
+    });
+    words.join(", ")
+}
+
+/// A number in few characters.
+pub(crate) fn short(value: f64) -> String {
+    if value == 0.0 || (1e-3..1e5).contains(&value.abs()) {
+        let text = format!("{value:.4}");
+        return text.trim_end_matches('0').trim_end_matches('.').to_owned();
+    }
+    let text = format!("{value:.3e}");
+    match text.split_once('e') {
+        Some((mantissa, exponent)) => {
+            format!("{}e{exponent}", mantissa.trim_end_matches('0').trim_end_matches('.'))
+        }
+        None => text,
+    }
+}
