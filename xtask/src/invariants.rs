@@ -30,9 +30,10 @@ pub(crate) fn invariant(root: &Path, invariant: &Invariant) -> Row {
         is_comparison: false,
     };
     match difference(root, invariant, &mut row) {
-        Ok(difference) => {
+        Ok((difference, output)) => {
             row.difference = Some(difference);
-            let words = format!("differs by {difference:.2e}");
+            row.ours = format!("{}, worst `{output}`", row.ours);
+            let words = format!("`{output}` differs by {difference:.2e}");
             row.verdict = Verdict::of(difference <= invariant.tolerance, words, invariant.open.as_deref());
         }
         Err(words) => row.verdict = Verdict::of(false, words, invariant.open.as_deref()),
@@ -40,7 +41,7 @@ pub(crate) fn invariant(root: &Path, invariant: &Invariant) -> Row {
     row
 }
 
-fn difference(root: &Path, invariant: &Invariant, row: &mut Row) -> Result<f64, String> {
+fn difference(root: &Path, invariant: &Invariant, row: &mut Row) -> Result<(f64, String), String> {
     let path = root.join("examples").join(format!("{}.toml", invariant.example));
     let text = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
     let table = || text.parse::<toml::Table>().map_err(|error| error.to_string());
@@ -68,13 +69,16 @@ fn difference(root: &Path, invariant: &Invariant, row: &mut Row) -> Result<f64, 
 
 /// Largest difference of an output, over the output's largest value. The components of an output share it: the
 /// moment of a spherical joint is nothing but round-off of its force.
-fn worst(change: Change, base: &Record, other: &Record) -> f64 {
-    let mut worst = 0.0_f64;
+fn worst(change: Change, base: &Record, other: &Record) -> (f64, String) {
+    let mut worst = (0.0_f64, String::new());
     let mut first = 0;
     while first < base.columns.len() {
         let output = &base.columns[first].output;
         let count = base.columns[first..].iter().take_while(|column| column.output == *output).count();
-        worst = worst.max(of_output(change, base, other, first..first + count));
+        let difference = of_output(change, base, other, first..first + count);
+        if worst.1.is_empty() || !(difference <= worst.0) {
+            worst = (difference, output.clone());
+        }
         first += count;
     }
     worst

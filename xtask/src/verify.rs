@@ -40,9 +40,10 @@ impl VerifyError {
     }
 }
 
-/// The project's folder.
+/// The project's folder: of the run where cargo tells it, of the build otherwise.
 fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).parent().map_or_else(PathBuf::new, Path::to_owned)
+    let chores = std::env::var("CARGO_MANIFEST_DIR").unwrap_or_else(|_| env!("CARGO_MANIFEST_DIR").to_owned());
+    Path::new(&chores).parent().map_or_else(PathBuf::new, Path::to_owned)
 }
 
 /// Runs what is asked for; whether all went well.
