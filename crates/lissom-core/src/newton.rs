@@ -17,9 +17,6 @@ pub trait Equations {
 
     /// Goes back to the first guess.
     fn restart(&mut self);
-
-    /// Takes the last correction back, and half of what is left of the one before.
-    fn back_off(&mut self);
 }
 
 /// Size of a correction.
@@ -105,8 +102,6 @@ const DISTRUST: f64 = 3.0;
 /// a correction may vanish at once and hide a small part that shrinks slowly. A tenth costs no iteration where
 /// the contraction is as good as it looks.
 const CREDIBLE: f64 = 0.1;
-/// A correction is halved at most this often.
-const MOST_HALVINGS: usize = 12;
 /// Corrections that shrink by less than this are round-off, once they are small.
 const STALLED: f64 = 0.5;
 /// A stalled correction below this size is round-off whatever the reference [-].
@@ -127,7 +122,6 @@ pub fn solve<E: Equations>(
     let mut previous: Option<f64> = None;
     // Whether the tangent was made in this solution.
     let mut fresh = false;
-    let mut halvings = 0;
     while outcome.iterations < limits.max_iterations {
         if !memory.has_tangent {
             equations.renew_tangent().map_err(Failure::Factor)?;
@@ -140,25 +134,14 @@ pub fn solve<E: Equations>(
         let correction = equations.correct();
         outcome.iterations += 1;
         outcome.correction = correction.size;
-        eprintln!("TR it {} size {:.3e} ref {:.3e} ratio {:.2e} fresh {fresh}", outcome.iterations, correction.size, correction.reference, previous.map_or(0.0, |p| correction.size / p));
         match judge(&correction, previous, fresh, limits, memory) {
             Verdict::Converged => return Ok(outcome),
             Verdict::Stalled => {
                 outcome.stagnated = true;
                 return Ok(outcome);
             }
-            // Seen through the same tangent the next correction must be smaller (natural monotonicity
-            // [Deuflhard 2011, section 3.3]); where it is not, the last one went too far.
-            Verdict::BackOff if halvings < MOST_HALVINGS => {
-                halvings += 1;
-                equations.back_off();
-            }
-            Verdict::Go | Verdict::BackOff => {
-                halvings = 0;
-                previous = Some(correction.size);
-            }
+            Verdict::Go => previous = Some(correction.size),
             Verdict::Renew => {
-                halvings = 0;
                 memory.forget_tangent();
                 previous = Some(correction.size);
             }
@@ -185,8 +168,6 @@ enum Verdict {
     Go,
     /// Go on with a new tangent.
     Renew,
-    /// The correction before went too far.
-    BackOff,
     /// Go back to the first guess with a new tangent.
     Restart,
 }
@@ -200,7 +181,7 @@ fn judge(
 ) -> Verdict {
     let Correction { size, reference } = *correction;
     if !(size.is_finite() && reference.is_finite()) {
-        return if fresh && previous.is_some() { Verdict::BackOff } else { Verdict::Restart };
+        return Verdict::Restart;
     }
     let goal = (limits.tolerance * reference).max(memory.round_off);
     let Some(previous) = previous else {
@@ -229,9 +210,9 @@ fn judge(
         memory.round_off = memory.round_off.max(size);
         return Verdict::Stalled;
     }
-    if contraction > 1.0 {
-        // An old tangent leads astray.
-        return if fresh { Verdict::BackOff } else { Verdict::Restart };
+    if contraction > 1.0 && !fresh {
+        // The old tangent leads astray.
+        return Verdict::Restart;
     }
     let needed = if contraction < 1.0 { (goal / size).ln() / contraction.ln() } else { f64::INFINITY };
     if needed > PATIENCE { Verdict::Renew } else { Verdict::Go }
@@ -251,22 +232,12 @@ mod tests {
         x: f64,
         slope: f64,
         tangents: usize,
-        last: f64,
-        before: f64,
-    }
-
-    impl Root {
-        fn new(x: f64, slope: f64) -> Self {
-            Self { x, slope, tangents: 0, last: 0.0, before: 0.0 }
-        }
     }
 
     impl Equations for Root {
         fn correct(&mut self) -> Correction {
             let change = -(self.x * self.x - 2.0) / self.slope;
             self.x += change;
-            self.before = self.last;
-            self.last = change;
             Correction { size: change.abs(), reference: 1.0 }
         }
         fn renew_tangent(&mut self) -> Result<(), FactorError> {
@@ -277,16 +248,11 @@ mod tests {
         fn restart(&mut self) {
             self.x = 1.0;
         }
-        fn back_off(&mut self) {
-            self.x -= self.last + 0.5 * self.before;
-            self.before *= 0.5;
-            self.last = self.before;
-        }
     }
 
     #[test]
     fn converges_and_keeps_the_tangent_for_the_next_solution() {
-        let mut root = Root::new(1.0, 0.0);
+        let mut root = Root { x: 1.0, slope: 0.0, tangents: 0 };
         let mut memory = Memory::default();
         let limits = Limits { tolerance: 1e-10, max_iterations: 30 };
         solve(&mut root, &limits, &mut memory).expect("converges");
@@ -332,7 +298,7 @@ mod tests {
 
     #[test]
     fn a_tangent_that_leads_astray_is_renewed_from_the_first_guess() {
-        let mut root = Root::new(1.0, 0.5);
+        let mut root = Root { x: 1.0, slope: 0.5, tangents: 0 };
         let mut memory = Memory { has_tangent: true, ..Memory::default() };
         solve(&mut root, &Limits { tolerance: 1e-10, max_iterations: 30 }, &mut memory).expect("converges");
         assert!((root.x - 2.0_f64.sqrt()).abs() < 1e-9);
