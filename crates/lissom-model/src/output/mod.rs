@@ -1,6 +1,7 @@
 //! Where results go: columns of numbers over time, to tables, summaries and plots. Knows no mechanics.
 
 mod csv;
+mod log_plot;
 mod plot;
 mod record;
 mod summary;
@@ -8,6 +9,7 @@ mod summary;
 use std::io;
 
 pub use csv::CsvWriter;
+pub use log_plot::LogFigure;
 pub use plot::{Figure, FigureError, figures};
 pub use record::{Record, RecordError};
 pub use summary::Summary;

@@ -28,7 +28,8 @@ const PANEL_HEIGHT: f64 = 340.0;
 
 /// Blue, vermilion, green, purple, orange, sky blue, black (after Okabe and Ito 2008): told apart also by
 /// people who do not see all colours, and on paper.
-const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
+pub(super) const COLOURS: [&str; 7] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
 
 /// A figure that could not be drawn.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
