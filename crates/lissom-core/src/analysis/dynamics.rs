@@ -3,6 +3,7 @@
 use lissom_solver::{FactorError, SolverKind};
 
 use super::equations::{StepEquations, Workspace};
+use super::factorization::Factorization;
 use super::initial::{Initial, InitialError};
 use super::step_error::{StepError, pivot_hint};
 use crate::newton::{self, Failure, Limits, Memory};
@@ -156,6 +157,26 @@ impl Simulation {
             self.scaled = Scaled::new(&self.settings.scaling, &self.representative, step_size);
             self.memory = Memory::default();
         }
+    }
+
+    /// The last step at its solution; none before the first step and after one that failed.
+    pub(super) fn last_step(&mut self) -> Option<StepEquations<'_>> {
+        let reached = self.work.motions.last().map(|motion| motion.at.time);
+        if self.totals.steps == 0 || reached != Some(self.state.kinematics.time) {
+            return None;
+        }
+        Some(StepEquations {
+            system: &self.system,
+            scheme: &self.settings.scheme,
+            scaled: self.scaled,
+            start: &self.next,
+            work: &mut self.work,
+        })
+    }
+
+    /// The tangent factored last, if it is still in use.
+    pub(super) fn factored_tangent(&mut self) -> Option<&mut Factorization> {
+        self.memory.has_tangent.then_some(&mut self.work.factorization)
     }
 
     /// Takes one step. On failure the state stays where it was.

@@ -1,6 +1,8 @@
 //! The factored tangent: real for schemes of one stage, complex for coupled pairs.
 
-use lissom_solver::{FactorError, FactorReport, LinearSolver, SolverKind, Structure};
+use lissom_solver::{
+    FactorError, FactorReport, LinearSolver, Pattern, SolverKind, Structure, condition_estimate,
+};
 use num_complex::Complex64;
 
 use crate::scaling::Scaled;
@@ -53,6 +55,14 @@ impl Factorization {
                 solver.factor(values)
             }
             _ => unreachable!("a factorisation is made for its scheme's coupling"),
+        }
+    }
+
+    /// Estimates the condition number of the tangent factored last, in the 1-norm.
+    pub(crate) fn condition_estimate(&mut self, pattern: &Pattern) -> f64 {
+        match self {
+            Self::Single { solver, values } => condition_estimate(&mut **solver, pattern, values),
+            Self::Pair { solver, values, .. } => condition_estimate(&mut **solver, pattern, values),
         }
     }
 

@@ -1,12 +1,15 @@
 //! What the user asks for: consistent initial values, time steps, load steps, a count of freedoms.
 
+pub mod conditioning;
 pub mod dynamics;
 mod equations;
 mod factorization;
+pub mod factorization_study;
 pub mod initial;
 pub mod mobility;
 mod step_error;
 
+pub use conditioning::{Condition, ConditionMethod};
 pub use dynamics::{Settings, Simulation, StepReport, Totals};
 pub use initial::InitialError;
 pub use mobility::{Mobility, Redundant};

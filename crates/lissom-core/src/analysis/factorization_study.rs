@@ -1,0 +1,222 @@
+//! What scaling, augmented term and pivoting do to the first step: every combination factors the same
+//! tangent, solves the same problem and iterates the same equations.
+
+use lissom_solver::{FactorError, FactorReport, LinearSolver, Pattern, Scalar, SolverKind, refined_solution};
+
+use super::dynamics::Simulation;
+use super::equations::{StepEquations, Workspace};
+use super::factorization::Factorization;
+use crate::newton::Equations;
+use crate::scaling::{ScaleBy, Scaled, ScalingChoice};
+use crate::schemes::Coupling;
+use crate::system::Layout;
+
+/// Newton iterations made, far more than convergence takes.
+pub const ITERATIONS: usize = 15;
+
+/// Solvers compared, by name.
+pub const SOLVERS: [&str; 3] = ["skyline", "sparse", "pivoting"];
+
+/// One combination.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Case {
+    /// How the equations are scaled.
+    pub scaling: ScaleBy,
+    /// Whether the augmented term is there.
+    pub augmented: bool,
+    /// Name of the solver.
+    pub solver: &'static str,
+    /// What it came to.
+    pub outcome: Result<Factored, Stopped>,
+}
+
+/// Why the first tangent has no factors.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stopped {
+    /// Name of the unknown at which elimination stops.
+    pub unknown: String,
+    /// What the factorisation says.
+    pub error: FactorError,
+}
+
+/// What the first tangent's factors are like and how far they lead.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Factored {
+    /// Pivots and growth.
+    pub report: FactorReport,
+    /// Name of the unknown with the smallest pivot.
+    pub smallest_pivot: String,
+    /// Largest error of a coordinate's correction over the largest such correction, for a random solution.
+    pub coordinate_error: f64,
+    /// The same for multipliers.
+    pub multiplier_error: f64,
+    /// Whether iterative refinement converged, so that the errors are known.
+    pub errors_known: bool,
+    /// How far Newton's method comes.
+    pub newton: Attained,
+}
+
+/// Where Newton's method stands after [`ITERATIONS`] iterations, each with a new tangent.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Attained {
+    /// Iterations made.
+    pub iterations: usize,
+    /// Last update over what the step has to find out [-].
+    pub update: f64,
+    /// Largest residual of an equation of motion over the largest at the first guess [-].
+    pub residual: f64,
+    /// Largest violation of a constraint [m, rad].
+    pub violation: f64,
+    /// Name of the unknown at which a later tangent had no factors.
+    pub stopped_at: Option<String>,
+}
+
+/// Tries all combinations on the next step of `simulation`, which stays where it is. None for a scheme
+/// without the tangent of a stage.
+pub fn factorization_study(simulation: &Simulation) -> Option<Vec<Case>> {
+    let coupling = &simulation.settings().scheme.coupling;
+    if !matches!(coupling, Coupling::Single(_) | Coupling::Pair { .. }) {
+        return None;
+    }
+    let penalty = simulation.settings().scaling.penalty;
+    let mut cases = Vec::new();
+    for scaling in [ScaleBy::None, ScaleBy::Unit, ScaleBy::Physical] {
+        for augmented in [false, true] {
+            for kind in SOLVERS.iter().filter_map(|name| lissom_solver::kind(name)) {
+                let choice = ScalingChoice { by: scaling, augmented, penalty };
+                let outcome = examine(simulation, &choice, kind);
+                cases.push(Case { scaling, augmented, solver: kind.name, outcome });
+            }
+        }
+    }
+    Some(cases)
+}
+
+fn examine(
+    simulation: &Simulation,
+    choice: &ScalingChoice,
+    kind: &'static SolverKind,
+) -> Result<Factored, Stopped> {
+    let (system, state, settings) = (simulation.system(), simulation.state(), simulation.settings());
+    let representative = simulation.representative();
+    let layout = system.layout();
+    let mut work = Workspace::new(system, state, &settings.scheme, representative, kind);
+    let scaled = Scaled::new(choice, representative, settings.step_size);
+    scaled.enter(layout, state, &mut work.unit);
+    let mut equations =
+        StepEquations { system, scheme: &settings.scheme, scaled, start: state, work: &mut work };
+    equations.predict();
+    equations.renew_tangent().map_err(|error| stopped(layout, error))?;
+    let report = equations.work.report.expect("a factorisation that went through has a report");
+    let physical = ScalingChoice { by: ScaleBy::Physical, ..*choice };
+    let physical = Scaled::new(&physical, representative, settings.step_size);
+    let multiplier_size = physical.multiplier_factor() / scaled.multiplier_factor();
+    let [coordinate_error, multiplier_error, known] =
+        forward_errors(&mut equations.work.factorization, &system.pattern(), layout, multiplier_size);
+    Ok(Factored {
+        smallest_pivot: layout.name_of(report.smallest_pivot_unknown),
+        report,
+        coordinate_error,
+        multiplier_error,
+        errors_known: known > 0.0,
+        newton: iterate(&mut equations),
+    })
+}
+
+fn stopped(layout: &Layout, error: FactorError) -> Stopped {
+    let (FactorError::ZeroPivot { unknown, .. } | FactorError::NotFinite { unknown }) = error;
+    Stopped { unknown: layout.name_of(unknown), error }
+}
+
+/// Full Newton's method from where the equations stand.
+fn iterate(equations: &mut StepEquations<'_>) -> Attained {
+    let mut attained = Attained::default();
+    let (first, _) = residuals(equations);
+    while attained.iterations < ITERATIONS {
+        // The tangent of the first iteration is there already.
+        if attained.iterations > 0
+            && let Err(error) = equations.renew_tangent()
+        {
+            attained.stopped_at = Some(stopped(equations.system.layout(), error).unknown);
+            break;
+        }
+        let correction = equations.correct();
+        attained.iterations += 1;
+        let reference = if correction.reference > 0.0 { correction.reference } else { 1.0 };
+        attained.update = correction.size / reference;
+        if !correction.size.is_finite() {
+            break;
+        }
+    }
+    let (last, violation) = residuals(equations);
+    attained.residual = if first > 0.0 { last / first } else { last };
+    attained.violation = violation;
+    attained
+}
+
+/// Largest residual of an equation of motion and largest violation over all stages, in SI.
+fn residuals(equations: &mut StepEquations<'_>) -> (f64, f64) {
+    equations.evaluate();
+    let count = equations.system.layout().coordinate_count();
+    let (mut motion, mut violation) = (0.0, 0.0);
+    for residual in &equations.work.residuals {
+        motion = largest(motion, residual[..count].iter().copied());
+        violation = largest(violation, residual[count..].iter().copied());
+    }
+    (motion, violation)
+}
+
+/// Like `max`, but what is not a number stays.
+fn largest(start: f64, values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(start, |most, value| if value.abs() <= most { most } else { value.abs() })
+}
+
+/// Errors of coordinates and multipliers when a known problem is solved, and 1 if they are certain. The problem
+/// is the same in SI whatever the scaling: multipliers are `multiplier_size` times numbers of order one.
+fn forward_errors(
+    factorization: &mut Factorization,
+    pattern: &Pattern,
+    layout: &Layout,
+    multiplier_size: f64,
+) -> [f64; 3] {
+    match factorization {
+        Factorization::Single { solver, values } => {
+            forward_errors_of(&mut **solver, pattern, values, layout, multiplier_size)
+        }
+        Factorization::Pair { solver, values, .. } => {
+            forward_errors_of(&mut **solver, pattern, values, layout, multiplier_size)
+        }
+    }
+}
+
+fn forward_errors_of<S: Scalar>(
+    solver: &mut dyn LinearSolver<S>,
+    pattern: &Pattern,
+    values: &[S],
+    layout: &Layout,
+    multiplier_size: f64,
+) -> [f64; 3] {
+    let count = layout.coordinate_count();
+    let mut seed = 1;
+    let known: Vec<S> = (0..pattern.size())
+        .map(|row| {
+            let size = if row < count { 1.0 } else { multiplier_size };
+            S::from_parts(size * number(&mut seed), size * number(&mut seed))
+        })
+        .collect();
+    let mut right_hand_side = vec![S::zero(); known.len()];
+    pattern.multiply(values, &known, &mut right_hand_side);
+    let refined = refined_solution(solver, pattern, values, &right_hand_side);
+    let size = |values: &[S]| largest(0.0, values.iter().map(|value| value.magnitude()));
+    let error = |range: std::ops::Range<usize>| {
+        let solved = size(&refined.solved[range.clone()]);
+        if solved == 0.0 { 0.0 } else { size(&refined.errors[range]) / solved }
+    };
+    [error(0..count), error(layout.multiplier_rows()), f64::from(u8::from(refined.converged))]
+}
+
+/// The next number in -1 … 1 of a linear congruential generator [Knuth 1981, section 3.3.4].
+fn number(seed: &mut u64) -> f64 {
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*seed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
