@@ -122,13 +122,12 @@ impl Simulation {
     /// The tangent at the solution of the last step under each of the given scalings; none before the first
     /// step. The solution itself does not depend on the scaling.
     pub fn converged_tangents(&mut self, scalings: &[ScalingChoice]) -> Option<Vec<TangentValues>> {
-        let representative = *self.representative();
-        let mut equations = self.last_step()?;
-        equations.linearize();
-        let step_size = equations.scaled.step_size();
+        let (representative, step_size) = (*self.representative(), self.settings().step_size);
+        let coupling = self.settings().scheme.coupling;
+        let linearization = self.linearize_last_step()?;
         let tangent = |choice: &ScalingChoice| {
             let scaled = Scaled::new(choice, &representative, step_size);
-            TangentValues::new(&scaled, &equations.scheme.coupling, &equations.work.linearization)
+            TangentValues::new(&scaled, &coupling, linearization)
         };
         Some(scalings.iter().map(tangent).collect())
     }

@@ -159,19 +159,22 @@ impl Simulation {
         }
     }
 
-    /// The last step at its solution; none before the first step and after one that failed.
-    pub(super) fn last_step(&mut self) -> Option<StepEquations<'_>> {
+    /// Linearises anew at the solution of the last step; none before the first step and after one that
+    /// failed.
+    pub(super) fn linearize_last_step(&mut self) -> Option<&Linearization> {
         let reached = self.work.motions.last().map(|motion| motion.at.time);
         if self.totals.steps == 0 || reached != Some(self.state.kinematics.time) {
             return None;
         }
-        Some(StepEquations {
+        let mut equations = StepEquations {
             system: &self.system,
             scheme: &self.settings.scheme,
             scaled: self.scaled,
             start: &self.next,
             work: &mut self.work,
-        })
+        };
+        equations.linearize();
+        Some(&self.work.linearization)
     }
 
     /// The tangent factored last, if it is still in use.
