@@ -70,6 +70,9 @@ pub struct RunReport {
     pub violation: f64,
     /// Energy over all records.
     pub energy: EnergyChange,
+    /// Condition numbers of the tangents in use after the first step and at the end, estimated in the 1-norm; none
+    /// after a step that failed.
+    pub conditions: [Option<f64>; 2],
 }
 
 impl RunReport {

@@ -47,6 +47,7 @@ pub struct Session {
     pace: Pace,
     tally: Tally,
     scale: f64,
+    first_condition: Option<f64>,
     began: Instant,
 }
 
@@ -96,6 +97,7 @@ impl Session {
             columns: columns(&channels),
             tally: Tally { violations, ..Tally::default() },
             scale: simulation.scaled().scale(),
+            first_condition: None,
             simulation,
             channels,
             pace,
@@ -156,6 +158,9 @@ impl Session {
                 Ok(report) => {
                     let most = self.simulation.settings().limits.max_iterations;
                     self.pace.accept(2 * report.iterations <= most);
+                    if self.simulation.totals().steps == 1 {
+                        self.first_condition = self.condition_estimate();
+                    }
                     return Ok(report);
                 }
                 Err(error) => {
@@ -166,6 +171,11 @@ impl Session {
                 }
             }
         }
+    }
+
+    /// Condition number of the tangent in use, estimated in the 1-norm from a few solves.
+    fn condition_estimate(&mut self) -> Option<f64> {
+        self.simulation.condition_estimate().map(|condition| condition.value)
     }
 
     /// Runs to the end. `writers` receive a row at the start, after every `output_every` planned steps, and
@@ -196,6 +206,7 @@ impl Session {
             solving: self.tally.solving,
             violation: self.tally.violation,
             energy: self.tally.energy,
+            conditions: [self.first_condition, self.condition_estimate()],
         }
     }
 

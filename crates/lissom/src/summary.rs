@@ -99,6 +99,16 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
             "scale": session.scale(),
         }),
     );
+    let [start, end] = report.conditions;
+    tell(
+        "tangent",
+        json!({
+            "condition_estimate": { "start": start, "end": end },
+            "smallest_relative_pivot": totals.smallest_relative_pivot,
+            "scale": session.scale(),
+            "penalty": if scaling.augmented { scaling.penalty } else { 0.0 },
+        }),
+    );
     let Representative { mass, damping, stiffness, length } = *simulation.representative();
     tell(
         "representative",
