@@ -29,6 +29,7 @@ mod model;
 mod pace;
 mod report;
 mod session;
+pub mod study;
 pub mod summary;
 
 pub use folder::{FolderError, ResultFolder};

@@ -5,6 +5,7 @@ mod kinds;
 mod plot;
 mod run;
 mod schema;
+mod study;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -99,6 +100,7 @@ enum Command {
     Kinds(kinds::Kinds),
     Schema(schema::Schema),
     Plot(plot::Plot),
+    Study(study::Study),
 }
 
 impl Line {
@@ -110,6 +112,7 @@ impl Line {
             Command::Kinds(command) => command.run(),
             Command::Schema(command) => command.run(),
             Command::Plot(command) => command.run(),
+            Command::Study(command) => command.run(),
         };
         let exit = outcome.unwrap_or_else(|failure| {
             terminal::complain(&failure.words);

@@ -1,0 +1,136 @@
+//! `lissom study`: families of runs that show what a scaling or a scheme does to a model. One study per file.
+
+mod conditioning;
+mod factorization;
+
+use std::fmt::Write;
+use std::io::{IsTerminal, stderr};
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand};
+use indicatif::{ProgressBar, ProgressStyle};
+use lissom::study::StudyError;
+use lissom_model::files;
+
+use super::{Exit, Failure};
+
+/// Show what scaling, step size and solver do to a model.
+#[derive(Args)]
+pub(super) struct Study {
+    #[command(subcommand)]
+    kind: Kind,
+}
+
+#[derive(Subcommand)]
+enum Kind {
+    Conditioning(conditioning::Conditioning),
+    Factorization(factorization::Factorization),
+}
+
+impl Study {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        match self.kind {
+            Kind::Conditioning(study) => study.run(),
+            Kind::Factorization(study) => study.run(),
+        }
+    }
+}
+
+impl From<StudyError> for Failure {
+    fn from(error: StudyError) -> Self {
+        match error {
+            StudyError::Model(report) => report.into(),
+            StudyError::Interrupted => Self::new(Exit::Interrupted, error),
+            StudyError::NotDynamic | StudyError::Scheme(_) => Self::new(Exit::BadModel, error),
+            other => Self::new(Exit::Failed, other),
+        }
+    }
+}
+
+/// Where the table goes: where asked, or to `out/study-<name>/<model>.csv`.
+fn table_path(out: Option<&PathBuf>, name: &str, model: &Path) -> PathBuf {
+    out.cloned().unwrap_or_else(|| {
+        let stem = model.file_stem().unwrap_or_default();
+        Path::new("out").join(format!("study-{name}")).join(stem).with_extension("csv")
+    })
+}
+
+/// Writes a file, with the folders above it.
+fn write(path: &Path, contents: &[u8]) -> Result<(), Failure> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    folder
+        .map_or(Ok(()), files::create_folder)
+        .and_then(|()| files::write(path, contents))
+        .map_err(|error| Failure::file(Exit::Failed, &error))
+}
+
+/// Lines of right-aligned columns, the first `words` of them left-aligned.
+fn aligned(lines: &[Vec<String>], words: usize) -> String {
+    let columns = lines.iter().map(Vec::len).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..columns)
+        .map(|column| lines.iter().filter_map(|line| line.get(column)).map(|cell| cell.chars().count()).max())
+        .map(Option::unwrap_or_default)
+        .collect();
+    let mut text = String::new();
+    for line in lines {
+        let mut row = String::new();
+        for (column, (cell, &width)) in line.iter().zip(&widths).enumerate() {
+            // Writing to a string cannot fail.
+            let _ = if column < words {
+                write!(row, "  {cell:<width$}")
+            } else {
+                write!(row, "  {cell:>width$}")
+            };
+        }
+        text.push_str(row.trim_end());
+        text.push('\n');
+    }
+    text
+}
+
+/// A number of two digits, with an exponent where it is large or small.
+fn short(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    if (0.1..1000.0).contains(&value.abs()) {
+        let decimals = if value.abs() < 10.0 { 2 } else { 1 };
+        return format!("{value:.decimals$}");
+    }
+    format!("{value:.1e}")
+}
+
+/// A bar of steps over all runs; nothing in a pipe.
+fn bar() -> ProgressBar {
+    let bar = if stderr().is_terminal() { ProgressBar::new(0) } else { ProgressBar::hidden() };
+    let style = ProgressStyle::with_template("{bar:30} {human_pos} of {human_len} steps  {eta} left");
+    bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("━╸ "));
+    bar
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        let numbers = [0.0, 14.34, 9.2, 3.24e4, 1e-7, -0.5, f64::INFINITY, 999.96];
+        let texts = numbers.map(short);
+        assert_eq!(texts, ["0", "14.3", "9.20", "3.2e4", "1.0e-7", "-0.50", "inf", "1000.0"]);
+    }
+
+    #[test]
+    fn columns_are_aligned() {
+        let lines =
+            [vec!["h", "none"], vec!["0.01", "3e8"]].map(|line| line.iter().map(|&c| c.to_owned()).collect());
+        assert_eq!(aligned(&lines, 1), "  h     none\n  0.01   3e8\n");
+    }
+
+    #[test]
+    fn tables_have_a_place() {
+        let path = table_path(None, "conditioning", Path::new("models/arm.toml"));
+        assert_eq!(path, Path::new("out/study-conditioning/arm.csv"));
+        let path = table_path(Some(&PathBuf::from("a/b.csv")), "conditioning", Path::new("arm.toml"));
+        assert_eq!(path, Path::new("a/b.csv"));
+    }
+}

@@ -1,0 +1,217 @@
+//! How the condition number of the tangent depends on the step size, and on another value of the model, without
+//! scaling and with it: tables 2.1 and 2.2 of [Epple 2008], for any model.
+
+use lissom_core::analysis::{ConditionMethod, Simulation};
+use lissom_core::scaling::{ScaleBy, ScalingChoice};
+use lissom_model::lower::{Lowered, lower};
+use lissom_model::output::LogFigure;
+
+use super::members::{Effort, in_parallel};
+use super::{StudyError, Watch, csv_line};
+use crate::model::{Model, Override};
+
+/// More steps than this are not taken: the run ends earlier.
+pub const MOST_STEPS: usize = 2_000_000;
+
+/// The scalings compared, in the order of the columns.
+pub const SCALINGS: [ScaleBy; 3] = [ScaleBy::None, ScaleBy::Unit, ScaleBy::Physical];
+
+/// What is asked for. Numbers stand as written, so that they reach the model unchanged.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Request {
+    /// Step sizes [s].
+    pub steps: Vec<String>,
+    /// A path into the model and the values it takes.
+    pub vary: Option<(String, Vec<String>)>,
+    /// What else is put into the model.
+    pub overrides: Vec<Override>,
+}
+
+/// One run.
+#[derive(Debug)]
+pub struct Row {
+    /// Step size, as written [s].
+    pub step: String,
+    /// Step size [s].
+    pub step_size: f64,
+    /// The varied value, as written.
+    pub varied: Option<String>,
+    /// What it came to.
+    pub outcome: Result<Measured, StudyError>,
+}
+
+/// What a run came to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measured {
+    /// Condition numbers of the last step's tangent, by [`SCALINGS`].
+    pub conditions: [f64; 3],
+    /// How they were found.
+    pub method: ConditionMethod,
+    /// Unknowns of the tangent.
+    pub unknowns: usize,
+    /// Time at which the run ended [s].
+    pub end: f64,
+    /// Whether that is earlier than the model asks, for too many steps.
+    pub is_shortened: bool,
+}
+
+/// All runs.
+#[derive(Debug)]
+pub struct Table {
+    /// Path of the varied value.
+    pub path: Option<String>,
+    /// The runs, step by step, for each the varied values.
+    pub rows: Vec<Row>,
+}
+
+impl Request {
+    /// What the first run puts into the model.
+    pub fn first(&self) -> Vec<Override> {
+        let first = |values: &Vec<String>| values.first().cloned().unwrap_or_default();
+        self.of(&first(&self.steps), self.vary.as_ref().map(|(_, values)| first(values)).as_ref())
+    }
+
+    fn of(&self, step: &str, value: Option<&String>) -> Vec<Override> {
+        let mut overrides = self.overrides.clone();
+        overrides.push(("analysis.step".to_owned(), step.to_owned()));
+        if let (Some((path, _)), Some(value)) = (&self.vary, value) {
+            overrides.push((path.clone(), value.clone()));
+        }
+        overrides
+    }
+
+    /// Step size and varied value of every run.
+    fn members(&self) -> Vec<(&String, Option<&String>)> {
+        let values = self.vary.as_ref().map_or(vec![None], |(_, values)| values.iter().map(Some).collect());
+        self.steps.iter().flat_map(|step| values.iter().map(move |&value| (step, value))).collect()
+    }
+}
+
+/// Runs the model with every step size and varied value, in parallel. Runs that fail leave their reason in their
+/// row.
+///
+/// # Errors
+/// If the model is wrong, with one of the values or without, has load steps, or the study is interrupted.
+pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table, StudyError> {
+    let members = request.members();
+    let mut rows = Vec::with_capacity(members.len());
+    let mut planned = 0;
+    for &(step, value) in &members {
+        let lowered = lower(&model.document(&request.of(step, value))?)?;
+        if lowered.plan.is_static {
+            return Err(StudyError::NotDynamic);
+        }
+        planned += steps_of(&lowered).0;
+        rows.push((step.clone(), lowered.settings.step_size, value.cloned()));
+    }
+    let effort = Effort::new(watch, planned);
+    let outcomes = in_parallel(members.len(), |index| {
+        let (step, value) = members[index];
+        measure(model, &request.of(step, value), &effort)
+    });
+    let row = |((step, step_size, varied), outcome)| Row { step, step_size, varied, outcome };
+    let rows: Vec<Row> = rows.into_iter().zip(outcomes).map(row).collect();
+    if rows.iter().any(|row| matches!(row.outcome, Err(StudyError::Interrupted))) {
+        return Err(StudyError::Interrupted);
+    }
+    Ok(Table { path: request.vary.as_ref().map(|(path, _)| path.clone()), rows })
+}
+
+/// Whole steps to the end, and whether they are fewer than planned.
+fn steps_of(lowered: &Lowered) -> (usize, bool) {
+    let plan = &lowered.plan;
+    let whole = ((plan.end - plan.start) / lowered.settings.step_size).round().max(1.0);
+    if whole > MOST_STEPS as f64 { (MOST_STEPS, true) } else { (whole as usize, false) }
+}
+
+fn measure(model: &Model, overrides: &[Override], effort: &Effort<'_>) -> Result<Measured, StudyError> {
+    let lowered = lower(&model.document(overrides)?)?;
+    let (steps, is_shortened) = steps_of(&lowered);
+    let Lowered { system, state, settings, .. } = lowered;
+    let choice = settings.scaling;
+    let mut simulation = Simulation::new(system, state, settings)?;
+    for step in 1..=steps {
+        simulation.step()?;
+        if effort.note(step).is_break() {
+            return Err(StudyError::Interrupted);
+        }
+    }
+    let tangents = simulation
+        .converged_tangents(&SCALINGS.map(|by| ScalingChoice { by, ..choice }))
+        .ok_or_else(|| StudyError::Scheme(simulation.settings().scheme.name.clone()))?;
+    let structure = simulation.system().structure();
+    let conditions: Vec<_> = tangents.iter().map(|tangent| tangent.condition(structure)).collect();
+    Ok(Measured {
+        conditions: [conditions[0].value, conditions[1].value, conditions[2].value],
+        method: conditions[0].method,
+        unknowns: simulation.system().layout().size(),
+        end: simulation.state().kinematics.time,
+        is_shortened,
+    })
+}
+
+impl Table {
+    /// As comma-separated values: `step_size`, the path of the varied value, a column for each scaling, `method`,
+    /// `end`. Runs that failed have `NaN`.
+    pub fn csv(&self) -> String {
+        let mut heading = vec!["step_size"];
+        heading.extend(self.path.as_deref());
+        heading.extend(SCALINGS.map(ScaleBy::name));
+        heading.extend(["method", "end"]);
+        let mut text = csv_line(heading);
+        for row in &self.rows {
+            let mut fields = vec![row.step.clone()];
+            fields.extend(row.varied.clone());
+            match &row.outcome {
+                Ok(measured) => {
+                    fields.extend(measured.conditions.map(|value| format!("{value:e}")));
+                    fields.extend([measured.method.name().to_owned(), measured.end.to_string()]);
+                }
+                Err(_) => fields.extend(["NaN", "NaN", "NaN", "failed", "NaN"].map(str::to_owned)),
+            }
+            text += &csv_line(fields.iter().map(String::as_str));
+        }
+        text
+    }
+
+    /// The drawing: over the step size, or over the varied value where there is one step size only.
+    pub fn figure(&self, title: &str) -> LogFigure {
+        let one_step = self.rows.iter().all(|row| row.step == self.rows[0].step);
+        let over_value = self.path.is_some() && one_step;
+        let mut curves: Vec<(String, Vec<(f64, f64)>)> = Vec::new();
+        for row in &self.rows {
+            let Ok(measured) = &row.outcome else { continue };
+            let varied = row.varied.as_deref().unwrap_or_default();
+            let x = if over_value { varied.parse().unwrap_or(f64::NAN) } else { row.step_size };
+            for (by, value) in SCALINGS.iter().zip(measured.conditions) {
+                let name = match &self.path {
+                    Some(_) if !over_value => format!("{}, {varied}", label(*by)),
+                    _ => label(*by).to_owned(),
+                };
+                match curves.iter_mut().find(|curve| curve.0 == name) {
+                    Some(curve) => curve.1.push((x, value)),
+                    None => curves.push((name, vec![(x, value)])),
+                }
+            }
+        }
+        let x_label = match &self.path {
+            Some(path) if over_value => path.clone(),
+            _ => "step size [s]".to_owned(),
+        };
+        LogFigure {
+            name: "conditioning".to_owned(),
+            title: title.to_owned(),
+            x_label,
+            y_label: "condition number of the tangent [-]".to_owned(),
+            curves,
+        }
+    }
+}
+
+fn label(by: ScaleBy) -> &'static str {
+    match by {
+        ScaleBy::None => "no scaling",
+        ScaleBy::Unit => "s = 1",
+        ScaleBy::Physical => "s physical",
+    }
+}

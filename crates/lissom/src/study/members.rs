@@ -1,0 +1,87 @@
+//! The members of a family, each by one thread of a few, and how far all of them are.
+
+use std::num::NonZero;
+use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
+use std::thread;
+
+/// Steps between two looks at the watch.
+const OFTEN: usize = 64;
+
+/// Is told the steps done and planned over all members, from any thread, and says whether to go on.
+pub type Watch<'a> = &'a (dyn Fn(usize, usize) -> ControlFlow<()> + Sync);
+
+/// Where a family stands.
+pub(super) struct Effort<'a> {
+    watch: Watch<'a>,
+    planned: usize,
+    done: AtomicUsize,
+    stopped: AtomicBool,
+}
+
+impl<'a> Effort<'a> {
+    pub(super) fn new(watch: Watch<'a>, planned: usize) -> Self {
+        Self { watch, planned, done: AtomicUsize::new(0), stopped: AtomicBool::new(false) }
+    }
+
+    /// Notes that a member has done its step number `step`, from one. Whether to go on.
+    pub(super) fn note(&self, step: usize) -> ControlFlow<()> {
+        if !step.is_multiple_of(OFTEN) {
+            return ControlFlow::Continue(());
+        }
+        let done = self.done.fetch_add(OFTEN, Ordering::Relaxed) + OFTEN;
+        if self.stopped.load(Ordering::Relaxed) || (self.watch)(done, self.planned).is_break() {
+            self.stopped.store(true, Ordering::Relaxed);
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// `work` of every index below `count`, in parallel, in order.
+pub(super) fn in_parallel<T: Send>(count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+    let results: Mutex<Vec<Option<T>>> = Mutex::new((0..count).map(|_| None).collect());
+    let next = AtomicUsize::new(0);
+    let threads = thread::available_parallelism().map_or(1, NonZero::get).min(count);
+    thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                loop {
+                    let index = next.fetch_add(1, Ordering::Relaxed);
+                    if index >= count {
+                        return;
+                    }
+                    let result = work(index);
+                    results.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(result);
+                }
+            });
+        }
+    });
+    let results = results.into_inner().unwrap_or_else(PoisonError::into_inner);
+    results.into_iter().map(|result| result.expect("every index was worked on")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_keep_their_order() {
+        let squares = in_parallel(100, |index| index * index);
+        assert!(squares.iter().enumerate().all(|(index, &square)| square == index * index));
+        assert!(in_parallel(0, |index| index).is_empty());
+    }
+
+    #[test]
+    fn once_told_to_stop_all_stop() {
+        let watch = |done: usize, planned: usize| {
+            assert!(done <= planned);
+            if done >= 2 * OFTEN { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let effort = Effort::new(&watch, 1000);
+        let steps = |_| (1..=500).take_while(|&step| effort.note(step).is_continue()).count();
+        let taken: Vec<usize> = (0..2).map(steps).collect();
+        assert_eq!(taken, [2 * OFTEN - 1, OFTEN - 1]);
+    }
+}

@@ -1,0 +1,80 @@
+//! `lissom study` as scripts see it: exit codes, tables, files.
+
+use crate::support::{CANTILEVER, Folder, example, lissom, summary};
+
+#[test]
+fn conditioning_prints_a_table_and_leaves_table_and_plot() {
+    let folder = Folder::new("conditioning");
+    let model = example("pendulum");
+    let run = lissom(&["study", "conditioning", &model, "--steps", "1e-1,1e-2"], folder.path());
+    assert_eq!((run.code, run.errors.as_str()), (0, ""));
+    for words in ["2-norm", "step_size", "none", "unit", "physical", "1e-2", "pendulum.csv"] {
+        assert!(run.output.contains(words), "{words}: {}", run.output);
+    }
+    let out = folder.path().join("out/study-conditioning");
+    for file in ["pendulum.csv", "pendulum.svg", "pendulum.png"] {
+        assert!(out.join(file).is_file(), "{file}");
+    }
+    let vary = "point_masses.bob.mass=1,1e2";
+    let arguments =
+        ["study", "conditioning", &model, "--steps", "1e-2", "--vary", vary, "--out", "tables/mass.csv"];
+    assert_eq!(lissom(&arguments, folder.path()).code, 0);
+    let csv = std::fs::read_to_string(folder.path().join("tables/mass.csv")).unwrap();
+    assert!(
+        csv.starts_with("step_size,point_masses.bob.mass,none,unit,physical,method,end\n1e-2,1,"),
+        "{csv}"
+    );
+    assert!(folder.path().join("tables/mass.svg").is_file());
+}
+
+#[test]
+fn factorization_names_the_unknown() {
+    let folder = Folder::new("factorization");
+    let run = lissom(&["study", "factorization", &example("tip-crank")], folder.path());
+    assert_eq!((run.code, run.errors.as_str()), (0, ""));
+    let words = "physical, not augmented, sparse: elimination stops at the coordinate `L.angle`";
+    assert!(run.output.contains(words), "{}", run.output);
+    assert!(folder.path().join("out/study-factorization/tip-crank.csv").is_file());
+}
+
+#[test]
+fn mistakes_have_their_exit_codes() {
+    let folder = Folder::new("study-mistakes");
+    let model = example("pendulum");
+    for arguments in [
+        &["study", "conditioning", &model][..],
+        &["study", "conditioning", &model, "--steps", "never"],
+        &["study", "conditioning", &model, "--steps", "0.1", "--vary", "mass"],
+        &["study", "conditioning", &model, "--steps", "0.1", "--vary", "point_masses.ball.mass=1"],
+        &["study", "factorization", "nowhere.toml"],
+        &["study"],
+    ] {
+        let run = lissom(arguments, folder.path());
+        assert_eq!(run.code, 2, "{arguments:?}: {}", run.errors);
+    }
+    folder.write("bar.toml", CANTILEVER);
+    let run = lissom(&["study", "conditioning", "bar.toml", "--steps", "0.1"], folder.path());
+    assert_eq!(run.code, 2, "{}", run.errors);
+}
+
+#[test]
+fn every_run_tells_how_well_its_tangent_is_conditioned() {
+    let folder = Folder::new("telemetry");
+    let condition = |scaling: &str| {
+        let set = format!("analysis.scaling={scaling}");
+        let model = example("pendulum");
+        let run =
+            lissom(&["run", &model, "--set", "analysis.end=0.1", "--set", &set, "--no-plots"], folder.path());
+        assert_eq!(run.code, 0, "{}", run.errors);
+        let tangent = summary(&folder.path().join("out/pendulum"))["tangent"].clone();
+        for part in ["smallest_relative_pivot", "scale", "penalty"] {
+            assert!(tangent[part].as_f64().is_some_and(|value| value > 0.0), "{part}");
+        }
+        let estimate = |when: &str| tangent["condition_estimate"][when].as_f64().unwrap();
+        (estimate("start"), estimate("end"))
+    };
+    let (start, end) = condition("physical");
+    assert!(start < 1e3 && end < 1e3, "{start:e} {end:e}");
+    let (start, end) = condition("none");
+    assert!(start > 1e8 && end > 1e8, "{start:e} {end:e}");
+}
