@@ -150,7 +150,7 @@ fn without_the_augmented_term_elimination_stops_at_the_massless_rotation() {
                 let newton = &factored.newton;
                 assert_eq!((newton.iterations, &newton.stopped_at), (15, &None));
                 assert!(
-                    newton.update < 1e-7 && newton.residual < 1e-5 && newton.violation < 1e-15,
+                    newton.update < 1e-7 && newton.residual < 1e-4 && newton.violation < 1e-15,
                     "{case:?}"
                 );
                 assert!(factored.errors_known);

@@ -63,7 +63,7 @@ pub struct Attained {
     pub iterations: usize,
     /// Last update over what the step has to find out [-].
     pub update: f64,
-    /// Largest residual of an equation of motion over the largest at the first guess [-].
+    /// Largest residual of an equation of motion [N, N m].
     pub residual: f64,
     /// Largest violation of a constraint [m, rad].
     pub violation: f64,
@@ -131,7 +131,6 @@ fn stopped(layout: &Layout, error: FactorError) -> Stopped {
 /// Full Newton's method from where the equations stand.
 fn iterate(equations: &mut StepEquations<'_>) -> Attained {
     let mut attained = Attained::default();
-    let (first, _) = residuals(equations);
     while attained.iterations < ITERATIONS {
         // The tangent of the first iteration is there already.
         if attained.iterations > 0
@@ -148,9 +147,7 @@ fn iterate(equations: &mut StepEquations<'_>) -> Attained {
             break;
         }
     }
-    let (last, violation) = residuals(equations);
-    attained.residual = if first > 0.0 { last / first } else { last };
-    attained.violation = violation;
+    (attained.residual, attained.violation) = residuals(equations);
     attained
 }
 
