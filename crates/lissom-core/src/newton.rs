@@ -17,6 +17,9 @@ pub trait Equations {
 
     /// Goes back to the first guess.
     fn restart(&mut self);
+
+    /// Takes the last correction back, and half of what is left of the one before.
+    fn back_off(&mut self);
 }
 
 /// Size of a correction.
@@ -102,6 +105,8 @@ const DISTRUST: f64 = 3.0;
 /// a correction may vanish at once and hide a small part that shrinks slowly. A tenth costs no iteration where
 /// the contraction is as good as it looks.
 const CREDIBLE: f64 = 0.1;
+/// A correction is halved at most this often.
+const MOST_HALVINGS: usize = 12;
 /// Corrections that shrink by less than this are round-off, once they are small.
 const STALLED: f64 = 0.5;
 /// A stalled correction below this size is round-off whatever the reference [-].
@@ -122,6 +127,9 @@ pub fn solve<E: Equations>(
     let mut previous: Option<f64> = None;
     // Whether the tangent was made in this solution.
     let mut fresh = false;
+    // Corrections made with the tangent since it was made, and halvings of the last one.
+    let mut age = 0;
+    let mut halvings = 0;
     while outcome.iterations < limits.max_iterations {
         if !memory.has_tangent {
             equations.renew_tangent().map_err(Failure::Factor)?;
@@ -129,19 +137,33 @@ pub fn solve<E: Equations>(
             memory.contraction = None;
             outcome.factorizations += 1;
             fresh = true;
+            age = 0;
             previous = None;
         }
         let correction = equations.correct();
         outcome.iterations += 1;
         outcome.correction = correction.size;
+        age += 1;
         match judge(&correction, previous, fresh, limits, memory) {
             Verdict::Converged => return Ok(outcome),
             Verdict::Stalled => {
                 outcome.stagnated = true;
                 return Ok(outcome);
             }
-            Verdict::Go => previous = Some(correction.size),
-            Verdict::Renew => {
+            // Seen through the same tangent the next correction must be smaller (natural monotonicity
+            // [Deuflhard 2011, section 3.3]); where it is not, the last one went too far.
+            Verdict::BackOff if age == 2 && halvings < MOST_HALVINGS => {
+                halvings += 1;
+                age = 1;
+                equations.back_off();
+            }
+            Verdict::Go => {
+                halvings = 0;
+                previous = Some(correction.size);
+            }
+            // The tangent belongs to an earlier iterate.
+            Verdict::Renew | Verdict::BackOff => {
+                halvings = 0;
                 memory.forget_tangent();
                 previous = Some(correction.size);
             }
@@ -168,6 +190,8 @@ enum Verdict {
     Go,
     /// Go on with a new tangent.
     Renew,
+    /// The correction before went too far.
+    BackOff,
     /// Go back to the first guess with a new tangent.
     Restart,
 }
@@ -181,7 +205,7 @@ fn judge(
 ) -> Verdict {
     let Correction { size, reference } = *correction;
     if !(size.is_finite() && reference.is_finite()) {
-        return Verdict::Restart;
+        return if fresh && previous.is_some() { Verdict::BackOff } else { Verdict::Restart };
     }
     let goal = (limits.tolerance * reference).max(memory.round_off);
     let Some(previous) = previous else {
@@ -207,12 +231,14 @@ fn judge(
     }
     let near_round_off = size <= ROUND_OFF || size <= STALLED_FRACTION * reference;
     if contraction > STALLED && near_round_off && fresh {
-        memory.round_off = memory.round_off.max(size);
+        if size <= ROUND_OFF {
+            memory.round_off = memory.round_off.max(size);
+        }
         return Verdict::Stalled;
     }
-    if contraction > 1.0 && !fresh {
-        // The old tangent leads astray.
-        return Verdict::Restart;
+    if contraction > 1.0 {
+        // An old tangent leads astray.
+        return if fresh { Verdict::BackOff } else { Verdict::Restart };
     }
     let needed = if contraction < 1.0 { (goal / size).ln() / contraction.ln() } else { f64::INFINITY };
     if needed > PATIENCE { Verdict::Renew } else { Verdict::Go }
@@ -232,12 +258,22 @@ mod tests {
         x: f64,
         slope: f64,
         tangents: usize,
+        last: f64,
+        before: f64,
+    }
+
+    impl Root {
+        fn new(x: f64, slope: f64) -> Self {
+            Self { x, slope, tangents: 0, last: 0.0, before: 0.0 }
+        }
     }
 
     impl Equations for Root {
         fn correct(&mut self) -> Correction {
             let change = -(self.x * self.x - 2.0) / self.slope;
             self.x += change;
+            self.before = self.last;
+            self.last = change;
             Correction { size: change.abs(), reference: 1.0 }
         }
         fn renew_tangent(&mut self) -> Result<(), FactorError> {
@@ -248,11 +284,16 @@ mod tests {
         fn restart(&mut self) {
             self.x = 1.0;
         }
+        fn back_off(&mut self) {
+            self.x -= self.last + 0.5 * self.before;
+            self.before *= 0.5;
+            self.last = self.before;
+        }
     }
 
     #[test]
     fn converges_and_keeps_the_tangent_for_the_next_solution() {
-        let mut root = Root { x: 1.0, slope: 0.0, tangents: 0 };
+        let mut root = Root::new(1.0, 0.0);
         let mut memory = Memory::default();
         let limits = Limits { tolerance: 1e-10, max_iterations: 30 };
         solve(&mut root, &limits, &mut memory).expect("converges");
@@ -286,6 +327,7 @@ mod tests {
         fn restart(&mut self) {
             (self.large, self.small) = (0.0, 0.0);
         }
+        fn back_off(&mut self) {}
     }
 
     #[test]
@@ -298,7 +340,7 @@ mod tests {
 
     #[test]
     fn a_tangent_that_leads_astray_is_renewed_from_the_first_guess() {
-        let mut root = Root { x: 1.0, slope: 0.5, tangents: 0 };
+        let mut root = Root::new(1.0, 0.5);
         let mut memory = Memory { has_tangent: true, ..Memory::default() };
         solve(&mut root, &Limits { tolerance: 1e-10, max_iterations: 30 }, &mut memory).expect("converges");
         assert!((root.x - 2.0_f64.sqrt()).abs() < 1e-9);

@@ -150,6 +150,21 @@ impl Scaled {
         self.augmented / self.dynamic
     }
 
+    /// Factor of the forces in the equations of motion.
+    pub(crate) fn dynamic_factor(&self) -> f64 {
+        self.dynamic
+    }
+
+    /// Factor of inertia forces whose accelerations are given for the unit step.
+    pub(crate) fn inertia_factor(&self) -> f64 {
+        self.dynamic / (self.h * self.h)
+    }
+
+    /// Factor p s of the augmented Lagrangian term.
+    pub(crate) fn augmented_factor(&self) -> f64 {
+        self.augmented
+    }
+
     /// From a scaled multiplier to λ [N, N m].
     pub fn multiplier_factor(&self) -> f64 {
         self.s / self.dynamic
@@ -215,6 +230,25 @@ impl Scaled {
     /// The scheme's memory after a step, back in SI.
     pub fn leave(&self, memory: f64) -> f64 {
         memory / (self.h * self.h)
+    }
+
+    /// Twists at the end of a step from the unit-step rates, and mean accelerations over it.
+    pub(crate) fn leave_rates(&self, layout: &Layout, start: &State, rates: &[f64], end: &mut State) {
+        for (node, rows) in layout.node_rows.iter().enumerate() {
+            let before = start.kinematics.nodes[node].twist;
+            let after = &mut end.kinematics.nodes[node];
+            for (k, &row) in rows.iter().enumerate() {
+                let locked = row == crate::system::LOCKED;
+                after.twist[k] = if locked { 0.0 } else { rates[row as usize] / self.h };
+                after.acceleration[k] = (after.twist[k] - before[k]) / self.h;
+            }
+        }
+        for (coordinate, &row) in layout.coordinate_rows.iter().enumerate() {
+            let before = start.kinematics.coordinates[coordinate].rate;
+            let after = &mut end.kinematics.coordinates[coordinate];
+            after.rate = rates[row as usize] / self.h;
+            after.acceleration = (after.rate - before) / self.h;
+        }
     }
 
     /// Time of a stage and time since the start of the step.

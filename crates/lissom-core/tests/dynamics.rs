@@ -11,7 +11,7 @@ use lissom_core::joints;
 use lissom_core::newton::Limits;
 use lissom_core::registry::{Parameters, Value};
 use lissom_core::scaling::ScalingChoice;
-use lissom_core::schemes::{Scheme, generalized_alpha, radau_iia, statics};
+use lissom_core::schemes::{Scheme, energy_decaying, generalized_alpha, radau_iia, statics};
 use lissom_core::system::{Builder, Freedoms, Placement, State, System};
 use lissom_motion::{Matrix3, Matrix6, Motion, Vector3, Vector6};
 
@@ -83,10 +83,13 @@ fn top_at(scheme: Scheme, steps: usize) -> [Vector3; 3] {
 #[test]
 fn schemes_have_their_orders_for_position_velocity_and_multiplier() {
     let reference = top_at(radau_iia::two_stages(), 4096);
-    let schemes: [(&str, Scheme, [f64; 3], usize); 3] = [
+    let schemes: [(&str, Scheme, [f64; 3], usize); 5] = [
         ("generalized-alpha", generalized_alpha::with_spectral_radius(0.8).expect("valid"), [2.0; 3], 512),
         ("hht", generalized_alpha::hht(-0.3).expect("valid"), [2.0; 3], 512),
         ("radau", radau_iia::two_stages(), [3.0, 2.0, 1.0], 64),
+        // Its multipliers are means over a step.
+        ("decaying", energy_decaying::with_spectral_radius(0.0).expect("valid"), [2.0, 2.0, 1.0], 256),
+        ("preserving", energy_decaying::with_spectral_radius(1.0).expect("valid"), [2.0, 2.0, 1.0], 256),
     ];
     for (name, scheme, orders, steps) in schemes {
         let errors = [steps, 2 * steps].map(|steps| {

@@ -1,14 +1,16 @@
 //! Time steps and load steps: `Simulation::step` is the table of contents of a step.
 
-use lissom_solver::{FactorError, SolverKind};
+use lissom_solver::{FactorError, FactorReport, SolverKind};
 
+use super::approach;
+use super::decaying::{DecayingEquations, DecayingWorkspace};
 use super::equations::{StepEquations, Workspace};
 use super::factorization::Factorization;
 use super::initial::{Initial, InitialError};
 use super::step_error::{StepError, pivot_hint};
 use crate::newton::{self, Failure, Limits, Memory};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
-use crate::schemes::Scheme;
+use crate::schemes::{Coupling, Scheme};
 use crate::system::{Chart, Kinematics, Linearization, MotionChange, Point, State, System};
 
 /// What a simulation is told besides system and state.
@@ -58,6 +60,9 @@ pub struct Totals {
     pub max_constraint_violation: f64,
 }
 
+/// Tolerance of schemes whose promise holds for the exact solution of their equations.
+const EXACT: f64 = 1e-11;
+
 /// A system on its way through time.
 pub struct Simulation {
     system: System,
@@ -66,7 +71,7 @@ pub struct Simulation {
     settings: Settings,
     representative: Representative,
     scaled: Scaled,
-    work: Workspace,
+    engine: Engine,
     memory: Memory,
     totals: Totals,
     velocity_correction: f64,
@@ -86,16 +91,16 @@ impl Simulation {
         if settings.scheme.dynamic {
             let kind = if settings.scaling.augmented { settings.solver } else { pivoting };
             let mut initial = Initial::new(&system, &state, &representative, kind);
-            velocity_correction = initial.velocities(&mut state)?;
-            initial.accelerations(&mut state)?;
+            velocity_correction = initial.velocities(&system, &mut state)?;
+            initial.accelerations(&system, &mut state)?;
             let delay = settings.scheme.memory_delay * settings.step_size;
-            state.algorithmic = initial.delayed_accelerations(&state, delay)?;
+            state.algorithmic = initial.delayed_accelerations(&system, &state, delay)?;
         }
         let mut violations = vec![0.0; system.layout().multiplier_count];
         system.violations(&state.kinematics, &mut violations);
         state.violations = violations;
         let scaled = Scaled::new(&settings.scaling, &representative, settings.step_size);
-        let work = Workspace::new(&system, &state, &settings.scheme, &representative, settings.solver);
+        let engine = Engine::new(&system, &state, &settings, &representative);
         Ok(Self {
             next: state.clone(),
             system,
@@ -103,7 +108,7 @@ impl Simulation {
             settings,
             representative,
             scaled,
-            work,
+            engine,
             memory: Memory::default(),
             totals: Totals { smallest_relative_pivot: f64::INFINITY, ..Totals::default() },
             velocity_correction,
@@ -142,7 +147,7 @@ impl Simulation {
 
     /// Stored numbers of the tangent's factors.
     pub fn factor_entries(&self) -> usize {
-        self.work.factorization.entries()
+        self.engine.factor_entries()
     }
 
     /// Largest change made to the given initial twists to satisfy the constraints [m/s, rad/s].
@@ -160,9 +165,10 @@ impl Simulation {
     }
 
     /// Linearises anew at the solution of the last step; none before the first step and after one that
-    /// failed.
+    /// failed, and none for a scheme without the tangent of a stage.
     pub(super) fn linearize_last_step(&mut self) -> Option<&Linearization> {
-        let reached = self.work.motions.last().map(|motion| motion.at.time);
+        let Engine::Collocation(work) = &mut self.engine else { return None };
+        let reached = work.motions.last().map(|motion| motion.at.time);
         if self.totals.steps == 0 || reached != Some(self.state.kinematics.time) {
             return None;
         }
@@ -170,16 +176,20 @@ impl Simulation {
             system: &self.system,
             scheme: &self.settings.scheme,
             scaled: self.scaled,
+            rescale: &|_| self.scaled,
             start: &self.next,
-            work: &mut self.work,
+            work,
         };
         equations.linearize();
-        Some(&self.work.linearization)
+        Some(&work.linearization)
     }
 
     /// The tangent factored last, if it is still in use.
     pub(super) fn factored_tangent(&mut self) -> Option<&mut Factorization> {
-        self.memory.has_tangent.then_some(&mut self.work.factorization)
+        match &mut self.engine {
+            Engine::Collocation(work) if self.memory.has_tangent => Some(&mut work.factorization),
+            _ => None,
+        }
     }
 
     /// Takes one step. On failure the state stays where it was.
@@ -187,25 +197,11 @@ impl Simulation {
     /// # Errors
     /// If Newton's iterations do not converge or the tangent has no factorisation.
     pub fn step(&mut self) -> Result<StepReport, StepError> {
-        self.scaled.enter(self.system.layout(), &self.state, &mut self.work.unit);
-        let mut equations = StepEquations {
-            system: &self.system,
-            scheme: &self.settings.scheme,
-            scaled: self.scaled,
-            start: &self.state,
-            work: &mut self.work,
-        };
-        equations.predict();
-        let outcome = match newton::solve(&mut equations, &self.settings.limits, &mut self.memory) {
-            Ok(outcome) => outcome,
-            Err(failure) => {
-                let error = describe(&failure, &equations, &self.settings);
-                self.memory = Memory::default();
-                return Err(error);
-            }
-        };
-        equations.final_violations(&mut self.next.violations);
-        self.finish();
+        let outcome = match &mut self.engine {
+            Engine::Collocation(_) => self.collocate(),
+            Engine::Decaying(_) => self.decay(),
+        }?;
+        std::mem::swap(&mut self.state, &mut self.next);
         let report = StepReport {
             iterations: outcome.iterations,
             factorizations: outcome.factorizations,
@@ -216,19 +212,73 @@ impl Simulation {
         Ok(report)
     }
 
-    /// Makes the end of the step the new state.
-    fn finish(&mut self) {
+    /// A step of a scheme with equilibrium at its stages.
+    fn collocate(&mut self) -> Result<newton::Outcome, StepError> {
+        let Engine::Collocation(work) = &mut self.engine else {
+            unreachable!("chosen by the engine");
+        };
+        self.scaled.enter(self.system.layout(), &self.state, &mut work.unit);
+        let Settings { scaling, step_size, .. } = &self.settings;
+        let rescale = |share: f64| Scaled::new(scaling, &self.representative, share * step_size);
+        let mut equations = StepEquations {
+            system: &self.system,
+            scheme: &self.settings.scheme,
+            scaled: self.scaled,
+            rescale: &rescale,
+            start: &self.state,
+            work,
+        };
+        let outcome =
+            approach::solve(&mut equations, &self.settings.limits, &mut self.memory).map_err(|failure| {
+                self.memory = Memory::default();
+                describe(&failure, &self.system, &self.state, &self.settings, &equations.worst_unknown())
+            })?;
+        equations.final_violations(&mut self.next.violations);
+
         let last = self.settings.scheme.stages.len() - 1;
-        let work = &mut self.work;
         copy_motion(&work.motions[last].at, &mut self.next.kinematics);
-        self.next.kinematics.elapsed = 0.0;
         self.next.multipliers.copy_from_slice(&work.multipliers[last]);
         for (row, value) in self.next.algorithmic.iter_mut().enumerate() {
             let memory = work.unit.combine(&self.settings.scheme.algorithmic, &work.increments, row);
             *value = self.scaled.leave(memory);
         }
         compensate_positions(&self.state, &work.motions[last].changes, &mut self.next);
-        std::mem::swap(&mut self.state, &mut self.next);
+        Ok(outcome)
+    }
+
+    /// A step of the energy-decaying scheme.
+    fn decay(&mut self) -> Result<newton::Outcome, StepError> {
+        let (Engine::Decaying(work), Coupling::Jump(scheme)) =
+            (&mut self.engine, self.settings.scheme.coupling)
+        else {
+            unreachable!("chosen by the engine");
+        };
+        self.scaled.enter(self.system.layout(), &self.state, &mut work.unit);
+        let Settings { scaling, step_size, .. } = &self.settings;
+        let rescale = |share: f64| Scaled::new(scaling, &self.representative, share * step_size);
+        let mut equations = DecayingEquations {
+            system: &self.system,
+            scheme,
+            scaled: self.scaled,
+            rescale: &rescale,
+            start: &self.state,
+            work,
+        };
+        // The energy is as good as the solution: to round-off.
+        let limits = Limits { tolerance: self.settings.limits.tolerance.min(EXACT), ..self.settings.limits };
+        let outcome = approach::solve(&mut equations, &limits, &mut self.memory).map_err(|failure| {
+            self.memory = Memory::default();
+            describe(&failure, &self.system, &self.state, &self.settings, &equations.worst_unknown())
+        })?;
+        let (end, changes, violations) = work.end();
+        copy_motion(end, &mut self.next.kinematics);
+        self.next.violations.copy_from_slice(violations);
+        self.next.multipliers.copy_from_slice(&work.multipliers);
+        compensate_positions(&self.state, changes, &mut self.next);
+        self.scaled.leave_rates(self.system.layout(), &self.state, &work.rate_end, &mut self.next);
+        project_velocities(&self.system, scheme.alpha, &mut work.initial, &mut self.next)
+            .map_err(|error| StepError::Velocities { time: self.next.kinematics.time, error })?;
+        Ok(outcome)
     }
 
     fn count(&mut self, report: &StepReport) {
@@ -237,7 +287,7 @@ impl Simulation {
         totals.newton_iterations += report.iterations;
         totals.factorizations += report.factorizations;
         totals.stagnated_steps += usize::from(report.stagnated);
-        if let Some(factor) = &self.work.report {
+        if let Some(factor) = self.engine.report() {
             totals.smallest_relative_pivot = totals.smallest_relative_pivot.min(factor.relative_pivot());
         }
         for violation in &self.state.violations {
@@ -278,6 +328,7 @@ fn representative(system: &System, state: &State) -> Representative {
     let zero = vec![0.0; system.layout().multiplier_count];
     let point = Point {
         at: &state.kinematics,
+        stressed: &state.kinematics,
         increments: crate::joints::attached::Increments {
             start: &state.kinematics,
             nodes: &still,
@@ -292,18 +343,44 @@ fn representative(system: &System, state: &State) -> Representative {
     Representative::of(system, &state.kinematics, &linearization)
 }
 
-fn describe(failure: &Failure, equations: &StepEquations<'_>, settings: &Settings) -> StepError {
-    let time = equations.start.kinematics.time + settings.step_size;
-    let layout = equations.system.layout();
+/// Takes the share α of the velocities' violation of the constraints away, as a projection that is
+/// orthogonal in the kinetic energy, which therefore never grows: the constraints' own oscillation, which the
+/// step leaves undamped.
+fn project_velocities(
+    system: &System,
+    alpha: f64,
+    initial: &mut Initial,
+    state: &mut State,
+) -> Result<(), InitialError> {
+    if alpha == 0.0 || system.layout().multiplier_rows().is_empty() {
+        return Ok(());
+    }
+    let given: Vec<_> = state.kinematics.nodes.iter().map(|node| node.twist).collect();
+    initial.velocities(system, state)?;
+    for (node, given) in state.kinematics.nodes.iter_mut().zip(given) {
+        node.twist = given + alpha * (node.twist - given);
+    }
+    Ok(())
+}
+
+fn describe(
+    failure: &Failure,
+    system: &System,
+    state: &State,
+    settings: &Settings,
+    worst: &str,
+) -> StepError {
+    let time = state.kinematics.time + settings.step_size;
+    let layout = system.layout();
     match failure {
         Failure::NotConverged { iterations, correction } => StepError::NotConverged {
             time,
             iterations: *iterations,
             correction: *correction,
-            worst: equations.worst_unknown(),
+            worst: worst.to_owned(),
         },
         Failure::NotFinite { iterations } => {
-            StepError::NotFinite { time, iterations: *iterations, worst: equations.worst_unknown() }
+            StepError::NotFinite { time, iterations: *iterations, worst: worst.to_owned() }
         }
         Failure::Factor(FactorError::ZeroPivot { unknown, pivot, .. }) => StepError::ZeroPivot {
             time,
@@ -313,6 +390,46 @@ fn describe(failure: &Failure, equations: &StepEquations<'_>, settings: &Setting
         },
         Failure::Factor(FactorError::NotFinite { unknown }) => {
             StepError::NotFinite { time, iterations: 0, worst: layout.name_of(*unknown) }
+        }
+    }
+}
+
+/// How steps are taken.
+enum Engine {
+    Collocation(Box<Workspace>),
+    Decaying(Box<DecayingWorkspace>),
+}
+
+impl Engine {
+    fn new(system: &System, state: &State, settings: &Settings, representative: &Representative) -> Self {
+        match settings.scheme.coupling {
+            Coupling::Jump(_) => Self::Decaying(Box::new(DecayingWorkspace::new(
+                system,
+                state,
+                representative,
+                settings.solver,
+            ))),
+            _ => Self::Collocation(Box::new(Workspace::new(
+                system,
+                state,
+                &settings.scheme,
+                representative,
+                settings.solver,
+            ))),
+        }
+    }
+
+    fn factor_entries(&self) -> usize {
+        match self {
+            Self::Collocation(work) => work.factorization.entries(),
+            Self::Decaying(work) => work.factor_entries(),
+        }
+    }
+
+    fn report(&self) -> Option<&FactorReport> {
+        match self {
+            Self::Collocation(work) => work.report.as_ref(),
+            Self::Decaying(work) => work.report.as_ref(),
         }
     }
 }

@@ -3,6 +3,7 @@
 use lissom_motion::Vector6;
 use lissom_solver::{FactorError, FactorReport};
 
+use super::approach::Approachable;
 use super::factorization::Factorization;
 use crate::joints::attached;
 use crate::newton::{Correction, Equations};
@@ -12,6 +13,9 @@ use crate::system::{Chart, Kinematics, LOCKED, Layout, Linearization, Point, Sta
 
 /// Corrections of rotations larger than this are cut short [rad].
 const LARGEST_ROTATION: f64 = 1.0;
+
+/// Iterates whose last correction is larger than this are far from equilibrium [-].
+pub(crate) const FAR: f64 = 1e-3;
 
 /// Multipliers are wanted to fewer digits than places, from which the motion goes on.
 const MULTIPLIER_WEIGHT: f64 = 1e-2;
@@ -28,6 +32,14 @@ pub(crate) struct Workspace {
     pub(crate) motions: Vec<StageMotion>,
     /// Residuals, then corrections, by stage.
     pub(crate) residuals: Vec<Vec<f64>>,
+    /// The correction before, as far as it stands.
+    before: Vec<Vec<f64>>,
+    /// Whether that one was just halved.
+    backed_off: bool,
+    /// Size of the last correction of places.
+    correction: f64,
+    /// Increments of a smaller step, see `approach`.
+    saved: Vec<Vec<f64>>,
     pub(crate) linearization: Linearization,
     pub(crate) factorization: Factorization,
     /// Scaled size of one unit of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
@@ -59,6 +71,10 @@ impl Workspace {
             multipliers: vec![state.multipliers.clone(); stages],
             motions: vec![StageMotion::new(&state.kinematics); stages],
             residuals: vec![vec![0.0; layout.size()]; stages],
+            before: vec![vec![0.0; layout.size()]; stages],
+            backed_off: false,
+            correction: f64::INFINITY,
+            saved: Vec::new(),
             linearization: Linearization::new(system),
             factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
             sizes,
@@ -72,6 +88,8 @@ pub(crate) struct StepEquations<'a> {
     pub(crate) system: &'a System,
     pub(crate) scheme: &'a Scheme,
     pub(crate) scaled: Scaled,
+    /// The scaling of the step of a given share.
+    pub(crate) rescale: &'a dyn Fn(f64) -> Scaled,
     pub(crate) start: &'a State,
     pub(crate) work: &'a mut Workspace,
 }
@@ -79,6 +97,7 @@ pub(crate) struct StepEquations<'a> {
 impl StepEquations<'_> {
     /// First guess from the scheme.
     pub(crate) fn predict(&mut self) {
+        self.work.correction = f64::INFINITY;
         for (i, stage) in self.scheme.stages.iter().enumerate() {
             let mut guess = std::mem::take(&mut self.work.increments[i]);
             for (row, value) in guess.iter_mut().enumerate() {
@@ -112,6 +131,7 @@ impl StepEquations<'_> {
         let motion = &work.motions[stage];
         Point {
             at: &motion.at,
+            stressed: &motion.at,
             increments: joint_changes(&self.start.kinematics, motion),
             multipliers: &work.multipliers[stage],
             violations: &self.start.violations,
@@ -144,7 +164,11 @@ impl StepEquations<'_> {
             Increments::FromStart => Chart::Increments(&increments),
             Increments::Departure => Chart::Departures(&self.start.kinematics.nodes),
         };
-        self.system.linearize(&self.point(last), chart, &mut linearization);
+        let mut point = self.point(last);
+        if self.work.correction > FAR {
+            point.stressed = &self.start.kinematics;
+        }
+        self.system.linearize(&point, chart, &mut linearization);
         self.work.node_increments = increments;
         self.work.linearization = linearization;
     }
@@ -154,29 +178,45 @@ impl StepEquations<'_> {
     /// change where the places are found already.
     fn add_corrections(&mut self) -> Correction {
         let places = self.measure_places();
+        self.work.correction = places.size;
         if !places.size.is_finite() {
             return places;
         }
         let cut = if places.size > LARGEST_ROTATION { LARGEST_ROTATION / places.size } else { 1.0 };
         let count = self.system.layout().coordinate_count();
         let factor = self.scaled.multiplier_factor();
+        for residual in &mut self.work.residuals {
+            residual.iter_mut().for_each(|value| *value *= -cut);
+        }
+        let corrections = std::mem::take(&mut self.work.residuals);
+        self.apply(&corrections, 1.0);
+        self.work.residuals = corrections;
         let (mut change, mut largest) = (0.0_f64, 0.0_f64);
-        for stage in 0..self.scheme.stages.len() {
-            let work = &mut *self.work;
-            let (motion, constraints) = work.residuals[stage].split_at(count);
-            for (value, correction) in work.increments[stage].iter_mut().zip(motion) {
-                *value -= cut * correction;
-            }
-            for (value, correction) in work.multipliers[stage].iter_mut().zip(constraints) {
-                let correction = cut * factor * correction;
-                *value -= correction;
-                change = change.max(correction.abs());
+        for (corrections, multipliers) in self.work.residuals.iter().zip(&self.work.multipliers) {
+            for (value, correction) in multipliers.iter().zip(&corrections[count..]) {
+                change = change.max((factor * correction).abs());
                 largest = largest.max(value.abs());
             }
         }
         let Correction { size, reference } = places;
         let multipliers = if largest > 0.0 { MULTIPLIER_WEIGHT * change / largest * reference } else { 0.0 };
         Correction { size: size.max(multipliers), reference }
+    }
+
+    /// Adds corrections of all stages, times `share`.
+    fn apply(&mut self, corrections: &[Vec<f64>], share: f64) {
+        let count = self.system.layout().coordinate_count();
+        let factor = self.scaled.multiplier_factor();
+        let work = &mut *self.work;
+        for (stage, corrections) in corrections.iter().enumerate() {
+            let (motion, constraints) = corrections.split_at(count);
+            for (value, correction) in work.increments[stage].iter_mut().zip(motion) {
+                *value += share * correction;
+            }
+            for (value, correction) in work.multipliers[stage].iter_mut().zip(constraints) {
+                *value += share * factor * correction;
+            }
+        }
     }
 
     fn measure_places(&self) -> Correction {
@@ -225,6 +265,9 @@ impl StepEquations<'_> {
 
 impl Equations for StepEquations<'_> {
     fn correct(&mut self) -> Correction {
+        if !std::mem::take(&mut self.work.backed_off) {
+            std::mem::swap(&mut self.work.residuals, &mut self.work.before);
+        }
         self.evaluate();
         let layout = self.system.layout();
         for residual in &mut self.work.residuals {
@@ -246,6 +289,47 @@ impl Equations for StepEquations<'_> {
 
     fn restart(&mut self) {
         self.predict();
+    }
+
+    fn back_off(&mut self) {
+        let last = std::mem::take(&mut self.work.residuals);
+        let mut before = std::mem::take(&mut self.work.before);
+        // A correction that is not finite was not applied.
+        if last.iter().flatten().all(|value| value.is_finite()) {
+            self.apply(&last, -1.0);
+        }
+        self.apply(&before, -0.5);
+        before.iter_mut().flatten().for_each(|value| *value *= 0.5);
+        self.work.residuals = last;
+        self.work.before = before;
+        self.work.backed_off = true;
+        self.update_motions();
+    }
+}
+
+impl Approachable for StepEquations<'_> {
+    fn set_share(&mut self, share: f64) {
+        self.scaled = (self.rescale)(share);
+        self.scaled.enter(self.system.layout(), self.start, &mut self.work.unit);
+    }
+
+    fn save(&mut self) {
+        self.work.saved.clone_from(&self.work.increments);
+    }
+
+    fn extrapolate(&mut self, factor: f64) {
+        let factor = match self.scheme.increments {
+            Increments::FromStart => factor,
+            Increments::Departure => factor * factor,
+        };
+        let work = &mut *self.work;
+        for (values, saved) in work.increments.iter_mut().zip(&work.saved) {
+            for (value, saved) in values.iter_mut().zip(saved) {
+                *value = factor * saved;
+            }
+        }
+        work.correction = f64::INFINITY;
+        self.update_motions();
     }
 }
 

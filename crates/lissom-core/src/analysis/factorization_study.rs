@@ -103,8 +103,14 @@ fn examine(
     let mut work = Workspace::new(system, state, &settings.scheme, representative, kind);
     let scaled = Scaled::new(choice, representative, settings.step_size);
     scaled.enter(layout, state, &mut work.unit);
-    let mut equations =
-        StepEquations { system, scheme: &settings.scheme, scaled, start: state, work: &mut work };
+    let mut equations = StepEquations {
+        system,
+        scheme: &settings.scheme,
+        scaled,
+        rescale: &|_| scaled,
+        start: state,
+        work: &mut work,
+    };
     equations.predict();
     equations.renew_tangent().map_err(|error| stopped(layout, error))?;
     let report = equations.work.report.expect("a factorisation that went through has a report");

@@ -36,8 +36,7 @@ pub enum InitialError {
 }
 
 /// Solves for initial values.
-pub struct Initial<'a> {
-    system: &'a System,
+pub struct Initial {
     solver: Box<dyn LinearSolver<f64>>,
     linearization: Linearization,
     values: Vec<f64>,
@@ -46,16 +45,10 @@ pub struct Initial<'a> {
     unchanged: Vec<f64>,
 }
 
-impl<'a> Initial<'a> {
+impl Initial {
     /// Room for initial values of `system`.
-    pub fn new(
-        system: &'a System,
-        state: &State,
-        representative: &Representative,
-        kind: &SolverKind,
-    ) -> Self {
+    pub fn new(system: &System, state: &State, representative: &Representative, kind: &SolverKind) -> Self {
         Self {
-            system,
             solver: (kind.real)(system.structure()),
             linearization: Linearization::new(system),
             values: vec![0.0; system.structure().pattern.entries()],
@@ -65,16 +58,16 @@ impl<'a> Initial<'a> {
         }
     }
 
-    fn factor(&mut self, state: &State) -> Result<(), InitialError> {
-        let zero = vec![0.0; self.system.layout().multiplier_count];
+    fn factor(&mut self, system: &System, state: &State) -> Result<(), InitialError> {
+        let zero = vec![0.0; system.layout().multiplier_count];
         let mut linearization = std::mem::replace(&mut self.linearization, Linearization::empty());
-        self.system.linearize(&self.point(&state.kinematics, &zero), Chart::Body, &mut linearization);
+        system.linearize(&self.point(&state.kinematics, &zero), Chart::Body, &mut linearization);
         self.linearization = linearization;
         let Linearization { mass, gram, constraint, .. } = &self.linearization;
         for (i, value) in self.values.iter_mut().enumerate() {
             *value = mass[i] + self.scale * (gram[i] + constraint[i]);
         }
-        let layout = self.system.layout();
+        let layout = system.layout();
         self.solver.factor(&self.values).map(|_| ()).map_err(|error| match error {
             FactorError::ZeroPivot { unknown, pivot, .. } => InitialError::ZeroPivot {
                 pivot,
@@ -90,6 +83,7 @@ impl<'a> Initial<'a> {
     fn point<'b>(&'b self, at: &'b Kinematics, multipliers: &'b [f64]) -> Point<'b> {
         Point {
             at,
+            stressed: at,
             increments: Increments { start: at, nodes: &self.still, coordinates: &self.unchanged },
             multipliers,
             violations: multipliers,
@@ -98,17 +92,17 @@ impl<'a> Initial<'a> {
     }
 
     /// Solves [M Bᵀ; B 0] [x; λ] = [motion; constraint], given as one vector.
-    fn solve(&mut self, right: &mut [f64]) {
-        let layout = self.system.layout();
+    fn solve(&mut self, system: &System, right: &mut [f64]) {
+        let layout = system.layout();
         let count = layout.coordinate_count();
         let original = right.to_vec();
         let mut solution = vec![0.0; right.len()];
         // Scaled rows s B, and the augmented term s Bᵀ B x = s Bᵀ c on both sides; refined once.
         for _ in 0..2 {
             let mut rest = original.clone();
-            self.subtract_product(&solution, &mut rest);
+            self.subtract_product(system, &solution, &mut rest);
             let constraints: Vec<f64> = rest[count..].to_vec();
-            self.add_transposed(&constraints, &mut rest);
+            self.add_transposed(system, &constraints, &mut rest);
             rest[count..].iter_mut().for_each(|value| *value *= self.scale);
             self.solver.solve(&mut rest);
             for (row, value) in rest.iter().enumerate() {
@@ -119,8 +113,8 @@ impl<'a> Initial<'a> {
     }
 
     /// rest -= [M Bᵀ; B 0] x.
-    fn subtract_product(&self, x: &[f64], rest: &mut [f64]) {
-        let pattern = &self.system.structure().pattern;
+    fn subtract_product(&self, system: &System, x: &[f64], rest: &mut [f64]) {
+        let pattern = &system.structure().pattern;
         for column in 0..pattern.size() {
             let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
             for position in range {
@@ -132,9 +126,9 @@ impl<'a> Initial<'a> {
     }
 
     /// motion += s Bᵀ c.
-    fn add_transposed(&self, constraints: &[f64], rest: &mut [f64]) {
-        let pattern = &self.system.structure().pattern;
-        let count = self.system.layout().coordinate_count();
+    fn add_transposed(&self, system: &System, constraints: &[f64], rest: &mut [f64]) {
+        let pattern = &system.structure().pattern;
+        let count = system.layout().coordinate_count();
         for (k, &violation) in constraints.iter().enumerate() {
             let column = count + k;
             let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
@@ -152,22 +146,22 @@ impl<'a> Initial<'a> {
     ///
     /// # Errors
     /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
-    pub fn velocities(&mut self, state: &mut State) -> Result<f64, InitialError> {
-        self.factor(state)?;
-        let layout = self.system.layout();
+    pub fn velocities(&mut self, system: &System, state: &mut State) -> Result<f64, InitialError> {
+        self.factor(system, state)?;
+        let layout = system.layout();
         let count = layout.coordinate_count();
         let mut speeds = vec![0.0; layout.size()];
         gather_rates(layout, &state.kinematics, &mut speeds);
         let mut right = vec![0.0; layout.size()];
         // -(B v + ∂c/∂t): only the constraint rows are kept.
-        self.subtract_product(&speeds, &mut right);
+        self.subtract_product(system, &speeds, &mut right);
         right[..count].fill(0.0);
         let mut explicit = vec![0.0; layout.multiplier_count];
-        self.system.constraint_velocities(&state.kinematics, &mut explicit);
+        system.constraint_velocities(&state.kinematics, &mut explicit);
         for (value, rate) in right[count..].iter_mut().zip(&explicit) {
             *value -= rate;
         }
-        self.solve(&mut right);
+        self.solve(system, &mut right);
         let mut largest = 0.0_f64;
         for (rows, node) in layout.node_rows.iter().zip(&mut state.kinematics.nodes) {
             for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
@@ -185,27 +179,27 @@ impl<'a> Initial<'a> {
     ///
     /// # Errors
     /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
-    pub fn accelerations(&mut self, state: &mut State) -> Result<(), InitialError> {
-        self.factor(state)?;
-        let right = self.acceleration_vector(state);
-        let layout = self.system.layout();
+    pub fn accelerations(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {
+        self.factor(system, state)?;
+        let right = self.acceleration_vector(system, state);
+        let layout = system.layout();
         scatter_accelerations(layout, &right, &mut state.kinematics);
         state.multipliers.copy_from_slice(&right[layout.coordinate_count()..]);
         Ok(())
     }
 
-    fn acceleration_vector(&mut self, state: &State) -> Vec<f64> {
-        let layout = self.system.layout();
+    fn acceleration_vector(&mut self, system: &System, state: &State) -> Vec<f64> {
+        let layout = system.layout();
         let count = layout.coordinate_count();
         let mut at = state.kinematics.clone();
         scatter_accelerations(layout, &vec![0.0; layout.size()], &mut at);
         let zero = vec![0.0; layout.multiplier_count];
         let mut right = vec![0.0; layout.size()];
-        self.system.residual(&self.point(&at, &zero), &mut right);
+        system.residual(&self.point(&at, &zero), &mut right);
         right[..count].iter_mut().for_each(|value| *value = -*value);
-        self.system.constraint_accelerations(&at, &mut right[count..]);
+        system.constraint_accelerations(&at, &mut right[count..]);
         right[count..].iter_mut().for_each(|value| *value = -*value);
-        self.solve(&mut right);
+        self.solve(system, &mut right);
         right
     }
 
@@ -214,8 +208,13 @@ impl<'a> Initial<'a> {
     ///
     /// # Errors
     /// If the equations cannot be solved nearby.
-    pub fn delayed_accelerations(&mut self, state: &State, delay: f64) -> Result<Vec<f64>, InitialError> {
-        let layout = self.system.layout();
+    pub fn delayed_accelerations(
+        &mut self,
+        system: &System,
+        state: &State,
+        delay: f64,
+    ) -> Result<Vec<f64>, InitialError> {
+        let layout = system.layout();
         let count = layout.coordinate_count();
         let mut now = vec![0.0; layout.size()];
         gather_accelerations(layout, &state.kinematics, &mut now);
@@ -225,9 +224,9 @@ impl<'a> Initial<'a> {
         }
         let mut difference = vec![0.0; count];
         for sign in [1.0, -1.0] {
-            let moved = self.moved(state, sign * delay);
-            self.factor(&moved)?;
-            let there = self.acceleration_vector(&moved);
+            let moved = moved(state, sign * delay);
+            self.factor(system, &moved)?;
+            let there = self.acceleration_vector(system, &moved);
             for (value, acceleration) in difference.iter_mut().zip(&there) {
                 *value += 0.5 * sign * acceleration;
             }
@@ -242,22 +241,22 @@ impl<'a> Initial<'a> {
         }
         Ok(now)
     }
+}
 
-    /// The state moved along its motion for a short time, to second order.
-    fn moved(&self, state: &State, time: f64) -> State {
-        let mut moved = state.clone();
-        moved.kinematics.time += time;
-        for node in &mut moved.kinematics.nodes {
-            let psi = time * (node.twist + 0.5 * time * node.acceleration);
-            node.frame = node.frame * Motion::exponential(&psi);
-            node.twist += time * node.acceleration;
-        }
-        for coordinate in &mut moved.kinematics.coordinates {
-            coordinate.value += time * (coordinate.rate + 0.5 * time * coordinate.acceleration);
-            coordinate.rate += time * coordinate.acceleration;
-        }
-        moved
+/// The state moved along its motion for a short time, to second order.
+fn moved(state: &State, time: f64) -> State {
+    let mut moved = state.clone();
+    moved.kinematics.time += time;
+    for node in &mut moved.kinematics.nodes {
+        let psi = time * (node.twist + 0.5 * time * node.acceleration);
+        node.frame = node.frame * Motion::exponential(&psi);
+        node.twist += time * node.acceleration;
     }
+    for coordinate in &mut moved.kinematics.coordinates {
+        coordinate.value += time * (coordinate.rate + 0.5 * time * coordinate.acceleration);
+        coordinate.rate += time * coordinate.acceleration;
+    }
+    moved
 }
 
 fn gather_rates(layout: &Layout, at: &Kinematics, out: &mut [f64]) {

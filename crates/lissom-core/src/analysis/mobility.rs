@@ -117,6 +117,7 @@ fn rows(system: &System, state: &State) -> Vec<BTreeMap<usize, f64>> {
     let zero = vec![0.0; layout.multiplier_rows().len()];
     let point = Point {
         at: &state.kinematics,
+        stressed: &state.kinematics,
         increments: Increments { start: &state.kinematics, nodes: &still, coordinates: &unchanged },
         multipliers: &zero,
         violations: &zero,

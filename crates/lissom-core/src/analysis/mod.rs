@@ -1,6 +1,8 @@
 //! What the user asks for: consistent initial values, time steps, load steps, a count of freedoms.
 
+mod approach;
 pub mod conditioning;
+mod decaying;
 pub mod dynamics;
 mod equations;
 mod factorization;

@@ -32,6 +32,14 @@ pub enum StepError {
         /// Name of the first unknown affected.
         worst: String,
     },
+    /// The velocities at the end of the step could not be made consistent.
+    #[error("step to t = {time:.6e} s, velocities at its end: {error}")]
+    Velocities {
+        /// End of the step [s].
+        time: f64,
+        /// What went wrong.
+        error: super::InitialError,
+    },
     /// A pivot vanished.
     #[error(
         "step to t = {time:.6e} s: elimination stops at a pivot of {pivot:.1e} for the {unknown}; {hint}"

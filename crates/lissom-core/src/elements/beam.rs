@@ -21,6 +21,7 @@ use lissom_motion::{
     tangent_rate_times, tangent_times, tangent_transpose_derivative, tangent_transpose_times,
 };
 
+use super::interval::Interval;
 use super::quadrature::gauss_legendre;
 use super::shape::lagrange;
 use super::{Element, Energy, Tangents, add_block};
@@ -38,13 +39,13 @@ pub struct SectionLaw {
 
 /// What one Gauss point needs.
 #[derive(Clone, Debug)]
-struct Station<const N: usize> {
+pub(super) struct Station<const N: usize> {
     /// Shape functions and their derivatives with respect to arc length.
-    shape: [f64; N],
-    slope: [f64; N],
+    pub(super) shape: [f64; N],
+    pub(super) slope: [f64; N],
     /// Weight times length per ξ [m].
-    weight: f64,
-    law: SectionLaw,
+    pub(super) weight: f64,
+    pub(super) law: SectionLaw,
     /// f₀ of the stress-free state.
     natural: Vector6,
 }
@@ -52,10 +53,10 @@ struct Station<const N: usize> {
 /// A beam element with `N` nodes at the Gauss-Lobatto points.
 #[derive(Clone, Debug)]
 pub struct Beam<const N: usize> {
-    nodes: [NodeId; N],
+    pub(super) nodes: [NodeId; N],
     /// Section frame in the node's frame, where they differ.
-    offsets: [Option<Motion>; N],
-    stations: Vec<Station<N>>,
+    pub(super) offsets: [Option<Motion>; N],
+    pub(super) stations: Vec<Station<N>>,
     /// Stress-free relative motions of the nodes, for section forces anywhere in the element.
     natural: [Vector6; N],
 }
@@ -116,7 +117,7 @@ impl<const N: usize> Beam<N> {
         self.offsets[i].as_ref().map_or(twist, |offset| offset.adjoint_inverse_times(&twist))
     }
 
-    fn relative(&self, at: &Kinematics) -> Relative<N> {
+    pub(super) fn relative(&self, at: &Kinematics) -> Relative<N> {
         relative_coordinates(&std::array::from_fn(|i| self.section_frame(at, i)))
     }
 
@@ -183,8 +184,29 @@ impl<const N: usize> Beam<N> {
     }
 }
 
+impl<const N: usize> Beam<N> {
+    /// Adds forces F_i on the section frames of all nodes but the reference, which takes what balances
+    /// them: F_r = - Σ Ad(exp(-d_i))ᵀ F_i.
+    pub(super) fn add_relative_forces(&self, relative: &Relative<N>, forces: &Relative<N>, out: &mut [f64]) {
+        let mut at_reference = Vector6::zeros();
+        let mut add = |i: usize, force: &Vector6| {
+            let force = self.offsets[i]
+                .as_ref()
+                .map_or(*force, |offset| offset.adjoint_inverse_transpose_times(force));
+            for k in 0..6 {
+                out[6 * i + k] += force[k];
+            }
+        };
+        for i in (0..N).filter(|&i| i != Self::REFERENCE) {
+            at_reference -= Motion::exponential(&relative[i]).adjoint_inverse_transpose_times(&forces[i]);
+            add(i, &forces[i]);
+        }
+        add(Self::REFERENCE, &at_reference);
+    }
+}
+
 /// Σ N_i d_i.
-fn combine<const N: usize>(weights: &[f64; N], vectors: &Relative<N>) -> Vector6 {
+pub(super) fn combine<const N: usize>(weights: &[f64; N], vectors: &Relative<N>) -> Vector6 {
     let mut sum = Vector6::zeros();
     for i in 0..N {
         if i != Beam::<N>::REFERENCE {
@@ -194,7 +216,7 @@ fn combine<const N: usize>(weights: &[f64; N], vectors: &Relative<N>) -> Vector6
     sum
 }
 
-fn relative_coordinates<const N: usize>(frames: &[Motion; N]) -> Relative<N> {
+pub(super) fn relative_coordinates<const N: usize>(frames: &[Motion; N]) -> Relative<N> {
     let reference = frames[Beam::<N>::REFERENCE];
     std::array::from_fn(|i| {
         if i == Beam::<N>::REFERENCE {
@@ -206,12 +228,12 @@ fn relative_coordinates<const N: usize>(frames: &[Motion; N]) -> Relative<N> {
 }
 
 impl<const N: usize> Station<N> {
-    fn strain(&self, d: &Vector6, d_slope: &Vector6) -> Vector6 {
+    pub(super) fn strain(&self, d: &Vector6, d_slope: &Vector6) -> Vector6 {
         tangent_times(d, d_slope) - self.natural
     }
 
     /// ε̇ = T ḋ' + (∂(T d')/∂d) ḋ.
-    fn strain_rate(&self, d: &Vector6, d_slope: &Vector6, rates: &Relative<N>) -> Vector6 {
+    pub(super) fn strain_rate(&self, d: &Vector6, d_slope: &Vector6, rates: &Relative<N>) -> Vector6 {
         tangent_times(d, &combine(&self.slope, rates))
             + tangent_rate_times(d, &combine(&self.shape, rates), d_slope)
     }
@@ -247,25 +269,21 @@ impl<const N: usize> Element for Beam<N> {
                 conjugate[i] += station.slope[i] * along + station.shape[i] * across;
             }
         }
-        let mut at_reference = Vector6::zeros();
-        let mut add = |i: usize, force: &Vector6| {
-            let force = self.offsets[i]
-                .as_ref()
-                .map_or(*force, |offset| offset.adjoint_inverse_transpose_times(force));
-            for k in 0..6 {
-                out[6 * i + k] += force[k];
-            }
-        };
-        for i in (0..N).filter(|&i| i != Self::REFERENCE) {
-            let force = inverse_tangent_transpose_times(&relative[i], &conjugate[i]);
-            at_reference -= Motion::exponential(&relative[i]).adjoint_inverse_transpose_times(&force);
-            add(i, &force);
-        }
-        add(Self::REFERENCE, &at_reference);
+        let forces: Relative<N> =
+            std::array::from_fn(|i| inverse_tangent_transpose_times(&relative[i], &conjugate[i]));
+        self.add_relative_forces(&relative, &forces, out);
+    }
+
+    fn mean_forces(&self, interval: &Interval<'_>, out: &mut [f64]) {
+        self.add_mean_forces(interval, out);
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
-        linearize::Linearization::new(self, at).assemble(self, out);
+        self.linearize_stressed(at, at, out);
+    }
+
+    fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
+        linearize::Linearization::new(self, at, stressed).assemble(self, out);
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
@@ -307,9 +325,11 @@ mod linearize {
     }
 
     impl<const N: usize> Linearization<N> {
-        pub(super) fn new(beam: &Beam<N>, at: &Kinematics) -> Self {
+        pub(super) fn new(beam: &Beam<N>, at: &Kinematics, stressed: &Kinematics) -> Self {
             let relative = beam.relative(at);
             let rates = beam.rates(at, &relative);
+            let relative_stressed = beam.relative(stressed);
+            let rates_stressed = beam.rates(stressed, &relative_stressed);
             let zeros = [[Matrix6::zeros(); N]; N];
             let mut result = Self {
                 relative,
@@ -329,7 +349,8 @@ mod linearize {
                 })
             });
             for station in &beam.stations {
-                result.add_station(station, rates.as_ref(), rate_changes.as_ref());
+                let stress = station.weight * station.stress(&relative_stressed, rates_stressed.as_ref());
+                result.add_station(station, &stress, rates.as_ref(), rate_changes.as_ref());
             }
             result
         }
@@ -337,19 +358,19 @@ mod linearize {
         fn add_station(
             &mut self,
             station: &Station<N>,
+            stress: &Vector6,
             rates: Option<&Relative<N>>,
             rate_changes: Option<&[Matrix6; N]>,
         ) {
             let (shape, slope, weight) = (&station.shape, &station.slope, station.weight);
             let d = combine(shape, &self.relative);
             let d_slope = combine(slope, &self.relative);
-            let stress = weight * station.stress(&self.relative, rates);
-            let along = tangent_transpose_times(&d, &stress);
-            let across = tangent_derivative_transpose_times(&d, &d_slope, &stress);
-            let (t, dt) = (tangent(&d), tangent_derivative(&d, &d_slope));
-            let turn = tangent_transpose_derivative(&d, &stress);
-            let bend = tangent_hessian(&d, &d_slope, &stress);
-            let strains: [Matrix6; N] = std::array::from_fn(|i| slope[i] * t + shape[i] * dt);
+            let along = tangent_transpose_times(&d, stress);
+            let across = tangent_derivative_transpose_times(&d, &d_slope, stress);
+            let (t, turned) = (tangent(&d), tangent_derivative(&d, &d_slope));
+            let turn = tangent_transpose_derivative(&d, stress);
+            let bend = tangent_hessian(&d, &d_slope, stress);
+            let strains: [Matrix6; N] = std::array::from_fn(|i| slope[i] * t + shape[i] * turned);
             let viscous = rates.zip(rate_changes).map(|(rates, changes)| {
                 let rate = combine(shape, rates);
                 let rate_slope = combine(slope, rates);

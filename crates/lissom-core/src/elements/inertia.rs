@@ -5,8 +5,11 @@
 //!
 //! M 6x6 mass matrix about the node, V twist, g gravity. [Sonneville, Cardona and Brüls 2014, eq. 25]
 
-use lissom_motion::{Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times, lie_bracket_matrix, skew};
+use lissom_motion::{
+    Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times, lie_bracket_matrix, rotation_tangent, skew,
+};
 
+use super::interval::Interval;
 use super::{Element, Energy, Tangents, add_block};
 use crate::system::state::split;
 use crate::system::{Kinematics, NodeId};
@@ -65,6 +68,20 @@ impl Element for Inertia {
             - coadjoint_times(&node.twist, &(self.mass * node.twist));
         for (sum, value) in out.iter_mut().zip(force.iter()) {
             *sum += value;
+        }
+    }
+
+    /// Gravity alone: the mean of Rᵀ g along H exp(τ ψ) is T(θ) Rᵀ g, and its work exactly the change of
+    /// potential energy.
+    fn mean_forces(&self, interval: &Interval<'_>, out: &mut [f64]) {
+        if self.gravity == Vector3::zeros() {
+            return;
+        }
+        let theta = split(&interval.increments[self.node[0]]).1;
+        let mean = rotation_tangent(&theta) * split(&self.gravity_in_body(interval.from)).0;
+        let force = self.mass.fixed_view::<6, 3>(0, 0) * mean;
+        for (sum, value) in out.iter_mut().zip(force.iter()) {
+            *sum -= value;
         }
     }
 

@@ -5,8 +5,10 @@
 
 pub mod beam;
 pub mod beam_line;
+mod beam_mean;
 pub mod force;
 pub mod inertia;
+pub mod interval;
 pub mod moment;
 pub mod point_spring;
 pub mod quadrature;
@@ -15,6 +17,7 @@ pub mod torsional_spring;
 
 use crate::registry::{Parameter, ParameterError, Parameters};
 use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
+use interval::Interval;
 use lissom_motion::Vector3;
 
 /// Most local unknowns an element may have: four nodes and two coordinates.
@@ -109,8 +112,27 @@ pub trait Element: Send + Sync + 'static {
     /// six per node in the node's body frame, then one per coordinate. Hot: called in every iteration.
     fn forces(&self, at: &Kinematics, out: &mut [f64]);
 
+    /// Adds the mean forces, without inertia, over an interval: their work over the increments is the change
+    /// of the elements' energy, plus what the interval dissipates. Default, for forces without energy: the
+    /// mean of both ends.
+    fn mean_forces(&self, interval: &Interval<'_>, out: &mut [f64]) {
+        let mut sum = [0.0; MOST_UNKNOWNS];
+        let size = out.len();
+        self.forces(interval.from, &mut sum[..size]);
+        self.forces(interval.to, &mut sum[..size]);
+        for (value, force) in out.iter_mut().zip(sum) {
+            *value += 0.5 * force;
+        }
+    }
+
     /// Adds the derivatives of `forces`. `out` is zero on entry. Rare.
     fn linearize(&self, at: &Kinematics, out: &mut Tangents);
+
+    /// The same, with the stresses of another configuration in the geometric stiffness: far from equilibrium
+    /// those of an iterate are no guide, see `Point::stressed`.
+    fn linearize_stressed(&self, at: &Kinematics, _stressed: &Kinematics, out: &mut Tangents) {
+        self.linearize(at, out);
+    }
 
     /// Kinetic, elastic and potential energy.
     fn energy(&self, at: &Kinematics) -> Energy;

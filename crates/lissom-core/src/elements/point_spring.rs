@@ -2,9 +2,10 @@
 //!
 //!     Δ = x_B - x_A,   ℓ = |Δ|,   u = Δ/ℓ,   F = k (ℓ - ℓ₀) + c ℓ̇
 
-use lissom_motion::{Matrix3, Vector3, skew};
+use lissom_motion::{Matrix3, Vector3, rotation_tangent, skew};
 use nalgebra::SMatrix;
 
+use super::interval::Interval;
 use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents, add_block};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 use crate::system::state::split;
@@ -119,6 +120,31 @@ impl Element for PointSpring {
         for (i, sign) in [(0, -1.0), (1, 1.0)] {
             let local = points[i].rotation.tr_mul(&(sign * tension * direction));
             let moment = points[i].offset.cross(&local);
+            for k in 0..3 {
+                out[6 * i + k] += local[k];
+                out[6 * i + 3 + k] += moment[k];
+            }
+        }
+    }
+
+    /// Over H exp(τ ψ) a carried point X moves by R T(θ)ᵀ (u + θ × X), so with the mean span as direction the
+    /// change of length is exactly linear in the increments: ℓ_b - ℓ_a = (Δ_a + Δ_b)·(Δ_b - Δ_a)/(ℓ_a + ℓ_b).
+    fn mean_forces(&self, interval: &Interval<'_>, out: &mut [f64]) {
+        let [from, to] = [interval.from, interval.to].map(|at| {
+            let [a, b] = self.points(at);
+            b.position - a.position
+        });
+        let (before, after) = (from.norm(), to.norm());
+        let change = after - before;
+        let tension = self.stiffness * (0.5 * (before + after) - self.length + interval.dissipation * change)
+            + self.damping * interval.rate() * change;
+        let pull = tension / (before + after).max(f64::MIN_POSITIVE) * (from + to);
+        for (i, sign) in [(0, -1.0), (1, 1.0)] {
+            let node = self.nodes[i];
+            let theta = split(&interval.increments[node]).1;
+            let local = interval.from.nodes[node].frame.rotation.apply_inverse(&(sign * pull));
+            let local = rotation_tangent(&theta) * local;
+            let moment = self.points[i].cross(&local);
             for k in 0..3 {
                 out[6 * i + k] += local[k];
                 out[6 * i + 3 + k] += moment[k];

@@ -101,13 +101,29 @@ impl AttachedJoint {
         own
     }
 
-    /// Violation, evaluated outright from absolute places.
-    pub fn violation(&self, at: &Kinematics) -> Equations {
+    /// Relative motion and own coordinates, outright from absolute places.
+    pub fn outright(&self, at: &Kinematics) -> (Relative, Own) {
         let mut own = Own::default();
         for (k, &coordinate) in self.coordinates.iter().enumerate() {
             own.value[k] = at.coordinates[coordinate].value;
         }
-        self.joint.violation(&Relative::at_start(&self.relative_motion(at)), &own)
+        (Relative::at_start(&self.relative_motion(at)), own)
+    }
+
+    /// Violation, evaluated outright from absolute places.
+    pub fn violation(&self, at: &Kinematics) -> Equations {
+        let (relative, own) = self.outright(at);
+        self.joint.violation(&relative, &own)
+    }
+
+    /// Derivatives of the equations with respect to the local unknowns, as body variations.
+    pub fn gradient_at(&self, (relative, own): &(Relative, Own)) -> LocalGradient {
+        let mut gradient = Gradient::zeros();
+        self.joint.gradient(relative, own, &mut gradient);
+        let mut rows = LocalGradient::zeros();
+        rows.fixed_columns_mut::<12>(0).copy_from(&(gradient.relative * self.variation(relative)));
+        rows.fixed_columns_mut::<MOST_COORDINATES>(12).copy_from(&gradient.own);
+        rows
     }
 
     /// Relative motion and own coordinates after the increments.
@@ -144,9 +160,7 @@ impl AttachedJoint {
         let mut curvature = Curvature::zeros();
         self.joint.curvature(relative, own, mu, &mut curvature);
         let variation = self.variation(relative);
-        let mut rows = LocalGradient::zeros();
-        rows.fixed_columns_mut::<12>(0).copy_from(&(gradient.relative * variation));
-        rows.fixed_columns_mut::<MOST_COORDINATES>(12).copy_from(&gradient.own);
+        let rows = self.gradient_at(&(*relative, *own));
 
         // Chain rule through (η, φ).
         let mut chain = SMatrix::<f64, 8, LOCAL>::zeros();
@@ -164,7 +178,7 @@ impl AttachedJoint {
     }
 
     /// η as a linear map of the node variations.
-    fn variation(&self, relative: &Relative) -> SMatrix<f64, 6, 12> {
+    pub(super) fn variation(&self, relative: &Relative) -> SMatrix<f64, 6, 12> {
         let [base, tip] = self.offset_adjoints();
         let mut variation = SMatrix::<f64, 6, 12>::zeros();
         variation.fixed_columns_mut::<6>(0).copy_from(&(-relative_adjoint(relative) * base));
@@ -179,13 +193,9 @@ impl AttachedJoint {
     /// Wrench of the joint on the tip at the joint's point, in inertial axes [N, N m], for the
     /// multipliers `mu` at the configuration `at`.
     pub fn reaction(&self, at: &Kinematics, mu: &Equations) -> Vector6 {
-        let motion = self.relative_motion(at);
-        let mut own = Own::default();
-        for (k, &coordinate) in self.coordinates.iter().enumerate() {
-            own.value[k] = at.coordinates[coordinate].value;
-        }
+        let (relative, own) = self.outright(at);
         let mut gradient = Gradient::zeros();
-        self.joint.gradient(&Relative::at_start(&motion), &own, &mut gradient);
+        self.joint.gradient(&relative, &own, &mut gradient);
         let wrench = -gradient.relative.tr_mul(&SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu));
         let tip = self.frames[1];
         let rotation = at.nodes[tip.node].frame.rotation * tip.offset.rotation;

@@ -7,6 +7,7 @@
 pub mod attached;
 pub mod clamp;
 pub mod distance;
+mod mean;
 pub mod prescribed_rotation;
 pub mod primitives;
 pub mod revolute;

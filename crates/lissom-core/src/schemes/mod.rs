@@ -3,6 +3,7 @@
 //! A scheme is a table of numbers: at each stage, rate and curvature are linear combinations of the
 //! increments since the start of the step (the unknowns) and of what is known at the start.
 
+pub mod energy_decaying;
 pub mod generalized_alpha;
 pub mod radau_iia;
 pub mod statics;
@@ -87,6 +88,8 @@ pub struct Weights<T> {
 pub enum Coupling {
     /// One stage, one real system.
     Single(Weights<f64>),
+    /// A jump and a glide: one real system of twice the coordinates.
+    Jump(energy_decaying::TimeDiscontinuous),
     /// Two stages: one complex system of the size of one stage. With the residuals r of the stages, solve
     /// J w = Σ left_i r_i, then the corrections are Re(right_i w).
     Pair {
@@ -152,8 +155,9 @@ pub struct SchemeKind {
     pub build: fn(&SchemeParameters) -> Result<Scheme, SchemeError>,
 }
 
-/// All schemes for dynamics, one line each.
-pub static KINDS: &[SchemeKind] = &[radau_iia::KIND, generalized_alpha::KIND, generalized_alpha::HHT_KIND];
+/// All schemes for dynamics, one line each; the first is the default.
+pub static KINDS: &[SchemeKind] =
+    &[generalized_alpha::KIND, generalized_alpha::HHT_KIND, radau_iia::KIND, energy_decaying::KIND];
 
 /// The scheme kind of that name.
 pub fn kind(name: &str) -> Option<&'static SchemeKind> {

@@ -19,6 +19,11 @@ use crate::joints::{Equations, MOST_EQUATIONS};
 pub struct Point<'a> {
     /// Places, twists and accelerations.
     pub at: &'a Kinematics,
+    /// Where the stresses of the geometric stiffness are taken from: `at` itself, or, while iterations are
+    /// far from equilibrium, the start of the step. Stresses of a far iterate can be larger than any that
+    /// the motion ever sees, for a small turn stretches a stiff element [cf. Magisano, Leonetti and Garcea
+    /// 2017].
+    pub stressed: &'a Kinematics,
     /// What has changed since the start of the step.
     pub increments: Increments<'a>,
     /// Multipliers [N, N m].
@@ -118,7 +123,7 @@ impl System {
         out.clear();
         let mut scratch = std::mem::replace(&mut out.scratch, Tangents::new(0));
         for batch in &self.batches {
-            batch.linearize(point.at, chart, &mut scratch, out);
+            batch.linearize((point.at, point.stressed), chart, &mut scratch, out);
         }
         out.scratch = scratch;
         for ((joint, rows), positions) in self.joints.iter().zip(&self.joint_rows).zip(&self.joint_positions)
@@ -227,7 +232,12 @@ fn joint_linearization(
     out: &mut Linearization,
 ) {
     let configuration = joint.configuration(&point.increments);
-    let (_, mu) = joint_multipliers(joint, &configuration, point);
+    // The curvature of the augmented term, w c ∂²c/∂q², is left out: it vanishes at the solution, and far
+    // from it, with w c much larger than the multipliers, it would spoil the correction.
+    let mut mu = Equations::default();
+    mu[..joint.equations()].copy_from_slice(
+        &point.multipliers[joint.first_multiplier..joint.first_multiplier + joint.equations()],
+    );
     let (rows, curvature) = joint.linearize(&configuration, &mu);
     let unknowns = local.size - local.equations;
     let gram: SMatrix<f64, LOCAL, LOCAL> = rows.transpose() * rows;

@@ -8,6 +8,7 @@ use lissom_solver::Pattern;
 use super::assembly::Linearization;
 use super::layout::{LOCKED, Layout};
 use super::state::{Kinematics, NodeMotion};
+use crate::elements::interval::Interval;
 use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
 
 /// All elements of one kind.
@@ -30,7 +31,14 @@ pub(crate) trait AnyBatch: Send + Sync {
     /// Free rows of each item.
     fn cliques(&self) -> Vec<Vec<usize>>;
     fn forces(&self, at: &Kinematics, out: &mut [f64]);
-    fn linearize(&self, at: &Kinematics, chart: Chart<'_>, scratch: &mut Tangents, out: &mut Linearization);
+    fn linearize(
+        &self,
+        at_stressed: (&Kinematics, &Kinematics),
+        chart: Chart<'_>,
+        scratch: &mut Tangents,
+        out: &mut Linearization,
+    );
+    fn mean_forces(&self, interval: &Interval<'_>, out: &mut [f64]);
     fn energy(&self, at: &Kinematics) -> Energy;
     fn as_any_mut(&mut self) -> &mut dyn Any;
 }
@@ -105,19 +113,30 @@ impl<E: Element> AnyBatch for Batch<E> {
             let rows = self.item_rows(index);
             let mut local = [0.0; MOST_UNKNOWNS];
             item.forces(at, &mut local[..rows.len()]);
-            for (&row, value) in rows.iter().zip(local) {
-                if row != LOCKED {
-                    out[row as usize] += value;
-                }
-            }
+            scatter(rows, &local, out);
         }
     }
 
-    fn linearize(&self, at: &Kinematics, chart: Chart<'_>, scratch: &mut Tangents, out: &mut Linearization) {
+    fn mean_forces(&self, interval: &Interval<'_>, out: &mut [f64]) {
+        for (index, item) in self.items.iter().enumerate() {
+            let rows = self.item_rows(index);
+            let mut local = [0.0; MOST_UNKNOWNS];
+            item.mean_forces(interval, &mut local[..rows.len()]);
+            scatter(rows, &local, out);
+        }
+    }
+
+    fn linearize(
+        &self,
+        (at, stressed): (&Kinematics, &Kinematics),
+        chart: Chart<'_>,
+        scratch: &mut Tangents,
+        out: &mut Linearization,
+    ) {
         for (index, item) in self.items.iter().enumerate() {
             let rows = self.item_rows(index);
             scratch.clear(rows.len());
-            item.linearize(at, scratch);
+            item.linearize_stressed(at, stressed, scratch);
             for (k, &node) in item.nodes().iter().enumerate() {
                 match chart {
                     Chart::Body => {}
@@ -154,6 +173,15 @@ impl<E: Element> AnyBatch for Batch<E> {
 
     fn as_any_mut(&mut self) -> &mut dyn Any {
         self
+    }
+}
+
+/// Adds local values to the rows that are free.
+fn scatter(rows: &[u32], local: &[f64], out: &mut [f64]) {
+    for (&row, value) in rows.iter().zip(local) {
+        if row != LOCKED {
+            out[row as usize] += value;
+        }
     }
 }
 

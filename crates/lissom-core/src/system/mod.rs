@@ -10,6 +10,7 @@ use std::sync::Arc;
 
 pub use assembly::{Linearization, Point};
 pub use batch::Chart;
+pub(crate) use batch::positions_of;
 pub use builder::{BuildError, Builder, Placement};
 pub use layout::{Freedoms, LOCKED, Layout};
 pub use state::{CoordinateId, CoordinateMotion, Kinematics, MotionChange, NodeId, NodeMotion, State};

@@ -122,6 +122,7 @@ impl Configuration {
     pub fn point(&self, augmentation: f64) -> Point<'_> {
         Point {
             at: &self.at,
+            stressed: &self.at,
             increments: Increments {
                 start: &self.start,
                 nodes: &self.changes,

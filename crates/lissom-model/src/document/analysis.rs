@@ -110,7 +110,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         penalty: penalty?.value,
         solver,
         tolerance: tolerance?.value,
-        max_iterations: count("max_iterations", 20),
+        max_iterations: count("max_iterations", 40),
         output_every: count("output_every", 1),
         span: name,
         start: start.as_ref()?.value,

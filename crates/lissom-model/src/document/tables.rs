@@ -335,7 +335,7 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
                 "",
                 "of Newton's iteration, in scaled units, default 1e-8",
             ),
-            optional("max_iterations", Shape::Count(1, 10_000), "", "of Newton's iteration, default 20"),
+            optional("max_iterations", Shape::Count(1, 10_000), "", "of Newton's iteration, default 40"),
             optional(
                 "output_every",
                 Shape::Count(1, 1_000_000_000),

@@ -63,8 +63,10 @@ pub(super) fn settings(analysis: &Analysis) -> Result<(Settings, Plan), Problem>
 }
 
 fn scheme(analysis: &Analysis) -> Result<Scheme, Problem> {
-    let (name, span) =
-        analysis.scheme.as_ref().map_or(("radau-iia", analysis.span), |word| (&*word.value, word.span));
+    let (name, span) = analysis
+        .scheme
+        .as_ref()
+        .map_or(("generalized-alpha", analysis.span), |word| (&*word.value, word.span));
     let fault = |error: lissom_core::registry::ParameterError| Problem::error(span, error.to_string());
     let given = |name: &str| {
         if analysis.parameters.has(name) {

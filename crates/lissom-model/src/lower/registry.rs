@@ -16,6 +16,13 @@ const SPECTRAL_RADIUS: Parameter = Parameter::optional(
     "Spectral radius at infinite frequency, 0 … 1; default 0.8.",
 );
 
+const DECAY: Parameter = Parameter::optional(
+    "spectral_radius",
+    ParameterType::Number,
+    "",
+    "Spectral radius at infinite frequency: 1 preserves energy, 0 (default) annihilates.",
+);
+
 /// The registry of everything the core knows.
 pub fn registry() -> Registry {
     Registry {
@@ -29,6 +36,7 @@ pub fn registry() -> Registry {
                 summary: kind.summary,
                 parameters: match kind.name {
                     "hht" => &[ALPHA],
+                    "energy-decaying" => &[DECAY],
                     "generalized-alpha" => &[SPECTRAL_RADIUS],
                     _ => &[],
                 },

@@ -1,0 +1,61 @@
+//! The energy-decaying scheme's promises, on a rigid and flexible spatial model.
+
+use lissom_core::analysis::Simulation;
+use lissom_model::Document;
+use lissom_model::lower::{lower, registry::registry};
+
+const MODEL: &str = include_str!("../../../examples/energy.toml");
+
+fn start(overrides: &[(&str, &str)]) -> (Simulation, usize) {
+    let overrides: Vec<(String, String)> =
+        overrides.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
+    let document = Document::parse_with(MODEL, "energy.toml", &registry(), &overrides)
+        .unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let lowered = lower(&document).unwrap_or_else(|report| panic!("{}", report.render(false)));
+    let simulation = Simulation::new(lowered.system, lowered.state, lowered.settings).expect("consistent");
+    (simulation, lowered.plan.steps)
+}
+
+fn total(simulation: &Simulation) -> f64 {
+    simulation.system().energy(&simulation.state().kinematics).total()
+}
+
+/// Energy that is exchanged: the scale that round-off is measured with.
+const SCALE: f64 = 1.0;
+
+#[test]
+fn energy_never_increases_for_any_step() {
+    // At 0.1 s Newton's iterations reach no solution of this model after 0.4 s.
+    for (step, end) in [("1e-4", "0.1"), ("1e-3", "2.0"), ("1e-2", "2.0"), ("3e-2", "2.0"), ("0.1", "0.4")] {
+        let (mut simulation, steps) = start(&[("analysis.step", step), ("analysis.end", end)]);
+        let first = total(&simulation);
+        let mut before = first;
+        let mut worst = f64::NEG_INFINITY;
+        for _ in 0..steps {
+            simulation.step().unwrap_or_else(|error| panic!("{error}"));
+            let now = total(&simulation);
+            worst = worst.max(now - before);
+            before = now;
+        }
+        println!(
+            "step {step}: energy {first:.6} to {before:.6}, largest increase {worst:e}, {:?}",
+            simulation.totals()
+        );
+        assert!(worst < 1e-12 * SCALE, "step {step}: energy grew by {worst:e}");
+    }
+}
+
+#[test]
+fn energy_is_preserved_where_nothing_is_to_be_damped() {
+    for (step, end) in [("2e-4", "0.2"), ("1e-3", "2.0")] {
+        let (mut simulation, steps) =
+            start(&[("analysis.step", step), ("analysis.end", end), ("analysis.spectral_radius", "1.0")]);
+        let first = total(&simulation);
+        for _ in 0..steps {
+            simulation.step().unwrap_or_else(|error| panic!("{error}"));
+        }
+        let change = total(&simulation) - first;
+        println!("step {step}: change of energy {change:e}, {:?}", simulation.totals());
+        assert!(change.abs() < 1e-10 * SCALE, "{change:e}");
+    }
+}
