@@ -134,8 +134,7 @@ impl Simulation {
     /// Estimates the condition number of the tangent factored last from a few solves with it; none if there
     /// is no factored tangent in use.
     pub fn condition_estimate(&mut self) -> Option<Condition> {
-        let pattern = self.system().pattern();
-        let value = self.factored_tangent()?.condition_estimate(&pattern);
+        let value = self.factored_condition()?;
         Some(Condition { value, method: ConditionMethod::OneNormEstimate })
     }
 }

@@ -5,7 +5,6 @@ use lissom_solver::{FactorError, FactorReport, SolverKind};
 use super::approach;
 use super::decaying::{DecayingEquations, DecayingWorkspace};
 use super::equations::{StepEquations, Workspace};
-use super::factorization::Factorization;
 use super::initial::{Initial, InitialError};
 use super::step_error::{StepError, pivot_hint};
 use crate::newton::{self, Failure, Limits, Memory};
@@ -184,12 +183,16 @@ impl Simulation {
         Some(&work.linearization)
     }
 
-    /// The tangent factored last, if it is still in use.
-    pub(super) fn factored_tangent(&mut self) -> Option<&mut Factorization> {
-        match &mut self.engine {
-            Engine::Collocation(work) if self.memory.has_tangent => Some(&mut work.factorization),
-            _ => None,
-        }
+    /// Estimates the condition number of the tangent factored last, in the 1-norm, if it is still in use.
+    pub(super) fn factored_condition(&mut self) -> Option<f64> {
+        let value = match &mut self.engine {
+            Engine::Collocation(work) => {
+                let pattern = &self.system.structure().pattern;
+                self.memory.has_tangent.then(|| work.factorization.condition_estimate(pattern))
+            }
+            Engine::Decaying(work) => self.memory.has_tangent.then(|| work.condition_estimate()),
+        };
+        value.map(|value| value.max(1.0))
     }
 
     /// Takes one step. On failure the state stays where it was.

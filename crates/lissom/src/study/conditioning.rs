@@ -3,6 +3,7 @@
 
 use lissom_core::analysis::{ConditionMethod, Simulation};
 use lissom_core::scaling::{ScaleBy, ScalingChoice};
+use lissom_core::schemes::Coupling;
 use lissom_model::lower::{Lowered, lower};
 use lissom_model::output::LogFigure;
 
@@ -91,7 +92,8 @@ impl Request {
 /// row.
 ///
 /// # Errors
-/// If the model is wrong, with one of the values or without, has load steps, or the study is interrupted.
+/// If the model is wrong, with one of the values or without, has load steps or the energy-decaying scheme, whose
+/// tangent is another one, or if the study is interrupted.
 pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table, StudyError> {
     let members = request.members();
     let mut rows = Vec::with_capacity(members.len());
@@ -100,6 +102,9 @@ pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table
         let lowered = lower(&model.document(&request.of(step, value))?)?;
         if lowered.plan.is_static {
             return Err(StudyError::NotDynamic);
+        }
+        if let Coupling::Jump(_) = lowered.settings.scheme.coupling {
+            return Err(StudyError::Scheme(lowered.settings.scheme.name));
         }
         planned += steps_of(&lowered).0;
         rows.push((step.clone(), lowered.settings.step_size, value.cloned()));

@@ -60,21 +60,24 @@ fn mistakes_have_their_exit_codes() {
 #[test]
 fn every_run_tells_how_well_its_tangent_is_conditioned() {
     let folder = Folder::new("telemetry");
-    let condition = |scaling: &str| {
+    let condition = |name: &str, scaling: &str| {
         let set = format!("analysis.scaling={scaling}");
-        let model = example("pendulum");
+        let model = example(name);
         let run =
             lissom(&["run", &model, "--set", "analysis.end=0.1", "--set", &set, "--no-plots"], folder.path());
         assert_eq!(run.code, 0, "{}", run.errors);
-        let tangent = summary(&folder.path().join("out/pendulum"))["tangent"].clone();
+        let tangent = summary(&folder.path().join("out").join(name))["tangent"].clone();
         for part in ["smallest_relative_pivot", "scale", "penalty"] {
             assert!(tangent[part].as_f64().is_some_and(|value| value > 0.0), "{part}");
         }
         let estimate = |when: &str| tangent["condition_estimate"][when].as_f64().unwrap();
         (estimate("start"), estimate("end"))
     };
-    let (start, end) = condition("physical");
+    let (start, end) = condition("pendulum", "physical");
     assert!(start < 1e3 && end < 1e3, "{start:e} {end:e}");
-    let (start, end) = condition("none");
+    let (start, end) = condition("pendulum", "none");
     assert!(start > 1e8 && end > 1e8, "{start:e} {end:e}");
+    // The energy-decaying scheme has a system of its own.
+    let (start, end) = condition("energy", "physical");
+    assert!(start > 1.0 && end > 1.0 && start < 1e12 && end < 1e12, "{start:e} {end:e}");
 }

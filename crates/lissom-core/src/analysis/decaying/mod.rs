@@ -17,7 +17,7 @@ mod layout;
 mod tangent;
 
 use lissom_motion::{Motion, Vector6, coadjoint_times};
-use lissom_solver::{FactorError, FactorReport, LinearSolver, SolverKind};
+use lissom_solver::{FactorError, FactorReport, LinearSolver, SolverKind, condition_estimate};
 
 pub(crate) use layout::DoubledLayout;
 
@@ -162,6 +162,11 @@ impl DecayingWorkspace {
 
     pub(crate) fn factor_entries(&self) -> usize {
         self.solver.factor_entries()
+    }
+
+    /// Condition number of the tangent factored last, estimated in the 1-norm.
+    pub(crate) fn condition_estimate(&mut self) -> f64 {
+        condition_estimate(&mut *self.solver, &self.layout.structure.pattern, &self.values)
     }
 
     /// Motion at the end of the step, its changes since the start and the violations there.
