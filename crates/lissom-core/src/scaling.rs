@@ -10,7 +10,7 @@
 use lissom_motion::{Motion, Vector6, lie_bracket, tangent_rate_times, tangent_times};
 use num_complex::Complex64;
 
-use crate::schemes::{Combination, Increments, Stage, Weights};
+use crate::schemes::{Combination, Increments, Scheme, Stage, Weights};
 use crate::system::{Kinematics, Layout, Linearization, MotionChange, State, System};
 
 /// How the equations are scaled.
@@ -173,8 +173,12 @@ impl Scaled {
     /// Scales a residual in place.
     pub fn scale_residual(&self, layout: &Layout, residual: &mut [f64]) {
         let (motion, constraints) = residual.split_at_mut(layout.coordinate_count());
-        motion.iter_mut().for_each(|value| *value *= self.dynamic);
-        constraints.iter_mut().for_each(|value| *value *= self.s);
+        for value in motion.iter_mut() {
+            *value *= self.dynamic;
+        }
+        for value in constraints.iter_mut() {
+            *value *= self.s;
+        }
     }
 
     /// Tangent of the scaled equations for a real scheme of one stage.
@@ -262,13 +266,13 @@ impl Scaled {
     pub fn stage_motion(
         &self,
         layout: &Layout,
-        stage: &Stage,
-        kind: Increments,
+        scheme: &Scheme,
         start: &State,
         unit: &UnitStart,
         increments: &StageIncrements<'_>,
         reached: &mut StageMotion,
     ) {
+        let (stage, kind) = (&scheme.stages[increments.stage], scheme.increments);
         let square = self.h * self.h;
         let StageMotion { at: out, changes, coordinate_changes } = reached;
         (out.time, out.elapsed) = self.instant(start.kinematics.time, stage);

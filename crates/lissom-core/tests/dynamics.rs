@@ -1,7 +1,5 @@
 //! Whole systems in time: orders of convergence, energy, drift, statics.
 
-mod common;
-
 use lissom_core::analysis::{Settings, Simulation};
 use lissom_core::elements::beam::SectionLaw;
 use lissom_core::elements::beam_line::{BeamLineDescription, add_beam_line};
@@ -112,6 +110,21 @@ fn straight(s: f64, length: f64) -> Motion {
     Motion::translation(Vector3::new(s * length, 0.0, 0.0))
 }
 
+/// The load factor is the time.
+#[derive(Debug)]
+struct Ramp;
+impl lissom_core::registry::TimeFunction for Ramp {
+    fn value(&self, time: f64) -> f64 {
+        time
+    }
+    fn first_derivative(&self, _: f64) -> f64 {
+        1.0
+    }
+    fn second_derivative(&self, _: f64) -> f64 {
+        0.0
+    }
+}
+
 #[test]
 fn cantilever_rolls_up_to_a_circle() {
     let mut builder = Builder::new();
@@ -139,19 +152,6 @@ fn cantilever_rolls_up_to_a_circle() {
     let end = *line.nodes.last().expect("there");
     let moment = Vector3::new(0.0, -2.0 * std::f64::consts::PI * bending / length, 0.0);
     let load = LOADS.iter().find(|kind| kind.name == "moment").expect("registered");
-    #[derive(Debug)]
-    struct Ramp;
-    impl lissom_core::registry::TimeFunction for Ramp {
-        fn value(&self, time: f64) -> f64 {
-            time
-        }
-        fn first_derivative(&self, _: f64) -> f64 {
-            1.0
-        }
-        fn second_derivative(&self, _: f64) -> f64 {
-            0.0
-        }
-    }
     let parameters = Parameters::new()
         .with("vector", Value::Vector(moment))
         .with("scale", Value::Function(std::sync::Arc::new(Ramp)));

@@ -112,12 +112,11 @@ impl StepEquations<'_> {
     /// Motions at all stages from the increments.
     pub(crate) fn update_motions(&mut self) {
         let layout = self.system.layout();
-        for (i, stage) in self.scheme.stages.iter().enumerate() {
+        for i in 0..self.scheme.stages.len() {
             let increments = StageIncrements { all: &self.work.increments, stage: i };
             self.scaled.stage_motion(
                 layout,
-                stage,
-                self.scheme.increments,
+                self.scheme,
                 self.start,
                 &self.work.unit,
                 &increments,
@@ -126,7 +125,7 @@ impl StepEquations<'_> {
         }
     }
 
-    fn point<'b>(&'b self, stage: usize) -> Point<'b> {
+    fn point(&self, stage: usize) -> Point<'_> {
         let work = &*self.work;
         let motion = &work.motions[stage];
         Point {
@@ -186,7 +185,9 @@ impl StepEquations<'_> {
         let count = self.system.layout().coordinate_count();
         let factor = self.scaled.multiplier_factor();
         for residual in &mut self.work.residuals {
-            residual.iter_mut().for_each(|value| *value *= -cut);
+            for value in residual.iter_mut() {
+                *value *= -cut;
+            }
         }
         let corrections = std::mem::take(&mut self.work.residuals);
         self.apply(&corrections, 1.0);
@@ -299,7 +300,9 @@ impl Equations for StepEquations<'_> {
             self.apply(&last, -1.0);
         }
         self.apply(&before, -0.5);
-        before.iter_mut().flatten().for_each(|value| *value *= 0.5);
+        for value in before.iter_mut().flatten() {
+            *value *= 0.5;
+        }
         self.work.residuals = last;
         self.work.before = before;
         self.work.backed_off = true;

@@ -142,11 +142,14 @@ pub struct Geometry {
     pub planar: bool,
 }
 
+/// Makes the equations of a joint.
+pub type MakeJoint = fn(&Parameters, &Geometry) -> Result<Box<dyn Joint>, ParameterError>;
+
 /// How a joint is made.
 #[derive(Clone, Copy, Debug)]
 pub enum Build {
     /// Between two nodes.
-    Relative(Frames, fn(&Parameters, &Geometry) -> Result<Box<dyn Joint>, ParameterError>),
+    Relative(Frames, MakeJoint),
     /// Prescribes the algebraic coordinate of another joint as a function of time.
     Coordinate(fn(&Parameters) -> Result<Function, ParameterError>),
 }

@@ -400,7 +400,9 @@ impl DecayingEquations<'_> {
         }
         let cut = if size > LARGEST_ROTATION { LARGEST_ROTATION / size } else { 1.0 };
         work.correction = size;
-        work.residual.iter_mut().for_each(|value| *value *= -cut);
+        for value in &mut work.residual {
+            *value *= -cut;
+        }
         let correction = std::mem::take(&mut work.residual);
         self.apply(&correction, 1.0);
         self.work.residual = correction;
@@ -518,7 +520,9 @@ impl Equations for DecayingEquations<'_> {
             self.apply(&last, -1.0);
         }
         self.apply(&before, -0.5);
-        before.iter_mut().for_each(|value| *value *= 0.5);
+        for value in &mut before {
+            *value *= 0.5;
+        }
         self.work.residual = last;
         self.work.before = before;
         self.work.backed_off = true;

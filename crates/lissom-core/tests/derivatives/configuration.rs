@@ -1,5 +1,4 @@
-//! Random frames, twists and parameters, and high-order differences, shared by the tests.
-#![allow(dead_code, reason = "each test file uses its own part")]
+//! Random configurations to differentiate at, and high-order differences.
 
 use std::sync::Arc;
 
@@ -9,35 +8,35 @@ use lissom_core::system::{Kinematics, LOCKED, Layout, MotionChange, Point, State
 use lissom_motion::{Motion, Vector3, Vector6};
 
 /// A small generator of numbers in -1 … 1 that is the same on every machine.
-pub struct Random(u64);
+pub(crate) struct Random(u64);
 
 impl Random {
-    pub fn new(seed: u64) -> Self {
+    pub(crate) fn new(seed: u64) -> Self {
         Self(seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1)
     }
 
-    pub fn number(&mut self) -> f64 {
+    pub(crate) fn number(&mut self) -> f64 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;
         self.0 ^= self.0 << 17;
         (self.0 >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
     }
 
-    pub fn vector(&mut self) -> Vector3 {
+    pub(crate) fn vector(&mut self) -> Vector3 {
         Vector3::from_fn(|_, _| self.number())
     }
 
-    pub fn screw(&mut self) -> Vector6 {
+    pub(crate) fn screw(&mut self) -> Vector6 {
         Vector6::from_fn(|_, _| self.number())
     }
 
-    pub fn motion(&mut self) -> Motion {
+    pub(crate) fn motion(&mut self) -> Motion {
         Motion::exponential(&(1.5 * self.screw()))
     }
 }
 
 #[derive(Debug)]
-pub struct Wave;
+pub(crate) struct Wave;
 
 impl TimeFunction for Wave {
     fn value(&self, time: f64) -> f64 {
@@ -52,7 +51,7 @@ impl TimeFunction for Wave {
 }
 
 /// A value for every parameter of a kind.
-pub fn sample_parameters(parameters: &[Parameter], flag: bool, random: &mut Random) -> Parameters {
+pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &mut Random) -> Parameters {
     let mut result = Parameters::new();
     for parameter in parameters {
         let value = match parameter.holds {
@@ -71,18 +70,18 @@ pub fn sample_parameters(parameters: &[Parameter], flag: bool, random: &mut Rand
 }
 
 /// A configuration some way from the start of a step, with everything moving.
-pub struct Configuration {
-    pub start: Kinematics,
-    pub at: Kinematics,
-    pub node_increments: Vec<Vector6>,
-    pub changes: Vec<MotionChange>,
-    pub coordinate_increments: Vec<f64>,
-    pub multipliers: Vec<f64>,
-    pub violations: Vec<f64>,
+pub(crate) struct Configuration {
+    pub(crate) start: Kinematics,
+    pub(crate) at: Kinematics,
+    pub(crate) node_increments: Vec<Vector6>,
+    pub(crate) changes: Vec<MotionChange>,
+    pub(crate) coordinate_increments: Vec<f64>,
+    pub(crate) multipliers: Vec<f64>,
+    pub(crate) violations: Vec<f64>,
 }
 
 impl Configuration {
-    pub fn random(system: &System, state: &State, size: f64, random: &mut Random) -> Self {
+    pub(crate) fn random(system: &System, state: &State, size: f64, random: &mut Random) -> Self {
         let layout = system.layout();
         let start = state.kinematics.clone();
         let mut node_increments = Vec::new();
@@ -119,7 +118,7 @@ impl Configuration {
         Self { start, at, node_increments, changes, coordinate_increments, multipliers, violations }
     }
 
-    pub fn point(&self, augmentation: f64) -> Point<'_> {
+    pub(crate) fn point(&self, augmentation: f64) -> Point<'_> {
         Point {
             at: &self.at,
             stressed: &self.at,
@@ -135,7 +134,7 @@ impl Configuration {
     }
 
     /// The configuration with one unknown's place moved: by a body variation, or in its increment.
-    pub fn displaced(&self, system: &System, row: usize, change: f64, chart: bool) -> Self {
+    pub(crate) fn displaced(&self, system: &System, row: usize, change: f64, chart: bool) -> Self {
         let mut moved = self.copy();
         match unknown(system.layout(), row) {
             Unknown::Node(node, k) => {
@@ -161,7 +160,7 @@ impl Configuration {
         moved
     }
 
-    pub fn accelerated(&self, system: &System, row: usize, change: f64, order: usize) -> Self {
+    pub(crate) fn accelerated(&self, system: &System, row: usize, change: f64, order: usize) -> Self {
         let mut moved = self.copy();
         match (unknown(system.layout(), row), order) {
             (Unknown::Node(node, k), 1) => moved.at.nodes[node].twist[k] += change,
@@ -185,45 +184,39 @@ impl Configuration {
         }
     }
 
-    pub fn residual(&self, system: &System, augmentation: f64) -> Vec<f64> {
+    pub(crate) fn residual(&self, system: &System, augmentation: f64) -> Vec<f64> {
         let mut out = vec![0.0; system.layout().size()];
         system.residual(&self.point(augmentation), &mut out);
         out
     }
 }
 
-pub enum Unknown {
+pub(crate) enum Unknown {
     Node(usize, usize),
     Coordinate(usize),
     Multiplier(usize),
 }
 
-pub fn unknown(layout: &Layout, row: usize) -> Unknown {
+pub(crate) fn unknown(layout: &Layout, row: usize) -> Unknown {
     if row >= layout.coordinate_count() {
         return Unknown::Multiplier(row - layout.coordinate_count());
     }
-    for node in 0.. {
-        if node >= node_count(layout) {
-            break;
-        }
+    for node in 0..layout.node_count() {
         if let Some(k) = layout.rows_of_node(node).iter().position(|&r| r != LOCKED && r as usize == row) {
             return Unknown::Node(node, k);
         }
     }
-    let coordinate = (0..).find(|&c| layout.row_of_coordinate(c) == row).expect("every row has an unknown");
+    let coordinate =
+        (0..=row).find(|&c| layout.row_of_coordinate(c) == row).expect("every row has an unknown");
     Unknown::Coordinate(coordinate)
 }
 
-fn node_count(layout: &Layout) -> usize {
-    layout.node_count()
-}
-
-pub fn free(layout: &Layout, node: usize) -> [bool; 6] {
+pub(crate) fn free(layout: &Layout, node: usize) -> [bool; 6] {
     layout.rows_of_node(node).map(|row| row != LOCKED)
 }
 
 /// Sixth-order central difference of a vector function of one number, at 0.
-pub fn difference(function: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
+pub(crate) fn difference(function: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
     let width = 2e-2;
     let weights = [(1.0, 0.75), (2.0, -0.15), (3.0, 1.0 / 60.0)];
     let mut sum: Vec<f64> = Vec::new();

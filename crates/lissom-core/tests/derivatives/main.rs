@@ -1,8 +1,8 @@
 //! Every registered element and joint: its tangents are the derivatives of its forces.
 
-mod common;
+mod configuration;
 
-use common::{Configuration, Random, difference, sample_parameters};
+use configuration::{Configuration, Random, difference, sample_parameters};
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
 use lissom_core::joints::{self, Build};
