@@ -120,6 +120,8 @@ pub(crate) enum Measure {
     DivergenceOneSided,
     /// Largest `load` over the value, where the curve through the last four records turns: a limit point.
     Limit,
+    /// Largest violation of a constraint over all records, from positions [m, rad].
+    Violation,
     /// Whether the run reaches its end: 1 or 0.
     Completes,
 }

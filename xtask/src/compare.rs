@@ -70,6 +70,13 @@ fn worst(quantity: &Quantity, finished: &Finished) -> Result<Worst, String> {
         let reference = quantity.reference.unwrap_or(1.0);
         return Ok(Worst { reference, ours, difference: (ours - reference).abs() });
     }
+    if quantity.measure == Measure::Violation {
+        if let Some(failure) = &finished.failure {
+            return Err(format!("the run failed {failure}"));
+        }
+        let ours = finished.violation;
+        return Ok(Worst { reference: 0.0, ours, difference: ours / quantity.scale.unwrap_or(1.0) });
+    }
     let columns = Columns::new(&finished.record);
     let mut pairs = Vec::new();
     for (at, formula, reference) in &quantity.entries {
@@ -139,7 +146,9 @@ fn measure(
             let load = quantity.load.as_deref().ok_or("a limit point needs a load")?;
             limit(values, &columns.values(load)?[first..])
         }
-        Measure::Value | Measure::Completes => Err("this measure takes no formula".to_owned()),
+        Measure::Value | Measure::Completes | Measure::Violation => {
+            Err("this measure takes no formula".to_owned())
+        }
     }
 }
 
@@ -182,9 +191,10 @@ fn limit(displacements: &[f64], loads: &[f64]) -> Result<f64, String> {
         let (a, b) = (low + (high - low) / 3.0, high - (high - low) / 3.0);
         if cubic(a) < cubic(b) { low = a } else { high = b }
     }
-    let found = cubic(0.5 * (low + high));
-    if found > cubic(x[3] + 3.0 * (x[3] - x[2])) {
-        Ok(found)
+    let top = 0.5 * (low + high);
+    // A maximum at the far end is none.
+    if (top - x[3]) / (x[3] - x[2]) < 2.99 {
+        Ok(cubic(top))
     } else {
         Err("no limit point is in sight".to_owned())
     }

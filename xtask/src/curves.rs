@@ -95,7 +95,7 @@ fn difference(curve: &Curve, finished: &Finished, table: &Table) -> Result<Diffe
                 *table.get(*column).and_then(|column| column.get(index)).ok_or("no such column")?;
             most = most.max(reference.abs());
             let difference = (columns.value(formula, row)? - reference).abs();
-            if !(difference <= found.largest) {
+            if difference.total_cmp(&found.largest).is_gt() {
                 (found.largest, found.worst_at) = (difference, time);
             }
         }

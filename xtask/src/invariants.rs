@@ -10,6 +10,9 @@ use crate::outcome::{Row, Verdict};
 use crate::runs::{finish, short};
 use crate::transform::{in_millimetres, reversed, turned, unit_factor};
 
+/// Of Newton's iteration: what is left of a solution's error depends on units.
+const TOLERANCE: f64 = 1e-12;
+
 /// Runs an example as it stands and changed, and compares all outputs.
 pub(crate) fn invariant(root: &Path, invariant: &Invariant) -> Row {
     let change = match invariant.change {
@@ -51,7 +54,8 @@ fn difference(root: &Path, invariant: &Invariant, row: &mut Row) -> Result<(f64,
         Change::Turned => written(&turned(&table()?))?,
         Change::Units => written(&in_millimetres(&table()?))?,
     };
-    let overrides = [("analysis.end".to_owned(), invariant.end.to_string())];
+    let tight = |path: &str, value: f64| (path.to_owned(), format!("{value:?}"));
+    let overrides = [tight("analysis.end", invariant.end), tight("analysis.tolerance", TOLERANCE)];
     let run = |name: &str, text: &str| {
         let document =
             Model::from_text(name, text).document(&overrides).map_err(|report| report.render(false))?;
@@ -76,7 +80,7 @@ fn worst(change: Change, base: &Record, other: &Record) -> (f64, String) {
         let output = &base.columns[first].output;
         let count = base.columns[first..].iter().take_while(|column| column.output == *output).count();
         let difference = of_output(change, base, other, first..first + count);
-        if worst.1.is_empty() || !(difference <= worst.0) {
+        if worst.1.is_empty() || difference.total_cmp(&worst.0).is_gt() {
             worst = (difference, output.clone());
         }
         first += count;
@@ -106,7 +110,7 @@ fn values(change: Change, record: &Record, range: Range<usize>, row: usize, scal
         record.values[k][row] / factor
     };
     let values: Vec<f64> = range.clone().map(value).collect();
-    if change != Change::Turned || range.len() % 3 != 0 {
+    if change != Change::Turned || !range.len().is_multiple_of(3) {
         return values;
     }
     values.chunks(3).map(|vector| vector.iter().map(|value| value * value).sum::<f64>().sqrt()).collect()

@@ -48,9 +48,6 @@ struct VerifyArguments {
     /// Cases that run at the same time
     #[arg(long, default_value_t = 2)]
     threads: usize,
-    /// Write no report and no plots
-    #[arg(long)]
-    dry: bool,
     /// Print every row
     #[arg(long, short)]
     verbose: bool,

@@ -16,7 +16,7 @@ const GROUPS: [(&str, &str); 4] = [
     ("invariants", "Invariants"),
 ];
 
-/// Writes verification/REPORT.md after a whole run, verification/PARTIAL.md otherwise, and the plots.
+/// Writes report and plots: below verification/ after a whole run, below out/verification/ otherwise.
 pub(crate) fn write(
     root: &Path,
     cases: &[Case],

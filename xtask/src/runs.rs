@@ -18,14 +18,19 @@ pub(crate) struct Finished {
     pub(crate) failure: Option<String>,
     /// How long it took.
     pub(crate) wall: Duration,
+    /// Largest violation of a constraint [m, rad].
+    pub(crate) violation: f64,
     /// Mesh and step, in words.
     pub(crate) grid: String,
 }
 
+/// Model and overrides.
+type Key = (String, Vec<Override>);
+
 /// Runs by model and overrides.
 #[derive(Default)]
 pub(crate) struct Runs {
-    finished: RefCell<BTreeMap<(String, Vec<Override>), Rc<Finished>>>,
+    finished: RefCell<BTreeMap<Key, Rc<Finished>>>,
 }
 
 impl Runs {
@@ -61,6 +66,7 @@ pub(crate) fn finish(document: &Document) -> Result<Finished, String> {
     let (record, report) = session.record();
     Ok(Finished {
         failure: report.error().map(|error| format!("at {}: {error}", report.time)),
+        violation: report.violation,
         record,
         wall: began.elapsed(),
         grid: grid(document),

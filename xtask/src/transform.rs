@@ -54,8 +54,10 @@ pub(crate) fn turned(model: &Table) -> Table {
     for (name, table) in &mut model {
         match table {
             Value::Array(_) if name == "gravity" => turn(table),
-            Value::Table(entries) if name == "points" => {
-                entries.iter_mut().for_each(|(_, point)| turn(point))
+            Value::Table(points) if name == "points" => {
+                for (_, point) in points.iter_mut() {
+                    turn(point);
+                }
             }
             Value::Table(entries) if name != "parameters" => {
                 for (_, entry) in entries.iter_mut() {
@@ -129,9 +131,31 @@ pub(crate) fn in_millimetres(model: &Table) -> Table {
     model
 }
 
-/// Sections of stiffness [N, N m²].
+/// Keys that hold lengths, or lengths per time.
+const LENGTHS: [&str; 17] = [
+    "from",
+    "to",
+    "through",
+    "curve",
+    "at",
+    "at_base",
+    "at_tip",
+    "point",
+    "position",
+    "velocity",
+    "about",
+    "width",
+    "height",
+    "radius",
+    "outer_radius",
+    "thickness",
+    "center_of_mass",
+];
+
+/// Factors of a section's stiffness [N, N m²].
 const STIFFNESS: [f64; 6] = [1.0, 1.0, 1.0, 1e6, 1e6, 1e6];
 
+/// Converts one entry. Springs are torsional ones [N m/rad], as in the examples.
 fn convert(table: &str, key: &str, value: &mut Value) {
     match (table, key) {
         ("sections", "stiffness") => {
@@ -144,14 +168,11 @@ fn convert(table: &str, key: &str, value: &mut Value) {
                 scale(value, 1e-6);
             }
         }
-        ("springs", "stiffness" | "damping") => scale(value, 1e3),
         (_, "E" | "G") => scale(value, 1e-6),
         (_, "density") => scale(value, 1e-12),
         (_, "mass") => scale(value, 1e-3),
-        ("bodies", "inertia")
-        | (_, "from" | "to" | "through" | "curve" | "at" | "at_base" | "at_tip" | "point" | "position")
-        | (_, "velocity" | "about" | "width" | "height" | "radius" | "outer_radius" | "thickness")
-        | (_, "center_of_mass" | "length") => scale(value, 1e3),
+        ("springs", "stiffness" | "damping") | ("bodies", "inertia") => scale(value, 1e3),
+        (_, key) if LENGTHS.contains(&key) => scale(value, 1e3),
         _ => {}
     }
 }

@@ -42,7 +42,8 @@ impl VerifyError {
 
 /// The project's folder: of the run where cargo tells it, of the build otherwise.
 fn root() -> PathBuf {
-    let chores = std::env::var("CARGO_MANIFEST_DIR").unwrap_or_else(|_| env!("CARGO_MANIFEST_DIR").to_owned());
+    let chores =
+        std::env::var("CARGO_MANIFEST_DIR").unwrap_or_else(|_| env!("CARGO_MANIFEST_DIR").to_owned());
     Path::new(&chores).parent().map_or_else(PathBuf::new, Path::to_owned)
 }
 
@@ -57,9 +58,7 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<bool, VerifyError> {
     }
     let elapsed = began.elapsed();
     let whole = arguments.names.is_empty() && !arguments.quick;
-    if !arguments.dry {
-        report::write(&root, &cases, &outcomes, elapsed, whole)?;
-    }
+    report::write(&root, &cases, &outcomes, elapsed, whole)?;
     if arguments.readme {
         readme::rewrite(&root.join("README.md"), &report::summary(&cases, &outcomes))?;
     }
