@@ -20,6 +20,7 @@ stiffness = 100
 kind = "position"
 of = "weight"
 [analysis]
+scheme = "radau-iia"
 kind = "dynamics"
 end = 0.5
 step = 0.01

@@ -100,7 +100,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     let parameters =
         if dynamics { scheme_parameters(&reader, scheme.as_ref(), registry) } else { Parameters::new() };
     let solver = chosen(&reader, "solver", &registry.solvers);
-    let (penalty, tolerance) = (number("penalty", 1.0), number("tolerance", 1e-8));
+    let (penalty, tolerance) = (number("penalty", 1e-3), number("tolerance", 1e-8));
     let count = |key: &str, default| reader.count(key).map_or(default, |count| count.value);
     let analysis = Analysis {
         scheme,

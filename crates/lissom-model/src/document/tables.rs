@@ -327,7 +327,7 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
                 "scale of the equations, default physical",
             ),
             optional("augmented", Shape::Flag, "", "with the augmented Lagrangian term, default true"),
-            optional("penalty", Shape::NotNegative, "", "factor of the augmented term, default 1"),
+            optional("penalty", Shape::NotNegative, "", "factor of the augmented term, default 1e-3"),
             optional("solver", words(&registry.solvers), "", "linear solver"),
             optional(
                 "tolerance",
