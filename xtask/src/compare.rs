@@ -40,7 +40,8 @@ pub(crate) fn quantity(case: &Case, quantity: &Quantity, runs: &Runs) -> Row {
                 row.quantity = format!("{} ({} values)", row.quantity, quantity.entries.len());
                 row.ours = format!("{} (worst)", row.ours);
             }
-            row.difference = Some(worst.difference);
+            let is_number = quantity.measure != Measure::Completes;
+            row.difference = is_number.then_some(worst.difference);
             let words = format!("differs by {:.2e}", worst.difference);
             row.verdict = Verdict::of(worst.difference <= quantity.tolerance, words, open);
         }
