@@ -110,7 +110,9 @@ const MOST_HALVINGS: usize = 12;
 /// Corrections that shrink by less than this are round-off, once they are small.
 const STALLED: f64 = 0.5;
 /// A stalled correction below this size is round-off whatever the reference [-].
-const ROUND_OFF: f64 = 1e-13;
+const ROUND_OFF: f64 = 1e-12;
+/// Round-off that is remembered, so that later solutions stop there at once, is smaller than this [-].
+const MOST_REMEMBERED: f64 = 1e-13;
 /// A stalled correction below this fraction of the reference is good enough to go on.
 const STALLED_FRACTION: f64 = 1e-6;
 
@@ -231,7 +233,7 @@ fn judge(
     }
     let near_round_off = size <= ROUND_OFF || size <= STALLED_FRACTION * reference;
     if contraction > STALLED && near_round_off && fresh {
-        if size <= ROUND_OFF {
+        if size <= MOST_REMEMBERED {
             memory.round_off = memory.round_off.max(size);
         }
         return Verdict::Stalled;

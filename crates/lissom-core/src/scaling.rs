@@ -3,7 +3,9 @@
 //! Before any discretisation [Bauchau, Epple and Bottasso 2009]: time τ = t/h, so that q' = h v and
 //! q'' = h² a, equations of motion times h², constraints times s, multipliers λ = (s/h²) λ̂:
 //!
-//!     M q'' + h D q' + h² K q + s Bᵀ (λ̂ + p C) = h² F,      s C = 0,      s = m_r + d_r h + k_r h²
+//! ```text
+//! M q'' + h D q' + h² K q + s Bᵀ (λ̂ + p C) = h² F,      s C = 0,      s = m_r + d_r h + k_r h²
+//! ```
 //!
 //! Elements and joints know none of this, schemes know unit steps only.
 

@@ -1,7 +1,9 @@
 //! Consistent initial values: velocities that satisfy the constraints' first derivative, accelerations
 //! and multipliers that satisfy equilibrium and their second.
 //!
-//!     [M Bᵀ; B 0] [Δv; ·] = [0; -(B v + ∂c/∂t)],      [M Bᵀ; B 0] [v̇; λ] = [-f; -(Ḃ v + ∂²c/∂t²)]
+//! ```text
+//! [M Bᵀ; B 0] [Δv; ·] = [0; -(B v + ∂c/∂t)],      [M Bᵀ; B 0] [v̇; λ] = [-f; -(Ḃ v + ∂²c/∂t²)]
+//! ```
 //!
 //! solved in scaled and augmented form, like a step.
 

@@ -4,12 +4,16 @@
 //! Interpolation relative to one node, hence objective and independent of the path
 //! [Crisfield and Jelenić 1999; Sonneville, Brüls and Bauchau 2017]:
 //!
-//!     d_i = log(H_r⁻¹ H_i),   d(ξ) = Σ N_i d_i,   H(ξ) = H_r exp d(ξ),   f = T(d) d'
+//! ```text
+//! d_i = log(H_r⁻¹ H_i),   d(ξ) = Σ N_i d_i,   H(ξ) = H_r exp d(ξ),   f = T(d) d'
+//! ```
 //!
 //! r reference node, ' derivative with respect to arc length, f the deformed section's "twist per
 //! length", strain ε = f - f₀. With the energy ½ ∫ εᵀ C ε on N - 1 Gauss points and S = w C ε:
 //!
-//!     g_i = Σ [N_i' Tᵀ S + N_i (∂(T d')/∂d)ᵀ S],   F_i = T(d_i)⁻ᵀ g_i,   F_r = - Σ Ad(exp(-d_i))ᵀ F_i
+//! ```text
+//! g_i = Σ [N_i' Tᵀ S + N_i (∂(T d')/∂d)ᵀ S],   F_i = T(d_i)⁻ᵀ g_i,   F_r = - Σ Ad(exp(-d_i))ᵀ F_i
+//! ```
 //!
 //! All is built from relative motions: neither forces nor tangents change when the element moves
 //! rigidly.

@@ -4,7 +4,9 @@
 //! at three Gauss points, and what it misses of the change, δ = Δε - B ψ, put back along the relative
 //! increments ρ at half way:
 //!
-//!     B̄ = Σ w B(τ) + δ (Wρ)ᵀ / (ρᵀWρ),   B̄ ψ = Δε,   F̄ = B̄ᵀ S,   F̄·ψ = S·Δε   [after Gonzalez 1996, eq. 3.5]
+//! ```text
+//! B̄ = Σ w B(τ) + δ (Wρ)ᵀ / (ρᵀWρ),   B̄ ψ = Δε,   F̄ = B̄ᵀ S,   F̄·ψ = S·Δε   [after Gonzalez 1996, eq. 3.5]
+//! ```
 //!
 //! δ is of seventh order in ψ, rigid motion has ρ = 0, and any stress S does the work S·Δε. With fewer points
 //! δ would matter at small steps too, where its round-off, divided by ρ, is worse than what it mends.

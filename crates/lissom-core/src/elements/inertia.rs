@@ -1,7 +1,9 @@
 //! Inertia of a rigid body frame with gravity: a rigid body, a point mass, or a beam node's share of
 //! the beam. In body axes the mass matrix is constant.
 //!
-//!     f = M (V̇ - γ) - ad_Vᵀ M V,     γ = (Rᵀ g, 0)
+//! ```text
+//! f = M (V̇ - γ) - ad_Vᵀ M V,     γ = (Rᵀ g, 0)
+//! ```
 //!
 //! M 6x6 mass matrix about the node, V twist, g gravity. [Sonneville, Cardona and Brüls 2014, eq. 25]
 

@@ -1,6 +1,8 @@
 //! Spring and damper between two points of two nodes, along the line that joins them.
 //!
-//!     Δ = x_B - x_A,   ℓ = |Δ|,   u = Δ/ℓ,   F = k (ℓ - ℓ₀) + c ℓ̇
+//! ```text
+//! Δ = x_B - x_A,   ℓ = |Δ|,   u = Δ/ℓ,   F = k (ℓ - ℓ₀) + c ℓ̇
+//! ```
 
 use lissom_motion::{Matrix3, Vector3, rotation_tangent, skew};
 use nalgebra::SMatrix;

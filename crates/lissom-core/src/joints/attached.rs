@@ -1,8 +1,10 @@
 //! A joint in its place: between two nodes, with its rows in the system. Turns the joint's equations in
 //! the relative motion into equations in the unknowns of the nodes.
 //!
-//!     G = H_A⁻¹ H_B of the joint frames,   η = δh_B - Ad(G⁻¹) δh_A,   w = (∂c/∂η)ᵀ μ
-//!     wrench on the tip's joint frame w, on the base's -Ad(G⁻¹)ᵀ w
+//! ```text
+//! G = H_A⁻¹ H_B of the joint frames,   η = δh_B - Ad(G⁻¹) δh_A,   w = (∂c/∂η)ᵀ μ
+//! wrench on the tip's joint frame w, on the base's -Ad(G⁻¹)ᵀ w
+//! ```
 
 use lissom_motion::{Matrix6, Motion, Vector6, coadjoint_matrix};
 use nalgebra::{SMatrix, SVector};

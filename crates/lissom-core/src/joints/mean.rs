@@ -1,7 +1,9 @@
 //! A joint's gradient over an interval: linear in the increments, it gives exactly the change of the
 //! equations, so that constraint forces do no work when violations do not change.
 //!
-//!     B̄ = B + δ wᵀ / (w·σ),   δ = ΔC - B σ,   B̄ σ = ΔC            [after Gonzalez 1999]
+//! ```text
+//! B̄ = B + δ wᵀ / (w·σ),   δ = ΔC - B σ,   B̄ σ = ΔC            [after Gonzalez 1999]
+//! ```
 //!
 //! with B the mean of three Gauss points, σ the increments and w their weighted relative part: zero for rigid motion.
 

@@ -4,8 +4,10 @@
 //! Legend: i end of the last step, j after the jump, f end of this one; k jump i-j, g glide j-f; d increments
 //! and v rates (unit step), F mean forces, F* with the dissipative part α/2:
 //!
-//!     v_g = d_k + d_g,   d_k = -⅓ (v_g - v_k*),   v_k* = v_k + (α/2)(v_j - v_i)
-//!     M (v_f - v_i) = -F_g,   M (v_j - v_i) = ⅓ (F_g - F_k*)
+//! ```text
+//! v_g = d_k + d_g,   d_k = -⅓ (v_g - v_k*),   v_k* = v_k + (α/2)(v_j - v_i)
+//! M (v_f - v_i) = -F_g,   M (v_j - v_i) = ⅓ (F_g - F_k*)
+//! ```
 //!
 //! so that the energy changes by -(α/2) [(v_j - v_i)ᵀ M (v_j - v_i) + F_d·d_k] ≤ 0 in a step. The proof, also
 //! for frames that turn and for constraints, stands in the theory chapter of the book.

@@ -3,8 +3,10 @@
 //!
 //! Legend: v rate, v̇ curvature, a the scheme's memory, z increment.
 //!
-//!     z = v_n + (½ - β) a_n + β a_{n+1},      v_{n+1} = v_n + (1 - γ) a_n + γ a_{n+1}
-//!     (1 - α_m) a_{n+1} + α_m a_n = (1 - α_f) v̇_{n+1} + α_f v̇_n
+//! ```text
+//! z = v_n + (½ - β) a_n + β a_{n+1},      v_{n+1} = v_n + (1 - γ) a_n + γ a_{n+1}
+//! (1 - α_m) a_{n+1} + α_m a_n = (1 - α_f) v̇_{n+1} + α_f v̇_n
+//! ```
 //!
 //! Equilibrium and constraints hold at the end of the step.
 

@@ -3,7 +3,9 @@
 //! Legend: D_i increment at stage i, measured from going on with the rate at the start, so that
 //! q' = Σ (A⁻¹)_ij D_j and q'' = Σ (A⁻²)_ij D_j without terms of the start.
 //!
-//!     A = [5/12 -1/12; 3/4 1/4],   c = (1/3, 1),   A⁻¹ = [3/2 1/2; -9/2 5/2],   A⁻² = [0 2; -18 4]
+//! ```text
+//! A = [5/12 -1/12; 3/4 1/4],   c = (1/3, 1),   A⁻¹ = [3/2 1/2; -9/2 5/2],   A⁻² = [0 2; -18 4]
+//! ```
 //!
 //! A⁻¹ = T diag(μ, μ̄) T⁻¹ with μ = 2 + i√2: with one tangent for both stages the linear systems come
 //! apart into one complex system of the size of a single stage. Its real form must not be eliminated first

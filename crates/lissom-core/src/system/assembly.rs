@@ -1,6 +1,8 @@
 //! Residual and linearisation of the whole system in SI. Knows no time step, scheme or scaling.
 //!
-//!     coordinates:  M(q) a + f(q, v, t) + Bᵀ μ,   μ = λ + w c        multipliers:  c(q, t)
+//! ```text
+//! coordinates:  M(q) a + f(q, v, t) + Bᵀ μ,   μ = λ + w c        multipliers:  c(q, t)
+//! ```
 //!
 //! where the weight w of the augmented Lagrangian term is somebody else's choice.
 

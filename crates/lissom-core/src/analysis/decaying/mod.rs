@@ -3,9 +3,11 @@
 //! Unknowns: jump d_k (i to j) and glide d_g (j to f) of every node, H_j = H_i exp d_k, H_f = H_j exp d_g;
 //! multipliers λ of the constraints at f; and one multiplier κ per algebraic coordinate.
 //!
-//!     glide rows:  M (v_f - v_i) - Γ + F̄_g + B̄_gᵀ λ = 0,              Γ = ad_{v_g}ᵀ M v_g
-//!     jump rows:   M (v_j - v_i) - ⅓ (F̄_g - F̄_k* + (B̄_g - B̄_k)ᵀ λ) + B̄_kᵀ a κ = 0
-//!     C_f = 0,     aᵀ C_j = 0
+//! ```text
+//! glide rows:  M (v_f - v_i) - Γ + F̄_g + B̄_gᵀ λ = 0,              Γ = ad_{v_g}ᵀ M v_g
+//! jump rows:   M (v_j - v_i) - ⅓ (F̄_g - F̄_k* + (B̄_g - B̄_k)ᵀ λ) + B̄_kᵀ a κ = 0
+//! C_f = 0,     aᵀ C_j = 0
+//! ```
 //!
 //! All mean forces and gradients give exactly the change of what they belong to, so that the constraints'
 //! work is λ·(C_f - C_j + C_j - C_i) = 0.

@@ -1,8 +1,10 @@
 //! Tangent of the energy-decaying scheme: from the single system's stiffness, damping and mass to jumps and
 //! glides.
 //!
-//!     δh_j = T(d_k) δd_k,      δh_f = Ad(exp(-d_g)) T(d_k) δd_k + T(d_g) δd_g
-//!     δF̄_g ≈ ½ K (δh_j + δh_f),      δF̄_k* ≈ ½ (1 + α) K δh_j
+//! ```text
+//! δh_j = T(d_k) δd_k,      δh_f = Ad(exp(-d_g)) T(d_k) δd_k + T(d_g) δd_g
+//! δF̄_g ≈ ½ K (δh_j + δh_f),      δF̄_k* ≈ ½ (1 + α) K δh_j
+//! ```
 //!
 //! with K, D and M at the end of the step: in body axes they change little with the motion. The unknowns of the
 //! linear system are jump and whole step, d_k and d_k + d_g: then the blocks of the jumps are
