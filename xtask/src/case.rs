@@ -77,15 +77,22 @@ pub(crate) struct Case {
 pub(crate) struct Run {
     /// File in the case's folder; `model.toml` if it is not given.
     pub(crate) model: Option<String>,
+    /// Elements of the blade in the file that the case `needs`; the model is its tables and this file together.
+    pub(crate) blade: Option<usize>,
     /// Paths into the model and what is put there.
     #[serde(default)]
     pub(crate) set: BTreeMap<String, toml::Value>,
 }
 
 impl Run {
+    /// The model's file.
+    pub(crate) fn path(&self, folder: &Path) -> PathBuf {
+        folder.join(self.model.as_deref().unwrap_or("model.toml"))
+    }
+
     /// The model.
     pub(crate) fn model(&self, folder: &Path) -> Result<Model, CaseError> {
-        let path = folder.join(self.model.as_deref().unwrap_or("model.toml"));
+        let path = self.path(folder);
         Model::read(&path).map_err(|error| CaseError::Unreadable {
             path: path.display().to_string(),
             reason: error.to_string(),

@@ -1,5 +1,6 @@
 //! Chores of the project, as `cargo xtask verify`. Knows no mechanics: it runs models and compares numbers.
 
+mod blade;
 mod case;
 mod compare;
 mod curves;

@@ -2,12 +2,14 @@
 
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
-use lissom::{Document, Override, Record};
+use lissom::{Document, Model, Override, Record};
 use lissom_model::document::AnalysisKind;
 
+use crate::blade;
 use crate::case::{Case, Run};
 
 /// What a run came to.
@@ -30,10 +32,16 @@ type Key = (String, Vec<Override>);
 /// Runs by model and overrides.
 #[derive(Default)]
 pub(crate) struct Runs {
+    references: Option<PathBuf>,
     finished: RefCell<BTreeMap<Key, Rc<Finished>>>,
 }
 
 impl Runs {
+    /// No runs yet; data of third parties are in `references`.
+    pub(crate) fn new(references: Option<&Path>) -> Self {
+        Self { references: references.map(Path::to_owned), ..Self::default() }
+    }
+
     /// The run, made now or before.
     pub(crate) fn get(
         &self,
@@ -42,15 +50,29 @@ impl Runs {
         further: &BTreeMap<String, toml::Value>,
     ) -> Result<Rc<Finished>, String> {
         let overrides = run.overrides(further);
-        let key = (run.model.clone().unwrap_or_default(), overrides);
+        let key = (format!("{:?} {:?}", run.model, run.blade), overrides);
         if let Some(known) = self.finished.borrow().get(&key) {
             return Ok(Rc::clone(known));
         }
-        let model = run.model(&case.folder).map_err(|error| error.to_string())?;
+        let model = match run.blade {
+            None => run.model(&case.folder).map_err(|error| error.to_string())?,
+            Some(elements) => self.blade(case, run, elements)?,
+        };
         let document = model.document(&key.1).map_err(|report| report.render(false))?;
         let finished = Rc::new(finish(&document)?);
         self.finished.borrow_mut().insert(key, Rc::clone(&finished));
         Ok(finished)
+    }
+
+    /// The model of a blade: the case's own tables after those of the blade.
+    fn blade(&self, case: &Case, run: &Run, elements: usize) -> Result<Model, String> {
+        let (Some(folder), Some(file)) = (&self.references, &case.needs) else {
+            return Err("a blade needs a file below the folder of references".to_owned());
+        };
+        let path = run.path(&case.folder);
+        let own = std::fs::read_to_string(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let tables = blade::tables(&folder.join(file), elements)?;
+        Ok(Model::from_text(&path.display().to_string(), &format!("lissom = 1\n\n{tables}{own}")))
     }
 
     /// Time taken by all runs together.

@@ -148,7 +148,7 @@ fn run(root: &Path, index: usize, case: &Case, references: Option<&Path>) -> Out
     if let Some(reason) = &case.open {
         outcome.rows.push(without_numbers(case, Verdict::Open(reason.clone())));
     }
-    let runs = Runs::default();
+    let runs = Runs::new(references);
     for quantity in &case.quantity {
         outcome.rows.push(compare::quantity(case, quantity, &runs));
         outcome.because.extend(quantity.because.iter().map(|words| format!("{}: {words}", quantity.name)));
