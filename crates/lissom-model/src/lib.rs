@@ -1,6 +1,6 @@
 //! Model files in, results out.
 //!
-//! A TOML text becomes a validated plain-data [`Document`](document::Document), or a [`Report`] that names every
+//! A TOML text becomes a validated plain-data [`Document`], or a [`Report`] that names every
 //! mistake with its place and a remedy. Results leave as tables, summaries and plots. No physics is done here.
 
 pub mod channels;
