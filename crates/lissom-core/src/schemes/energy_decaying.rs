@@ -10,7 +10,7 @@
 //! ```
 //!
 //! so that the energy changes by -(α/2) [(v_j - v_i)ᵀ M (v_j - v_i) + F_d·d_k] ≤ 0 in a step. The proof, also
-//! for frames that turn and for constraints, stands in the theory chapter of the book.
+//! for frames that turn and for constraints, stands in `docs/theory/energy-decaying.md`.
 
 use super::{Combination, Coupling, Increments, Scheme, SchemeError, SchemeKind, Stage, within};
 
