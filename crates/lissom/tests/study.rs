@@ -1,4 +1,5 @@
-//! Studies in memory: the published exponents on the pendulum, the pivots of the tip crank.
+//! Studies in memory: the published exponents on the pendulum, the pivots of the tip crank, orders of schemes,
+//! round-off at tiny steps.
 
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -6,7 +7,7 @@ use std::path::Path;
 use lissom::Model;
 use lissom::core::analysis::ConditionMethod;
 use lissom::core::scaling::ScaleBy;
-use lissom::study::{StudyError, conditioning, factorization};
+use lissom::study::{StudyError, conditioning, convergence, factorization, roundoff};
 
 /// Powers of ten between two published values.
 const FLAT: f64 = 1.2;
@@ -179,4 +180,82 @@ fn without_the_augmented_term_elimination_stops_at_the_massless_rotation() {
     let csv = table.csv();
     assert!(csv.contains("none,false,skyline,false,coordinate `L.angle`,,"), "{csv}");
     assert!(csv.lines().all(|line| line.split(',').count() == 15));
+}
+
+#[test]
+fn schemes_converge_with_their_orders() {
+    let request = convergence::Request {
+        schemes: texts(&["generalized-alpha(0.8)", "hht(-0.3)", "radau-iia"]),
+        steps: texts(&["2e-2", "1e-2", "5e-3"]),
+        reference: ("radau-iia".to_owned(), "5e-4".to_owned()),
+        output: "bob".to_owned(),
+        overrides: vec![],
+    };
+    let table =
+        convergence::study(&example("pendulum"), &request, &|_, _| ControlFlow::Continue(())).unwrap();
+    assert_eq!((table.rows.len(), table.instants), (9, 50));
+    assert!(!table.is_far_from_reference());
+    for (rows, wanted) in table.rows.chunks(3).zip([2.0, 2.0, 3.0]) {
+        assert_eq!(rows[0].order, None);
+        for row in &rows[1..] {
+            assert!((row.order.unwrap() - wanted).abs() < 0.1, "{row:?}");
+        }
+    }
+    // The curves are drawn to the right: finer steps have larger abscissas.
+    let figure = table.figure("");
+    assert_eq!(figure.curves.len(), 3);
+    assert!((figure.curves[0].1[2].0 - 200.0).abs() < 1e-9);
+    assert!(figure.svg().is_ok());
+}
+
+#[test]
+fn errors_are_relative_to_the_reference() {
+    // From 0.3 s to 0.35 s, the last instant that whole steps of 0.05 s meet before 0.39 s: the error of one
+    // instant, by hand.
+    let overrides = [("analysis.start", "0.3"), ("analysis.end", "0.39")]
+        .map(|(path, value)| (path.to_owned(), value.to_owned()));
+    let request = convergence::Request {
+        schemes: texts(&["generalized-alpha(0.8)"]),
+        steps: texts(&["0.05"]),
+        reference: ("radau-iia".to_owned(), "0.025".to_owned()),
+        output: "bob".to_owned(),
+        overrides: overrides.to_vec(),
+    };
+    let go_on = |_: usize, _: usize| ControlFlow::Continue(());
+    let table = convergence::study(&example("pendulum"), &request, &go_on).unwrap();
+    assert_eq!(table.instants, 1);
+    assert!((table.end - 0.35).abs() < 1e-12);
+    let place = |text: &str, step: &str| {
+        let set = [("analysis.end", "0.05"), ("analysis.step", step), ("analysis.tolerance", "1e-10")];
+        let set = set.map(|(path, value)| (path.to_owned(), value.to_owned()));
+        let (record, report) = Model::from_text("pendulum", text).session(&set).unwrap().record();
+        assert!(report.is_complete());
+        ["x", "y"].map(|axis| *record.column("bob", axis).unwrap().last().unwrap())
+    };
+    let path = format!("{}/../../examples/pendulum.toml", env!("CARGO_MANIFEST_DIR"));
+    let text = std::fs::read_to_string(path).unwrap();
+    let radau = text.replace("spectral_radius = 0.8\n", "").replace("generalized-alpha", "radau-iia");
+    let (run, reference) = (place(&text, "0.05"), place(&radau, "0.025"));
+    let by_hand = (run[0] - reference[0]).hypot(run[1] - reference[1]) / reference[0].hypot(reference[1]);
+    let error = *table.rows[0].outcome.as_ref().unwrap();
+    assert!(error > 1e-6 && (error / by_hand - 1.0).abs() < 1e-6, "{error:e} {by_hand:e}");
+}
+
+#[test]
+fn tiny_steps_leave_reactions_smooth() {
+    let request = roundoff::Request {
+        steps: texts(&["1e-3", "1e-5", "1e-7"]),
+        output: "force".to_owned(),
+        overrides: vec![],
+    };
+    let go_on = |_: usize, _: usize| ControlFlow::Continue(());
+    let table = roundoff::study(&example("pendulum"), &request, &go_on).unwrap();
+    let measured: Vec<_> = table.rows.iter().map(|row| *row.outcome.as_ref().unwrap()).collect();
+    // At 1 ms the output bends: omega^2 h^2 of about 10 rad^2/s^2.
+    assert!(measured[0].noise > 1e-6 && measured[0].noise < 1e-3, "{measured:?}");
+    assert!(measured[0].error > 1e-7 && !measured[0].is_doubtful(), "{measured:?}");
+    assert!(measured[2].noise < 1e-6 && measured[2].error < 1e-6, "{measured:?}");
+    assert_eq!(table.csv().lines().next(), Some("step_size,error,noise"));
+    let stopped = roundoff::study(&example("pendulum"), &request, &|_, _| ControlFlow::Break(()));
+    assert!(matches!(stopped, Err(StudyError::Interrupted)));
 }

@@ -2,11 +2,17 @@
 //! draws them. No mechanics is done here.
 
 pub mod conditioning;
+pub mod convergence;
 pub mod factorization;
 mod members;
+mod observed;
+pub mod roundoff;
+mod scheme_words;
 
 use lissom_core::analysis::{InitialError, StepError};
 use lissom_model::Report;
+
+use crate::report::RunError;
 
 pub use members::Watch;
 
@@ -31,6 +37,42 @@ pub enum StudyError {
         "this study does not know the equations of the scheme `{0}`: choose another with analysis.scheme"
     )]
     Scheme(String),
+    /// A run ended early.
+    #[error(transparent)]
+    Run(#[from] RunError),
+    /// A word that names no scheme.
+    #[error("`{word}` is no scheme for a study: {reason}")]
+    SchemeWord {
+        /// The word.
+        word: String,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// The model has no such output.
+    #[error("the model has no output `{name}`: its outputs are {known}")]
+    Output {
+        /// The name asked for.
+        name: String,
+        /// Those there are.
+        known: String,
+    },
+    /// Runs have no common instants.
+    #[error(
+        "the step size {step} s does not divide the largest, {coarsest} s: choose steps that are whole fractions \
+         of the largest, as 1e-2,5e-3,2.5e-3"
+    )]
+    Steps {
+        /// Step size, as written [s].
+        step: String,
+        /// The largest step size [s].
+        coarsest: f64,
+    },
+    /// The reference cannot tell the error of finer runs.
+    #[error("the reference's step size {0} s is larger than a step of the study: choose a smaller one")]
+    CoarseReference(String),
+    /// The output is zero, and nothing is relative to it.
+    #[error("the output `{0}` stays at zero: choose one that moves")]
+    NothingToCompare(String),
     /// It was told to stop.
     #[error("interrupted")]
     Interrupted,

@@ -38,6 +38,60 @@ fn factorization_names_the_unknown() {
 }
 
 #[test]
+fn convergence_leaves_table_and_plot() {
+    let folder = Folder::new("convergence");
+    let mut arguments = vec!["study".to_owned(), "convergence".to_owned(), example("pendulum")];
+    let schemes = ["--schemes", "radau-iia,hht(-0.3)", "--steps", "2e-2,1e-2", "--output", "bob"];
+    let reference = ["--reference", "radau-iia:2e-3", "--set", "analysis.end=0.2", "--out", "tables/c.csv"];
+    arguments.extend(schemes.iter().chain(&reference).map(|&word| word.to_owned()));
+    let run = lissom(&arguments, folder.path());
+    assert_eq!((run.code, run.errors.as_str()), (0, ""));
+    assert!(run.output.contains("10 instants up to 0.2 s"), "{}", run.output);
+    let csv = std::fs::read_to_string(folder.path().join("tables/c.csv")).unwrap();
+    let lines: Vec<Vec<&str>> = csv.lines().map(|line| line.split(',').collect()).collect();
+    assert_eq!(lines[0], ["scheme", "step_size", "error", "order"]);
+    let heads: Vec<_> = lines[1..].iter().map(|line| (line[0], line[1], line[3].is_empty())).collect();
+    let expected =
+        [("radau-iia", "2e-2"), ("radau-iia", "1e-2"), ("hht(-0.3)", "2e-2"), ("hht(-0.3)", "1e-2")];
+    assert_eq!(heads, expected.map(|(scheme, step)| (scheme, step, step == "2e-2")));
+    for file in ["c.svg", "c.png"] {
+        assert!(folder.path().join("tables").join(file).is_file(), "{file}");
+    }
+}
+
+#[test]
+fn a_run_that_fails_is_told_in_its_row() {
+    let folder = Folder::new("convergence-failure");
+    // Three iterations are enough for small steps only.
+    let mut arguments = vec!["study".to_owned(), "convergence".to_owned(), example("pendulum")];
+    let runs = ["--schemes", "radau-iia", "--steps", "1e-1,1e-3", "--output", "bob"];
+    let limits = ["analysis.end=0.1", "analysis.max_iterations=3"];
+    arguments.extend(runs.iter().map(|&word| word.to_owned()));
+    arguments.extend(["--reference", "radau-iia:5e-4"].map(str::to_owned));
+    arguments.extend(limits.iter().flat_map(|set| ["--set".to_owned(), (*set).to_owned()]));
+    let run = lissom(&arguments, folder.path());
+    assert_eq!(run.code, 3, "{}", run.errors);
+    assert!(run.errors.contains("warning: radau-iia, step_size 1e-1: "), "{}", run.errors);
+    let csv = std::fs::read_to_string(folder.path().join("out/study-convergence/pendulum.csv")).unwrap();
+    assert!(csv.contains("\nradau-iia,1e-1,,\nradau-iia,1e-3,"), "{csv}");
+}
+
+#[test]
+fn roundoff_leaves_table_and_plot() {
+    let folder = Folder::new("roundoff");
+    let model = example("pendulum");
+    let run = lissom(
+        &["study", "roundoff", &model, "--steps", "1e-3,1e-5,1e-7", "--output", "force"],
+        folder.path(),
+    );
+    assert_eq!((run.code, run.errors.as_str()), (0, ""));
+    let out = folder.path().join("out/study-roundoff");
+    let csv = std::fs::read_to_string(out.join("pendulum.csv")).unwrap();
+    assert!(csv.starts_with("step_size,error,noise\n1e-3,"), "{csv}");
+    assert!(out.join("pendulum.svg").is_file() && out.join("pendulum.png").is_file());
+}
+
+#[test]
 fn mistakes_have_their_exit_codes() {
     let folder = Folder::new("study-mistakes");
     let model = example("pendulum");
@@ -47,10 +101,25 @@ fn mistakes_have_their_exit_codes() {
         &["study", "conditioning", &model, "--steps", "0.1", "--vary", "mass"],
         &["study", "conditioning", &model, "--steps", "0.1", "--vary", "point_masses.ball.mass=1"],
         &["study", "factorization", "nowhere.toml"],
+        &["study", "roundoff", &model, "--steps", "1e-3", "--output", "bop"],
+        &["study", "convergence", &model, "--schemes", "radau-iia", "--steps", "1e-2", "--output", "bob"],
         &["study"],
     ] {
         let run = lissom(arguments, folder.path());
         assert_eq!(run.code, 2, "{arguments:?}: {}", run.errors);
+    }
+    for (schemes, steps, reference, words) in [
+        ("newmark", "1e-2", "radau-iia:1e-3", "`newmark` is no scheme"),
+        ("hht(0.5)", "1e-2", "radau-iia:1e-3", "outside"),
+        ("radau-iia", "1e-2,6e-3", "radau-iia:1e-3", "6e-3 s does not divide the largest"),
+        ("radau-iia", "1e-2", "radau-iia:2e-2", "larger than a step"),
+        ("radau-iia", "1e-2", "radau-iia", "SCHEME:STEP"),
+    ] {
+        let arguments = ["study", "convergence", &model, "--output", "bob", "--schemes", schemes];
+        let run =
+            lissom(&[&arguments[..], &["--steps", steps, "--reference", reference]].concat(), folder.path());
+        assert_eq!(run.code, 2, "{schemes} {steps} {reference}: {}", run.errors);
+        assert!(run.errors.contains(words), "{words}: {}", run.errors);
     }
     folder.write("bar.toml", CANTILEVER);
     let run = lissom(&["study", "conditioning", "bar.toml", "--steps", "0.1"], folder.path());

@@ -1,14 +1,12 @@
 //! `lissom study conditioning`: condition numbers over the step size.
 
 use std::fmt::Write;
-use std::ops::ControlFlow;
 use std::path::PathBuf;
 
 use clap::Args;
 use lissom::Model;
 use lissom::study::conditioning::{Measured, Request, SCALINGS, Table, study};
 use lissom_core::analysis::ConditionMethod;
-use lissom_model::output::LogFigure;
 
 use super::super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal::{self, Interrupt};
@@ -68,12 +66,12 @@ impl Conditioning {
         // The model alone need not fit together: its end may be before its own first step.
         let document = model.document(&request.first())?;
         show_warnings(&document);
-        let table = table(&model, &request, &interrupt)?;
+        let table = super::watched(&interrupt, |watch| study(&model, &request, watch))?;
         let path = super::table_path(self.out.as_ref(), "conditioning", &self.model.model);
         super::write(&path, table.csv().as_bytes())?;
         let title = document.title.clone().unwrap_or_else(|| model.name().to_owned());
         terminal::print(&told(&title, &table));
-        let drawn = draw(&table.figure(&title), &path)?;
+        let drawn = super::draw(&table.figure(&title), &path)?;
         terminal::print(&format!("results in {}{drawn}\n", path.display()));
         let failed = table.rows.iter().any(|row| row.outcome.is_err());
         Ok(if failed { Exit::Failed } else { Exit::Done })
@@ -86,32 +84,6 @@ impl Conditioning {
             overrides: self.model.set.clone(),
         }
     }
-}
-
-fn table(model: &Model, request: &Request, interrupt: &Interrupt) -> Result<Table, Failure> {
-    let bar = super::bar();
-    let table = study(model, request, &|done, planned| {
-        bar.set_length(planned as u64);
-        bar.set_position(done as u64);
-        if interrupt.is_noted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-    });
-    bar.finish_and_clear();
-    Ok(table?)
-}
-
-/// Draws the plot beside the table. What cannot be drawn is a warning: the numbers are there.
-fn draw(figure: &LogFigure, table: &std::path::Path) -> Result<String, Failure> {
-    let drawn = figure.svg().and_then(|svg| Ok((svg, figure.png()?)));
-    let (svg, png) = match drawn {
-        Ok(drawn) => drawn,
-        Err(error) => {
-            terminal::complain(&format!("warning: {error}\n"));
-            return Ok(String::new());
-        }
-    };
-    super::write(&table.with_extension("svg"), svg.as_bytes())?;
-    super::write(&table.with_extension("png"), &png)?;
-    Ok(", plot beside it (svg, png)".to_owned())
 }
 
 fn told(title: &str, table: &Table) -> String {

@@ -1,18 +1,23 @@
 //! `lissom study`: families of runs that show what a scaling or a scheme does to a model. One study per file.
 
 mod conditioning;
+mod convergence;
 mod factorization;
+mod roundoff;
 
 use std::fmt::Write;
 use std::io::{IsTerminal, stderr};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 use indicatif::{ProgressBar, ProgressStyle};
-use lissom::study::StudyError;
+use lissom::study::{StudyError, Watch};
 use lissom_model::files;
+use lissom_model::output::LogFigure;
 
 use super::{Exit, Failure};
+use crate::terminal::{self, Interrupt};
 
 /// Show what scaling, step size and solver do to a model.
 #[derive(Args)]
@@ -25,6 +30,8 @@ pub(super) struct Study {
 enum Kind {
     Conditioning(conditioning::Conditioning),
     Factorization(factorization::Factorization),
+    Convergence(convergence::Convergence),
+    Roundoff(roundoff::Roundoff),
 }
 
 impl Study {
@@ -32,6 +39,8 @@ impl Study {
         match self.kind {
             Kind::Conditioning(study) => study.run(),
             Kind::Factorization(study) => study.run(),
+            Kind::Convergence(study) => study.run(),
+            Kind::Roundoff(study) => study.run(),
         }
     }
 }
@@ -41,7 +50,13 @@ impl From<StudyError> for Failure {
         match error {
             StudyError::Model(report) => report.into(),
             StudyError::Interrupted => Self::new(Exit::Interrupted, error),
-            StudyError::NotDynamic | StudyError::Scheme(_) => Self::new(Exit::BadModel, error),
+            StudyError::NotDynamic
+            | StudyError::Scheme(_)
+            | StudyError::SchemeWord { .. }
+            | StudyError::Output { .. }
+            | StudyError::Steps { .. }
+            | StudyError::CoarseReference(_)
+            | StudyError::NothingToCompare(_) => Self::new(Exit::BadModel, error),
             other => Self::new(Exit::Failed, other),
         }
     }
@@ -62,6 +77,21 @@ fn write(path: &Path, contents: &[u8]) -> Result<(), Failure> {
         .map_or(Ok(()), files::create_folder)
         .and_then(|()| files::write(path, contents))
         .map_err(|error| Failure::file(Exit::Failed, &error))
+}
+
+/// Draws the plot beside the table. What cannot be drawn is a warning: the numbers are there.
+fn draw(figure: &LogFigure, table: &Path) -> Result<String, Failure> {
+    let drawn = figure.svg().and_then(|svg| Ok((svg, figure.png()?)));
+    let (svg, png) = match drawn {
+        Ok(drawn) => drawn,
+        Err(error) => {
+            terminal::complain(&format!("warning: {error}\n"));
+            return Ok(String::new());
+        }
+    };
+    write(&table.with_extension("svg"), svg.as_bytes())?;
+    write(&table.with_extension("png"), &png)?;
+    Ok(", plot beside it (svg, png)".to_owned())
 }
 
 /// Lines of right-aligned columns, the first `words` of them left-aligned.
@@ -98,6 +128,21 @@ fn short(value: f64) -> String {
         return format!("{value:.decimals$}");
     }
     format!("{value:.1e}")
+}
+
+/// The outcome of `study`, with a bar on the terminal while it runs; Ctrl-C ends it.
+fn watched<T>(
+    interrupt: &Interrupt,
+    study: impl FnOnce(Watch<'_>) -> Result<T, StudyError>,
+) -> Result<T, Failure> {
+    let bar = bar();
+    let outcome = study(&|done, planned| {
+        bar.set_length(planned as u64);
+        bar.set_position(done as u64);
+        if interrupt.is_noted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    bar.finish_and_clear();
+    Ok(outcome?)
 }
 
 /// A bar of steps over all runs; nothing in a pipe.

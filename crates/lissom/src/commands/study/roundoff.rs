@@ -1,0 +1,101 @@
+//! `lissom study roundoff`: what is left of an output when steps are tiny.
+
+use std::fmt::Write;
+use std::path::PathBuf;
+
+use clap::Args;
+use lissom::Model;
+use lissom::study::roundoff::{FINER, NOISY_STEPS, Request, STEPS, Table, study};
+
+use super::super::{Exit, Failure, ModelArguments, show_warnings};
+use crate::terminal::{self, Interrupt};
+
+/// Show what round-off leaves of an output, as a reaction, when steps are tiny.
+///
+/// With every step size h, 50 steps are taken from the start, whatever end the model has, with the scheme of the
+/// model. The error is the distance of the output at their end from the same time reached with steps of h/8,
+/// relative to the size of the output there: both the scheme's error and round-off. The noise is the largest second
+/// difference of the output from step to step over the last 20 steps, relative to the size of the output: where the
+/// output is smooth it shrinks as h², and what is left at tiny steps is round-off alone.
+#[derive(Args)]
+#[command(after_help = "\
+Example:
+  lissom study roundoff examples/pendulum.toml --steps 1e-3,1e-5,1e-7 --output force
+
+An error with ~ is not resolved: runs with steps of h/4 and h/8 differ by more than half of it. All components \
+of an output count together: choose one of one unit, and one that does not start from nothing: just then all is \
+relative to nothing. Newton's tolerance is 1e-12, or the model's if smaller; \
+--set analysis.tolerance=… sets another.
+The table goes to a CSV file (columns step_size, error, noise), the plot beside it.
+Exit code: 0 all is done; 2 wrong model or command line; 3 a run has no solution; 130 interrupted by Ctrl-C.")]
+pub(super) struct Roundoff {
+    #[command(flatten)]
+    model: ModelArguments,
+
+    /// Step sizes [s], as `1e-3,1e-5,1e-7`.
+    #[arg(long, value_name = "LIST", value_delimiter = ',', required = true)]
+    steps: Vec<String>,
+
+    /// The output to observe.
+    #[arg(long, value_name = "NAME")]
+    output: String,
+
+    /// File for the table; the plot goes beside it [default: out/study-roundoff/<model>.csv].
+    #[arg(long, value_name = "FILE.csv")]
+    out: Option<PathBuf>,
+}
+
+impl Roundoff {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let interrupt = Interrupt::listen();
+        let model = Model::read(&self.model.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let request = Request {
+            steps: self.steps.iter().map(|step| step.trim().to_owned()).collect(),
+            output: self.output,
+            overrides: self.model.set,
+        };
+        let document = model.document(&request.first())?;
+        show_warnings(&document);
+        let table = super::watched(&interrupt, |watch| study(&model, &request, watch))?;
+        let path = super::table_path(self.out.as_ref(), "roundoff", &self.model.model);
+        super::write(&path, table.csv().as_bytes())?;
+        let title = document.title.clone().unwrap_or_else(|| model.name().to_owned());
+        terminal::print(&told(&title, &request, &table));
+        let mut exit = Exit::Done;
+        for row in &table.rows {
+            if let Err(error) = &row.outcome {
+                terminal::complain(&format!("warning: step_size {}: {error}\n", row.step));
+                exit = Exit::Failed;
+            }
+        }
+        let drawn = super::draw(&table.figure(&title), &path)?;
+        terminal::print(&format!("results in {}{drawn}\n", path.display()));
+        Ok(exit)
+    }
+}
+
+fn told(title: &str, request: &Request, table: &Table) -> String {
+    let mut text = format!("{title}\n");
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "`{}` after {STEPS} steps, {}: error against steps of h/{}, noise of the last {NOISY_STEPS} steps",
+        request.output, table.scheme, FINER[0]
+    );
+    let mut lines = vec![["step_size", "error", "noise"].map(str::to_owned).to_vec()];
+    for row in &table.rows {
+        let mut line = vec![row.step.clone()];
+        match &row.outcome {
+            Ok(measured) => {
+                let doubt = if measured.is_doubtful() { "~" } else { "" };
+                line.extend([
+                    format!("{doubt}{}", super::short(measured.error)),
+                    super::short(measured.noise),
+                ]);
+            }
+            Err(_) => line.push("failed".to_owned()),
+        }
+        lines.push(line);
+    }
+    text + &super::aligned(&lines, 1)
+}

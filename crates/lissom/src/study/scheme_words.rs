@@ -1,0 +1,72 @@
+//! Schemes as a list on the command line names them: the word of the model file, with its parameter in
+//! parentheses. Knows no model.
+
+use lissom_core::schemes::{self, Scheme, SchemeParameters};
+use lissom_model::lower::registry::registry;
+
+use super::StudyError;
+
+/// The scheme that a text like `radau-iia` or `hht(-0.3)` names. Without a parameter it has its default.
+///
+/// # Errors
+/// If there is no such scheme, or it has no such parameter.
+pub(super) fn scheme_of(text: &str) -> Result<Scheme, StudyError> {
+    let wrong = |reason: String| StudyError::SchemeWord { word: text.to_owned(), reason };
+    let (word, parameter) = match text.trim().split_once('(') {
+        None => (text.trim(), None),
+        Some((word, rest)) => {
+            let number = rest.trim_end().strip_suffix(')').and_then(|inside| inside.trim().parse().ok());
+            let number: f64 = number
+                .ok_or_else(|| wrong("its parameter must be a number, as in `hht(-0.3)`".to_owned()))?;
+            (word.trim_end(), Some(number))
+        }
+    };
+    let registry = registry();
+    let (Some(kind), Some(entry)) =
+        (schemes::kind(word), registry.schemes.iter().find(|entry| entry.name == word))
+    else {
+        let known: Vec<_> = schemes::KINDS.iter().map(|kind| kind.name).collect();
+        return Err(wrong(format!("schemes are {}", known.join(", "))));
+    };
+    let mut parameters = SchemeParameters::default();
+    if let Some(value) = parameter {
+        match entry.parameters.first().map(|parameter| parameter.name) {
+            Some("alpha") => parameters.alpha = Some(value),
+            Some("spectral_radius") => parameters.spectral_radius = Some(value),
+            _ => return Err(wrong("it takes no parameter".to_owned())),
+        }
+    }
+    (kind.build)(&parameters).map_err(|error| wrong(error.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parameters_reach_the_scheme() {
+        let default = scheme_of("hht").unwrap();
+        let given = scheme_of(" hht ( -0.3 ) ").unwrap();
+        assert_ne!(default, given);
+        assert_eq!(given.name, scheme_of("hht(-0.30)").unwrap().name);
+        for word in ["generalized-alpha(0.8)", "energy-decaying(0.0)", "radau-iia"] {
+            assert!(scheme_of(word).is_ok(), "{word}");
+        }
+        assert_eq!(scheme_of("generalized-alpha(0.8)").unwrap(), scheme_of("generalized-alpha").unwrap());
+    }
+
+    #[test]
+    fn wrong_words_tell_what_is_right() {
+        for (word, hint) in [
+            ("newmark", "radau-iia"),
+            ("hht(-0.3", "`hht(-0.3)`"),
+            ("hht(x)", "`hht(-0.3)`"),
+            ("hht(0.3)", "alpha"),
+            ("radau-iia(3)", "no parameter"),
+            ("", "radau-iia"),
+        ] {
+            let told = scheme_of(word).unwrap_err().to_string();
+            assert!(told.contains(hint), "{word}: {told}");
+        }
+    }
+}
