@@ -23,8 +23,9 @@ Example:
   lissom study roundoff examples/pendulum.toml --steps 1e-3,1e-5,1e-7 --output force
 
 An error with ~ is not resolved: runs with steps of h/4 and h/8 differ by more than half of it. All components \
-of an output count together: choose one of one unit, and one that does not start from nothing: just then all is \
-relative to nothing. Newton's tolerance is 1e-12, or the model's if smaller; \
+of an output count together: choose one of one unit, and one that is not near zero at \
+the start: all is relative to its size there. What the start itself excites, as waves in beams, counts as noise \
+until steps resolve it. Newton's tolerance is 1e-12, or the model's if smaller; \
 --set analysis.tolerance=… sets another.
 The table goes to a CSV file (columns step_size, error, noise), the plot beside it.
 Exit code: 0 all is done; 2 wrong model or command line; 3 a run has no solution; 130 interrupted by Ctrl-C.")]
