@@ -73,6 +73,8 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     tell("stagnated_steps", json!(totals.stagnated_steps));
     tell("newton_iterations", json!(totals.newton_iterations));
     tell("factorizations", json!(totals.factorizations));
+    let fell_back = totals.fell_back_at.map(|row| simulation.system().layout().name_of(row));
+    tell("fell_back_at", json!(fell_back));
     tell("factor_entries", json!(simulation.factor_entries()));
     tell("smallest_relative_pivot", json!(totals.smallest_relative_pivot));
     tell("wall_seconds", json!(report.wall.as_secs_f64()));
@@ -125,6 +127,7 @@ pub fn of_failed_start(summary: &mut Summary, error: &dyn std::error::Error) {
     }
     // The names are there, so that scripts need not ask.
     for name in [
+        "fell_back_at",
         "factor_entries",
         "smallest_relative_pivot",
         "wall_seconds",

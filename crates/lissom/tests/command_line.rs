@@ -213,6 +213,20 @@ fn a_pendulum_swings_with_every_scheme_solver_and_scaling() {
 }
 
 #[test]
+fn a_vanishing_pivot_is_told_and_a_pivoting_solver_goes_on() {
+    let folder = Folder::new("pivot");
+    let model = example("tip-crank");
+    let run = lissom(
+        &["run", &model, "--no-plots", "--set", "analysis.augmented=false", "--set", "analysis.end=2e-3"],
+        folder.path(),
+    );
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(run.output.contains("L.angle"), "{}", run.output);
+    let facts = summary(&folder.path().join("out/tip-crank"));
+    assert_eq!(facts["fell_back_at"], "coordinate `L.angle`");
+}
+
+#[test]
 fn load_steps_lead_to_the_bent_cantilever() {
     let folder = Folder::new("statics");
     folder.write("cantilever.toml", CANTILEVER);

@@ -57,6 +57,8 @@ pub struct Totals {
     pub smallest_relative_pivot: f64,
     /// Largest carried violation of a constraint [m, rad].
     pub max_constraint_violation: f64,
+    /// The unknown whose pivot vanished, so that the run went on with a pivoting solver.
+    pub fell_back_at: Option<usize>,
 }
 
 /// Tolerance of schemes whose promise holds for the exact solution of their equations.
@@ -234,6 +236,7 @@ impl Simulation {
         let outcome =
             approach::solve(&mut equations, &self.settings.limits, &mut self.memory).map_err(|failure| {
                 self.memory = Memory::default();
+                let failure = equations.unforgiven(failure);
                 describe(&failure, &self.system, &self.state, &self.settings, &equations.worst_unknown())
             })?;
         equations.final_violations(&mut self.next.violations);
@@ -290,6 +293,9 @@ impl Simulation {
         totals.newton_iterations += report.iterations;
         totals.factorizations += report.factorizations;
         totals.stagnated_steps += usize::from(report.stagnated);
+        if let Engine::Collocation(work) = &self.engine {
+            totals.fell_back_at = work.fell_back.map(|(unknown, _)| unknown);
+        }
         if let Some(factor) = self.engine.report() {
             totals.smallest_relative_pivot = totals.smallest_relative_pivot.min(factor.relative_pivot());
         }
@@ -412,13 +418,13 @@ impl Engine {
                 representative,
                 settings.solver,
             ))),
-            _ => Self::Collocation(Box::new(Workspace::new(
-                system,
-                state,
-                &settings.scheme,
-                representative,
-                settings.solver,
-            ))),
+            _ => {
+                let mut work =
+                    Workspace::new(system, state, &settings.scheme, representative, settings.solver);
+                work.fall_back =
+                    lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
+                Self::Collocation(Box::new(work))
+            }
         }
     }
 

@@ -6,7 +6,7 @@ use lissom_solver::{FactorError, FactorReport};
 use super::approach::Approachable;
 use super::factorization::Factorization;
 use crate::joints::attached;
-use crate::newton::{Correction, Equations};
+use crate::newton::{Correction, Equations, Failure};
 use crate::scaling::{Representative, Scaled, StageIncrements, StageMotion, UnitStart};
 use crate::schemes::{Increments, Scheme};
 use crate::system::{Chart, Kinematics, LOCKED, Layout, Linearization, Point, State, System};
@@ -40,6 +40,10 @@ pub(crate) struct Workspace {
     correction: f64,
     /// Increments of a smaller step, see `approach`.
     saved: Vec<Vec<f64>>,
+    /// The solver to go on with where a pivot vanishes, until it is needed.
+    pub(crate) fall_back: Option<&'static lissom_solver::SolverKind>,
+    /// The unknown whose pivot vanished, and the pivot, once it was needed.
+    pub(crate) fell_back: Option<(usize, f64)>,
     pub(crate) linearization: Linearization,
     pub(crate) factorization: Factorization,
     /// Scaled size of one unit of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
@@ -75,6 +79,8 @@ impl Workspace {
             backed_off: false,
             correction: f64::INFINITY,
             saved: Vec::new(),
+            fall_back: None,
+            fell_back: None,
             linearization: Linearization::new(system),
             factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
             sizes,
@@ -241,6 +247,16 @@ impl StepEquations<'_> {
         Correction { size, reference }
     }
 
+    /// A failure that a pivoting solver could not help, as the vanished pivot that called for it.
+    pub(crate) fn unforgiven(&self, failure: Failure) -> Failure {
+        match self.work.fell_back {
+            Some((unknown, pivot)) => {
+                Failure::Factor(FactorError::ZeroPivot { unknown, pivot, largest: f64::NAN })
+            }
+            None => failure,
+        }
+    }
+
     /// Name of the unknown with the largest entry in the last corrections, or the first that is not
     /// finite.
     pub(crate) fn worst_unknown(&self) -> String {
@@ -283,8 +299,16 @@ impl Equations for StepEquations<'_> {
     fn renew_tangent(&mut self) -> Result<(), FactorError> {
         self.linearize();
         let work = &mut *self.work;
-        let report = work.factorization.factor(&self.scaled, &self.scheme.coupling, &work.linearization)?;
-        work.report = Some(report);
+        let coupling = &self.scheme.coupling;
+        let mut result = work.factorization.factor(&self.scaled, coupling, &work.linearization);
+        if let Err(FactorError::ZeroPivot { unknown, pivot, .. }) = result
+            && let Some(kind) = work.fall_back.take()
+        {
+            work.fell_back = Some((unknown, pivot));
+            work.factorization = Factorization::new(kind, self.system.structure(), coupling);
+            result = work.factorization.factor(&self.scaled, coupling, &work.linearization);
+        }
+        work.report = Some(result?);
         Ok(())
     }
 

@@ -168,6 +168,10 @@ fn told(heading: &str, session: &Session, report: &RunReport, folder: &Path) -> 
         let _ = write!(effort, ", {} steps ended at round-off", totals.stagnated_steps);
     }
     line("iterations", effort);
+    if let Some(row) = totals.fell_back_at {
+        let unknown = simulation.system().layout().name_of(row);
+        line("solver", format!("a pivot vanished for the {unknown}: went on with the pivoting solver"));
+    }
     let speed = if solving > 0.0 { totals.steps as f64 / solving } else { 0.0 };
     line(
         "time",
