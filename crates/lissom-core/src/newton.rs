@@ -101,6 +101,9 @@ pub enum Failure {
 const PATIENCE: f64 = 6.0;
 /// A contraction that has not been seen for a solution is trusted this much less.
 const DISTRUST: f64 = 3.0;
+/// The best contraction that is remembered: a last correction that happens to vanish says nothing about the
+/// next solution.
+const BEST_REMEMBERED: f64 = 1e-3;
 /// A better contraction than this is not believed of a tangent made for another solution: the largest part of
 /// a correction may vanish at once and hide a small part that shrinks slowly. A tenth costs no iteration where
 /// the contraction is as good as it looks.
@@ -228,7 +231,7 @@ fn judge(
     memory.contraction = Some(memory.contraction.map_or(contraction, |known| known.max(contraction)));
     let credible = if fresh { contraction } else { contraction.max(CREDIBLE) };
     if remaining(credible) * size <= goal {
-        memory.contraction = Some(contraction);
+        memory.contraction = Some(contraction.max(BEST_REMEMBERED));
         return Verdict::Converged;
     }
     let near_round_off = size <= ROUND_OFF || size <= STALLED_FRACTION * reference;
@@ -330,6 +333,22 @@ mod tests {
             (self.large, self.small) = (0.0, 0.0);
         }
         fn back_off(&mut self) {}
+    }
+
+    #[test]
+    fn a_vanishing_correction_is_no_licence_for_the_next_solutions() {
+        let mut root = Root::new(2.0_f64.sqrt(), 2.0 * 2.0_f64.sqrt());
+        let mut memory = Memory { has_tangent: true, contraction: Some(0.5), ..Memory::default() };
+        let limits = Limits { tolerance: 1e-12, max_iterations: 30 };
+        // Nearly solved already: the corrections soon vanish.
+        for _ in 0..3 {
+            root.x += 1e-15;
+            solve(&mut root, &limits, &mut memory).expect("converges");
+        }
+        // The next solution lies somewhere else and must be found.
+        root.x = 1.5;
+        solve(&mut root, &limits, &mut memory).expect("converges");
+        assert!((root.x - 2.0_f64.sqrt()).abs() < 1e-11, "{}", root.x);
     }
 
     #[test]
