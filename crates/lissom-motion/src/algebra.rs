@@ -35,6 +35,7 @@ pub fn rotation_part(v: &Vector6) -> Vector3 {
 }
 
 /// The matrix `ad_V = [[θ̃, ũ], [0, θ̃]]` of the twist `V = (u; θ)`.
+#[inline]
 pub fn lie_bracket_matrix(v: &Vector6) -> Matrix6 {
     DualMatrix::skew(DualVector::from_twist(v)).to_twist_matrix()
 }
@@ -52,6 +53,7 @@ pub fn coadjoint_times(v: &Vector6, w: &Vector6) -> Vector6 {
 }
 
 /// The matrix `X(W) = [[0, ñ], [ñ, m̃]]` of the wrench `w = (n; m)` with `ad_Vᵀ W = X(W) V`.
+#[inline]
 pub fn coadjoint_matrix(w: &Vector6) -> Matrix6 {
     DualMatrix::skew(DualVector::from_wrench(w)).to_wrench_matrix()
 }

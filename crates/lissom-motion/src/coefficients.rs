@@ -50,11 +50,13 @@ const CIRCULAR: [[f64; 2]; SMALL_TERMS] = {
     table
 };
 
+#[inline]
 const fn factorial(n: usize) -> f64 {
     falling_product(n, n)
 }
 
 /// `n (n - 1) …` of `count` factors.
+#[inline]
 const fn falling_product(n: usize, count: usize) -> f64 {
     let mut product = 1.0;
     let mut i = 0;
@@ -105,6 +107,7 @@ pub(crate) fn exponential_coefficients<const ORDERS: usize>(q: f64) -> [[f64; 2]
     }
 }
 
+#[inline]
 fn large_angle<const ORDERS: usize>(q: f64) -> [[f64; 2]; ORDERS] {
     let half = HalfAngle::from_square(q);
     if ORDERS == 1 || q > CLOSED_FROM {
@@ -265,6 +268,7 @@ fn remainder<const ORDERS: usize>(table: &[[f64; 4]], q: f64) -> [f64; ORDERS] {
 
 /// With `γ = (θ/2) cot(θ/2)`: `2 q γ' = γ - γ² - q/4`, differentiated twice more, and `e = (1 - γ)/q`.
 #[cold]
+#[inline]
 fn inverse_closed_form<const ORDERS: usize>(q: f64) -> [f64; ORDERS] {
     let half = HalfAngle::from_square(q);
     let mut gamma = [0.0; 4];

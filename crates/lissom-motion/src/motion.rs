@@ -95,6 +95,7 @@ impl Motion {
     }
 
     /// `Ad_H = [[R, x̃R], [0, R]]`: takes body twists to the base frame.
+    #[inline]
     pub fn adjoint(&self) -> Matrix6 {
         let rotation: Matrix3 = self.rotation.matrix();
         let mut matrix = Matrix6::zeros();
@@ -146,6 +147,7 @@ fn stretch(v: &Vector3, theta: &Vector3, beta: f64, gamma: f64) -> Vector3 {
 }
 
 impl Default for Motion {
+    #[inline]
     fn default() -> Self {
         Self::IDENTITY
     }

@@ -96,6 +96,7 @@ pub(crate) fn gradient(d: DualVector, value: Pair, slope: Pair, a: DualVector, w
 /// `∇k = w (d·a) + a (d·w) - 2 d (a·w)`:
 /// `γ (w aᵀ + a wᵀ) + (2 β' s + 2 γ' k - 2 γ a·w) I + h dᵀ + d hᵀ + (4 β'' s + 4 γ'' k) d dᵀ`,
 /// `h = 2 β' g + 2 γ' ∇k`.
+#[inline]
 pub(crate) fn hessian(
     d: DualVector,
     [value, slope, bend]: [Pair; 3],

@@ -76,6 +76,7 @@ impl Rotation {
     }
 
     #[cold]
+    #[inline]
     fn negated_or_half_turn(self) -> Self {
         let first = self.vector.iter().copied().find(|&component| component != 0.0).unwrap_or(0.0);
         if self.scalar < 0.0 || first < 0.0 {
@@ -130,6 +131,7 @@ impl Rotation {
     /// It is the dominant eigenvector of a symmetric 4 x 4 matrix (Bar-Itzhack 2000). For a rotation matrix all
     /// columns of that matrix are multiples of the quaternion; the largest (Shepperd 1978) starts a power iteration
     /// whose rate is the distance from orthonormality.
+    #[inline]
     pub fn from_matrix(m: &Matrix3) -> Self {
         let (xx, yy, zz) = (m[(0, 0)], m[(1, 1)], m[(2, 2)]);
         let (wx, wy, wz) = (m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)]);
@@ -166,6 +168,7 @@ impl Rotation {
 
     /// The rotation nearest to the one whose matrix has these columns; `None` if they are not a right-handed,
     /// nearly orthonormal triad (volume and lengths within 10 % of one).
+    #[inline]
     pub fn from_columns(first: &Vector3, second: &Vector3, third: &Vector3) -> Option<Self> {
         let near_one = |value: f64| (value - 1.0).abs() < 0.1;
         let lengths = [first, second, third].iter().all(|column| near_one(column.norm()));
@@ -175,6 +178,7 @@ impl Rotation {
 
     /// The rotation whose first axis points along `axis`, and whose second axis lies in the plane of `axis` and
     /// `reference`, on the side of `reference`. Lengths do not matter; `None` if one is zero or both are parallel.
+    #[inline]
     pub fn from_axis_and_reference(axis: &Vector3, reference: &Vector3) -> Option<Self> {
         let first = direction(axis)?;
         let normal = first.cross(&direction(reference)?);
@@ -188,12 +192,14 @@ impl Rotation {
     }
 
     /// The rotation by `angle` \[rad\] about the unit vector `axis`.
+    #[inline]
     pub fn about_axis(axis: &Vector3, angle: f64) -> Self {
         let (sine, cosine) = (0.5 * angle).sin_cos();
         Self { scalar: cosine, vector: axis * sine }
     }
 
     /// The Cayley map `(I - r̃/2)⁻¹ (I + r̃/2)`: the rotation by `2 atan(|r|/2)` about the direction of `r`.
+    #[inline]
     pub fn cayley(r: &Vector3) -> Self {
         let half = r * 0.5;
         let scalar = 1.0 / (1.0 + half.norm_squared()).sqrt();
@@ -204,6 +210,7 @@ impl Rotation {
     ///
     /// A half turn has none: there `r` is a finite vector so long that its Cayley map is the half turn to the last
     /// digit.
+    #[inline]
     pub fn inverse_cayley(&self) -> Vector3 {
         let Self { scalar, vector } = self.with_positive_scalar();
         vector * (2.0 / scalar.max(1e-100))
@@ -217,11 +224,13 @@ impl Rotation {
     }
 
     /// The quaternion `[w, x, y, z]`, scalar part first.
+    #[inline]
     pub fn quaternion(&self) -> [f64; 4] {
         [self.scalar, self.vector.x, self.vector.y, self.vector.z]
     }
 
     /// From a quaternion `[w, x, y, z]` of any length; `None` if it is zero or not finite.
+    #[inline]
     pub fn from_quaternion(quaternion: [f64; 4]) -> Option<Self> {
         let largest = quaternion.iter().fold(0.0_f64, |largest, component| largest.max(component.abs()));
         let finite = quaternion.iter().all(|component| component.is_finite());
@@ -238,12 +247,14 @@ fn polynomial(coefficients: &[f64], x: f64) -> f64 {
 }
 
 /// The unit vector along `v`; `None` if `v` is zero or not finite.
+#[inline]
 fn direction(v: &Vector3) -> Option<Vector3> {
     let largest = v.amax();
     (largest > 0.0 && v.iter().all(|component| component.is_finite())).then(|| (v / largest).normalize())
 }
 
 impl Default for Rotation {
+    #[inline]
     fn default() -> Self {
         Self::IDENTITY
     }
@@ -263,6 +274,7 @@ impl Mul for Rotation {
 }
 
 /// `exp(θ̃) - I`, accurate relative to its own size for the smallest `θ` \[rad\].
+#[inline]
 pub fn rotation_exponential_minus_identity(theta: &Vector3) -> Matrix3 {
     let q = theta.norm_squared();
     let half = HalfAngle::from_square(q);

@@ -62,6 +62,7 @@ impl ScrewTangent {
     }
 
     /// The 6 x 6 matrix `T`.
+    #[inline]
     pub fn matrix(&self) -> Matrix6 {
         operator::matrix(self.d, self.value).to_twist_matrix()
     }
@@ -79,6 +80,7 @@ impl ScrewTangent {
     }
 
     /// `∂(T a)/∂d`.
+    #[inline]
     pub fn derivative(&self, a: &Vector6) -> Matrix6 {
         operator::derivative(self.d, self.value, self.slope, DualVector::from_twist(a)).to_twist_matrix()
     }
@@ -91,6 +93,7 @@ impl ScrewTangent {
     }
 
     /// `∂(Tᵀ w)/∂d`: rows (force; moment), columns (translation; rotation); not symmetric.
+    #[inline]
     pub fn transpose_derivative(&self, w: &Vector6) -> Matrix6 {
         let (value, slope) = (self.value.transposed(), self.slope.transposed());
         operator::derivative(self.d, value, slope, DualVector::from_wrench(w)).to_wrench_matrix()
@@ -110,24 +113,28 @@ fn rotation_argument(theta: &Vector3) -> DualVector {
 }
 
 /// `T(θ)` of SO(3): `vee(exp(θ̃)ᵀ δexp(θ̃)) = T(θ) δθ`.
+#[inline]
 pub fn rotation_tangent(theta: &Vector3) -> Matrix3 {
     let d = rotation_argument(theta);
     operator::matrix(d, tangent_value(d)).real
 }
 
 /// `T(θ)⁻¹` of SO(3), `|θ| < 2π`.
+#[inline]
 pub fn rotation_inverse_tangent(theta: &Vector3) -> Matrix3 {
     let d = rotation_argument(theta);
     operator::matrix(d, inverse_value(d)).real
 }
 
 /// `T(d)` of SE(3): `vee(exp(d)⁻¹ δexp(d)) = T(d) δd`.
+#[inline]
 pub fn tangent(d: &Vector6) -> Matrix6 {
     let d = DualVector::from_twist(d);
     operator::matrix(d, tangent_value(d)).to_twist_matrix()
 }
 
 /// `T(d)⁻¹`, `|θ| < 2π`.
+#[inline]
 pub fn inverse_tangent(d: &Vector6) -> Matrix6 {
     let d = DualVector::from_twist(d);
     operator::matrix(d, inverse_value(d)).to_twist_matrix()
@@ -162,6 +169,7 @@ pub fn inverse_tangent_transpose_times(d: &Vector6, w: &Vector6) -> Vector6 {
 }
 
 /// `∂(T(d) a)/∂d`.
+#[inline]
 pub fn tangent_derivative(d: &Vector6, a: &Vector6) -> Matrix6 {
     ScrewTangent::new(d).derivative(a)
 }
@@ -173,11 +181,13 @@ pub fn tangent_derivative_transpose_times(d: &Vector6, a: &Vector6, w: &Vector6)
 }
 
 /// `∂(T(d)ᵀ w)/∂d`.
+#[inline]
 pub fn tangent_transpose_derivative(d: &Vector6, w: &Vector6) -> Matrix6 {
     ScrewTangent::new(d).transpose_derivative(w)
 }
 
 /// `∂²(wᵀ T(d) a)/∂d∂d`, symmetric.
+#[inline]
 pub fn tangent_hessian(d: &Vector6, a: &Vector6, w: &Vector6) -> Matrix6 {
     let d = DualVector::from_twist(d);
     let pairs = tangent_pairs::<4, 3>(d.dot(d));
@@ -191,6 +201,7 @@ pub fn tangent_rate_times(d: &Vector6, d_rate: &Vector6, a: &Vector6) -> Vector6
 }
 
 /// `∂(T(d)⁻¹ a)/∂d`, `|θ| < 2π`.
+#[inline]
 pub fn inverse_tangent_derivative(d: &Vector6, a: &Vector6) -> Matrix6 {
     ScrewTangent::inverse(d).derivative(a)
 }
@@ -202,11 +213,13 @@ pub fn inverse_tangent_derivative_transpose_times(d: &Vector6, a: &Vector6, w: &
 }
 
 /// `∂(T(d)⁻ᵀ w)/∂d`, `|θ| < 2π`.
+#[inline]
 pub fn inverse_tangent_transpose_derivative(d: &Vector6, w: &Vector6) -> Matrix6 {
     ScrewTangent::inverse(d).transpose_derivative(w)
 }
 
 /// `∂²(wᵀ T(d)⁻¹ a)/∂d∂d`, symmetric, `|θ| < 2π`.
+#[inline]
 pub fn inverse_tangent_hessian(d: &Vector6, a: &Vector6, w: &Vector6) -> Matrix6 {
     let d = DualVector::from_twist(d);
     let pairs = inverse_pairs::<4, 3>(d.dot(d));

@@ -411,21 +411,13 @@ enum Engine {
 
 impl Engine {
     fn new(system: &System, state: &State, settings: &Settings, representative: &Representative) -> Self {
-        match settings.scheme.coupling {
-            Coupling::Jump(_) => Self::Decaying(Box::new(DecayingWorkspace::new(
-                system,
-                state,
-                representative,
-                settings.solver,
-            ))),
-            _ => {
-                let mut work =
-                    Workspace::new(system, state, &settings.scheme, representative, settings.solver);
-                work.fall_back =
-                    lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
-                Self::Collocation(Box::new(work))
-            }
+        if matches!(settings.scheme.coupling, Coupling::Jump(_)) {
+            let work = DecayingWorkspace::new(system, state, representative, settings.solver);
+            return Self::Decaying(Box::new(work));
         }
+        let mut work = Workspace::new(system, state, &settings.scheme, representative, settings.solver);
+        work.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
+        Self::Collocation(Box::new(work))
     }
 
     fn factor_entries(&self) -> usize {
