@@ -19,7 +19,7 @@
 //! rigidly.
 
 use lissom_motion::{
-    Matrix6, Motion, Vector6, coadjoint_matrix, inverse_tangent, inverse_tangent_derivative,
+    Matrix6, Motion, ScrewTangent, Vector6, coadjoint_matrix, inverse_tangent, inverse_tangent_derivative,
     inverse_tangent_times, inverse_tangent_transpose_derivative, inverse_tangent_transpose_times,
     lie_bracket_matrix, tangent, tangent_derivative, tangent_derivative_transpose_times, tangent_hessian,
     tangent_rate_times, tangent_times, tangent_transpose_derivative, tangent_transpose_times,
@@ -266,15 +266,26 @@ impl<const N: usize> Element for Beam<N> {
         for station in &self.stations {
             let d = combine(&station.shape, &relative);
             let d_slope = combine(&station.slope, &relative);
-            let stress = station.weight * station.stress(&relative, rates.as_ref());
-            let along = tangent_transpose_times(&d, &stress);
-            let across = tangent_derivative_transpose_times(&d, &d_slope, &stress);
+            // Hot: the operator's coefficients serve strain and forces.
+            let operator = ScrewTangent::new(&d);
+            let mut strain = operator.times(&d_slope) - station.natural;
+            if let Some(rates) = &rates {
+                strain += station.law.damping * station.strain_rate(&d, &d_slope, rates);
+            }
+            let stress = station.weight * (station.law.stiffness * strain);
+            let along = operator.transpose_times(&stress);
+            let across = operator.derivative_transpose_times(&d_slope, &stress);
             for i in 0..N {
                 conjugate[i] += station.slope[i] * along + station.shape[i] * across;
             }
         }
-        let forces: Relative<N> =
-            std::array::from_fn(|i| inverse_tangent_transpose_times(&relative[i], &conjugate[i]));
+        let forces: Relative<N> = std::array::from_fn(|i| {
+            if i == Self::REFERENCE {
+                Vector6::zeros()
+            } else {
+                inverse_tangent_transpose_times(&relative[i], &conjugate[i])
+            }
+        });
         self.add_relative_forces(&relative, &forces, out);
     }
 
