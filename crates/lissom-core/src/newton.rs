@@ -112,8 +112,10 @@ const CREDIBLE: f64 = 0.1;
 const MOST_HALVINGS: usize = 12;
 /// Corrections that shrink by less than this are round-off, once they are small.
 const STALLED: f64 = 0.5;
-/// A stalled correction below this size is round-off whatever the reference [-].
-const ROUND_OFF: f64 = 1e-12;
+/// A stalled correction below this part of the tolerance, within limits, is round-off whatever the reference.
+const ROUND_OFF: f64 = 1e-4;
+/// Its limits [-].
+const ROUND_OFF_WITHIN: (f64, f64) = (1e-13, 1e-12);
 /// Round-off that is remembered, so that later solutions stop there at once, is smaller than this [-].
 const MOST_REMEMBERED: f64 = 1e-13;
 /// A stalled correction below this fraction of the reference is good enough to go on.
@@ -234,7 +236,8 @@ fn judge(
         memory.contraction = Some(contraction.max(BEST_REMEMBERED));
         return Verdict::Converged;
     }
-    let near_round_off = size <= ROUND_OFF || size <= STALLED_FRACTION * reference;
+    let round_off = (ROUND_OFF * limits.tolerance).clamp(ROUND_OFF_WITHIN.0, ROUND_OFF_WITHIN.1);
+    let near_round_off = size <= round_off || size <= STALLED_FRACTION * reference;
     if contraction > STALLED && near_round_off && fresh {
         if size <= MOST_REMEMBERED {
             memory.round_off = memory.round_off.max(size);

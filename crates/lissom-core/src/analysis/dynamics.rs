@@ -62,7 +62,7 @@ pub struct Totals {
 }
 
 /// Tolerance of schemes whose promise holds for the exact solution of their equations.
-const EXACT: f64 = 1e-11;
+const EXACT: f64 = 1e-12;
 
 /// A system on its way through time.
 pub struct Simulation {
