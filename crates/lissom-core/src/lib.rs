@@ -5,6 +5,7 @@
 
 pub mod analysis;
 pub mod elements;
+pub mod equilibration;
 pub mod joints;
 pub mod newton;
 pub mod registry;

@@ -12,8 +12,9 @@
 use lissom_motion::{Motion, Vector6, lie_bracket, tangent_rate_times, tangent_times};
 use num_complex::Complex64;
 
+use crate::joints::Quantity;
 use crate::schemes::{Combination, Increments, Scheme, Stage, Weights};
-use crate::system::{Kinematics, Layout, Linearization, MotionChange, State, System};
+use crate::system::{Augmentation, Kinematics, Layout, Linearization, MotionChange, State, System};
 
 /// How the equations are scaled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,6 +57,8 @@ impl ScaleBy {
 pub struct ScalingChoice {
     /// How s is found.
     pub by: ScaleBy,
+    /// Whether rows and columns of a scaled tangent are brought to one size besides.
+    pub equilibrated: bool,
     /// Whether the augmented Lagrangian term is there.
     pub augmented: bool,
     /// Its factor p [-].
@@ -70,21 +73,29 @@ pub const DEFAULT_PENALTY: f64 = 1e-3;
 
 impl Default for ScalingChoice {
     fn default() -> Self {
-        Self { by: ScaleBy::Physical, augmented: true, penalty: DEFAULT_PENALTY }
+        Self { by: ScaleBy::Physical, equilibrated: true, augmented: true, penalty: DEFAULT_PENALTY }
+    }
+}
+
+impl ScalingChoice {
+    /// Whether tangents are equilibrated: only scaled ones are.
+    pub fn equilibrates(&self) -> bool {
+        self.equilibrated && self.by == ScaleBy::Physical
     }
 }
 
 /// Representative mass, damping and stiffness of a model: averages of the diagonals of M, D and K over
-/// all coordinates, massless ones included.
+/// all coordinates, massless ones included. A rotation counts as the arc it makes at the representative
+/// length, so that all of them are of one unit and change with the unit of length as a mass does.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Representative {
-    /// m_r.
+    /// m_r [kg].
     pub mass: f64,
-    /// d_r.
+    /// d_r [N s/m].
     pub damping: f64,
-    /// k_r.
+    /// k_r [N/m].
     pub stiffness: f64,
-    /// Representative length: root mean square distance of the nodes from their centre [m].
+    /// Representative length: root mean square distance between two nodes [m].
     pub length: f64,
 }
 
@@ -93,10 +104,12 @@ impl Representative {
     pub fn of(system: &System, at: &Kinematics, linearization: &Linearization) -> Self {
         let pattern = system.pattern();
         let count = system.layout().coordinate_count();
+        let length = spread(at);
+        let quantities = system.layout().quantities();
         let average = |values: &[f64]| {
             let sum: f64 = (0..count)
-                .filter_map(|row| pattern.position(row, row))
-                .map(|position| values[position].abs())
+                .filter_map(|row| Some((row, pattern.position(row, row)?)))
+                .map(|(row, position)| values[position].abs() / unit(quantities[row], length).powi(2))
                 .sum();
             sum / count as f64
         };
@@ -104,17 +117,27 @@ impl Representative {
             mass: average(&linearization.mass),
             damping: average(&linearization.damping),
             stiffness: average(&linearization.stiffness),
-            length: spread(at),
+            length,
         }
     }
 }
 
-/// Root mean square distance of the nodes from their centre; 1 for a single place.
+/// Length that stands for a unit of `quantity` where a radian is worth `radian` [m].
+fn unit(quantity: Quantity, radian: f64) -> f64 {
+    match quantity {
+        Quantity::Length => 1.0,
+        Quantity::Angle => radian,
+    }
+}
+
+/// Root mean square distance between two nodes; 1 where all are at a single place.
 fn spread(at: &Kinematics) -> f64 {
     let places: Vec<_> = at.nodes.iter().map(|node| node.frame.position).collect();
     let count = places.len() as f64;
     let center = places.iter().sum::<lissom_motion::Vector3>() / count;
-    let square = places.iter().map(|place| (place - center).norm_squared()).sum::<f64>() / count;
+    // Σ over pairs |xᵢ - xⱼ|² = n Σ |xᵢ - x̄|²
+    let square =
+        2.0 * places.iter().map(|place| (place - center).norm_squared()).sum::<f64>() / (count - 1.0);
     if square > 0.0 { square.sqrt() } else { 1.0 }
 }
 
@@ -127,6 +150,8 @@ pub struct Scaled {
     augmented: f64,
     /// Factor of the equations of motion: h², or 1 unscaled.
     dynamic: f64,
+    /// Length that stands for a radian: the representative length, or 1 m as SI has it.
+    radian: f64,
 }
 
 impl Scaled {
@@ -140,7 +165,8 @@ impl Scaled {
             ScaleBy::None => (1.0, 1.0),
         };
         let augmented = if choice.augmented { choice.penalty * s } else { 0.0 };
-        Self { h, s, augmented, dynamic }
+        let radian = if choice.by == ScaleBy::Physical { representative.length } else { 1.0 };
+        Self { h, s, augmented, dynamic, radian }
     }
 
     /// Step size h [s].
@@ -153,9 +179,14 @@ impl Scaled {
         self.s
     }
 
-    /// The augmented term's force per violation, in SI.
-    pub fn augmentation(&self) -> f64 {
-        self.augmented / self.dynamic
+    /// The augmented term in SI.
+    pub fn augmentation(&self) -> Augmentation {
+        Augmentation { weight: self.augmented / self.dynamic, radian: self.radian }
+    }
+
+    /// Length that stands for a unit of `quantity` [m].
+    pub fn unit(&self, quantity: Quantity) -> f64 {
+        unit(quantity, self.radian)
     }
 
     /// Factor of the forces in the equations of motion.

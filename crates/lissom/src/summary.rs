@@ -38,7 +38,12 @@ pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered
     let scaling = &settings.scaling;
     tell(
         "scaling",
-        json!({ "by": scaling.by.name(), "augmented": scaling.augmented, "penalty": scaling.penalty }),
+        json!({
+            "by": scaling.by.name(),
+            "equilibrated": scaling.equilibrates(),
+            "augmented": scaling.augmented,
+            "penalty": scaling.penalty,
+        }),
     );
     tell("solver", json!(settings.solver.name));
     tell("tolerance", json!(settings.limits.tolerance));
@@ -96,6 +101,7 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
         "scaling",
         json!({
             "by": scaling.by.name(),
+            "equilibrated": scaling.equilibrates(),
             "augmented": scaling.augmented,
             "penalty": scaling.penalty,
             "scale": session.scale(),

@@ -7,6 +7,7 @@ use lissom_solver::{LinearSolver, Pattern, Scalar, Structure, condition_estimate
 use num_complex::Complex64;
 
 use super::dynamics::Simulation;
+use crate::equilibration::Equilibration;
 use crate::scaling::{Scaled, ScalingChoice};
 use crate::schemes::Coupling;
 use crate::system::Linearization;
@@ -52,6 +53,15 @@ pub enum TangentValues {
 }
 
 impl TangentValues {
+    /// Brings rows and columns to one size, see [`Equilibration`].
+    fn equilibrate(&mut self, pattern: &Pattern, coordinate_count: usize) {
+        let mut equilibration = Equilibration::new(pattern.size(), coordinate_count);
+        match self {
+            Self::Real(values) => equilibration.apply(pattern, values),
+            Self::Complex(values) => equilibration.apply(pattern, values),
+        }
+    }
+
     /// The tangent of the scaled equations.
     pub(crate) fn new(scaled: &Scaled, coupling: &Coupling, linearization: &Linearization) -> Self {
         let entries = linearization.mass.len();
@@ -123,12 +133,18 @@ impl Simulation {
     pub fn converged_tangents(&mut self, scalings: &[ScalingChoice]) -> Option<Vec<TangentValues>> {
         let (representative, step_size) = (*self.representative(), self.settings().step_size);
         let coupling = self.settings().scheme.coupling;
-        let linearization = self.linearize_last_step()?;
+        let pattern = self.system().pattern();
+        let count = self.system().layout().coordinate_count();
         let tangent = |choice: &ScalingChoice| {
             let scaled = Scaled::new(choice, &representative, step_size);
-            TangentValues::new(&scaled, &coupling, linearization)
+            let linearization = self.linearize_last_step(scaled)?;
+            let mut values = TangentValues::new(&scaled, &coupling, linearization);
+            if choice.equilibrates() {
+                values.equilibrate(&pattern, count);
+            }
+            Some(values)
         };
-        Some(scalings.iter().map(tangent).collect())
+        scalings.iter().map(tangent).collect()
     }
 
     /// Estimates the condition number of the tangent factored last from a few solves with it; none if there

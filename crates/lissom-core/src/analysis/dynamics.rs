@@ -10,7 +10,7 @@ use super::step_error::{StepError, pivot_hint};
 use crate::newton::{self, Failure, Limits, Memory};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Coupling, Scheme};
-use crate::system::{Chart, Kinematics, Linearization, MotionChange, Point, State, System};
+use crate::system::{Augmentation, Chart, Kinematics, Linearization, MotionChange, Point, State, System};
 
 /// What a simulation is told besides system and state.
 #[derive(Clone)]
@@ -166,8 +166,8 @@ impl Simulation {
     }
 
     /// Linearises anew at the solution of the last step; none before the first step and after one that
-    /// failed, and none for a scheme without the tangent of a stage.
-    pub(super) fn linearize_last_step(&mut self) -> Option<&Linearization> {
+    /// failed, and none for a scheme without the tangent of a stage. `scaled` weighs the augmented term.
+    pub(super) fn linearize_last_step(&mut self, scaled: Scaled) -> Option<&Linearization> {
         let Engine::Collocation(work) = &mut self.engine else { return None };
         let reached = work.motions.last().map(|motion| motion.at.time);
         if self.totals.steps == 0 || reached != Some(self.state.kinematics.time) {
@@ -176,8 +176,8 @@ impl Simulation {
         let mut equations = StepEquations {
             system: &self.system,
             scheme: &self.settings.scheme,
-            scaled: self.scaled,
-            rescale: &|_| self.scaled,
+            scaled,
+            rescale: &|_| scaled,
             start: &self.next,
             work,
         };
@@ -345,7 +345,7 @@ fn representative(system: &System, state: &State) -> Representative {
         },
         multipliers: &zero,
         violations: &zero,
-        augmentation: 0.0,
+        augmentation: Augmentation::none(),
     };
     let mut linearization = Linearization::new(system);
     system.linearize(&point, Chart::Body, &mut linearization);
@@ -415,7 +415,9 @@ impl Engine {
             let work = DecayingWorkspace::new(system, state, representative, settings.solver);
             return Self::Decaying(Box::new(work));
         }
-        let mut work = Workspace::new(system, state, &settings.scheme, representative, settings.solver);
+        let equilibrated = settings.scaling.equilibrates();
+        let mut work =
+            Workspace::new(system, state, &settings.scheme, representative, settings.solver, equilibrated);
         work.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
         Self::Collocation(Box::new(work))
     }

@@ -5,7 +5,8 @@ use lissom_solver::{FactorError, FactorReport};
 
 use super::approach::Approachable;
 use super::factorization::Factorization;
-use crate::joints::attached;
+use crate::equilibration::Equilibration;
+use crate::joints::{Quantity, attached};
 use crate::newton::{Correction, Equations, Failure};
 use crate::scaling::{Representative, Scaled, StageIncrements, StageMotion, UnitStart};
 use crate::schemes::{Increments, Scheme};
@@ -48,6 +49,8 @@ pub(crate) struct Workspace {
     pub(crate) factorization: Factorization,
     /// Scaled size of one unit of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
     pub(crate) sizes: Vec<f64>,
+    /// Of the tangent, if it is wanted.
+    pub(crate) equilibration: Option<Equilibration>,
     pub(crate) report: Option<FactorReport>,
 }
 
@@ -58,16 +61,12 @@ impl Workspace {
         scheme: &Scheme,
         representative: &Representative,
         solver: &lissom_solver::SolverKind,
+        equilibrated: bool,
     ) -> Self {
         let layout = system.layout();
         let stages = scheme.stages.len();
         let count = layout.coordinate_count();
-        let mut sizes = vec![1.0; count];
-        for rows in &layout.node_rows {
-            for &row in rows[..3].iter().filter(|&&row| row != LOCKED) {
-                sizes[row as usize] = 1.0 / representative.length;
-            }
-        }
+        let sizes = sizes(layout, representative);
         Self {
             unit: UnitStart::new(count),
             increments: vec![vec![0.0; count]; stages],
@@ -84,6 +83,7 @@ impl Workspace {
             linearization: Linearization::new(system),
             factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
             sizes,
+            equilibration: equilibrated.then(|| Equilibration::new(layout.size(), count)),
             report: None,
         }
     }
@@ -199,10 +199,15 @@ impl StepEquations<'_> {
         self.apply(&corrections, 1.0);
         self.work.residuals = corrections;
         let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+        let quantities = &self.system.layout().quantities()[count..];
         for (corrections, multipliers) in self.work.residuals.iter().zip(&self.work.multipliers) {
-            for (value, correction) in multipliers.iter().zip(&corrections[count..]) {
-                change = change.max((factor * correction).abs());
-                largest = largest.max(value.abs());
+            for ((value, correction), &quantity) in
+                multipliers.iter().zip(&corrections[count..]).zip(quantities)
+            {
+                // Moments as forces at the length that stands for a radian.
+                let unit = self.scaled.unit(quantity);
+                change = change.max((factor * correction / unit).abs());
+                largest = largest.max(value.abs() / unit);
             }
         }
         let Correction { size, reference } = places;
@@ -290,7 +295,17 @@ impl Equations for StepEquations<'_> {
         for residual in &mut self.work.residuals {
             self.scaled.scale_residual(layout, residual);
         }
-        self.work.factorization.solve(&self.scheme.coupling, &mut self.work.residuals);
+        let work = &mut *self.work;
+        let equilibrate = |residuals: &mut Vec<Vec<f64>>| {
+            if let Some(equilibration) = &work.equilibration {
+                for residual in residuals.iter_mut() {
+                    equilibration.scale(residual);
+                }
+            }
+        };
+        equilibrate(&mut work.residuals);
+        work.factorization.solve(&self.scheme.coupling, &mut work.residuals);
+        equilibrate(&mut work.residuals);
         let correction = self.add_corrections();
         self.update_motions();
         correction
@@ -300,13 +315,25 @@ impl Equations for StepEquations<'_> {
         self.linearize();
         let work = &mut *self.work;
         let coupling = &self.scheme.coupling;
-        let mut result = work.factorization.factor(&self.scaled, coupling, &work.linearization);
+        let pattern = &self.system.structure().pattern;
+        let balance = &mut work.equilibration;
+        let mut result = work.factorization.factor(
+            &self.scaled,
+            coupling,
+            &work.linearization,
+            balance.as_mut().map(|balance| (balance, &**pattern)),
+        );
         if let Err(FactorError::ZeroPivot { unknown, pivot, .. }) = result
             && let Some(kind) = work.fall_back.take()
         {
             work.fell_back = Some((unknown, pivot));
             work.factorization = Factorization::new(kind, self.system.structure(), coupling);
-            result = work.factorization.factor(&self.scaled, coupling, &work.linearization);
+            result = work.factorization.factor(
+                &self.scaled,
+                coupling,
+                &work.linearization,
+                balance.as_mut().map(|balance| (balance, &**pattern)),
+            );
         }
         work.report = Some(result?);
         Ok(())
@@ -358,6 +385,15 @@ impl Approachable for StepEquations<'_> {
         work.correction = f64::INFINITY;
         self.update_motions();
     }
+}
+
+/// Scaled size of one unit of each coordinate row: 1/ℓ_r for lengths, 1 for angles.
+pub(crate) fn sizes(layout: &Layout, representative: &Representative) -> Vec<f64> {
+    let size = |quantity: &Quantity| match quantity {
+        Quantity::Length => 1.0 / representative.length,
+        Quantity::Angle => 1.0,
+    };
+    layout.quantities()[..layout.coordinate_count()].iter().map(size).collect()
 }
 
 /// What joints see of a stage.

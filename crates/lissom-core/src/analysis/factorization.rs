@@ -5,6 +5,7 @@ use lissom_solver::{
 };
 use num_complex::Complex64;
 
+use crate::equilibration::Equilibration;
 use crate::scaling::Scaled;
 use crate::schemes::Coupling;
 use crate::system::Linearization;
@@ -45,14 +46,21 @@ impl Factorization {
         scaled: &Scaled,
         coupling: &Coupling,
         linearization: &Linearization,
+        equilibration: Option<(&mut Equilibration, &Pattern)>,
     ) -> Result<FactorReport, FactorError> {
         match (self, coupling) {
             (Self::Single { solver, values }, Coupling::Single(weights)) => {
                 scaled.tangent(linearization, *weights, values);
+                if let Some((equilibration, pattern)) = equilibration {
+                    equilibration.apply(pattern, values);
+                }
                 solver.factor(values)
             }
             (Self::Pair { solver, values, .. }, Coupling::Pair { weights, .. }) => {
                 scaled.complex_tangent(linearization, *weights, values);
+                if let Some((equilibration, pattern)) = equilibration {
+                    equilibration.apply(pattern, values);
+                }
                 solver.factor(values)
             }
             _ => unreachable!("a factorisation is made for its scheme's coupling"),

@@ -22,6 +22,8 @@ pub const SOLVERS: [&str; 3] = ["skyline", "sparse", "pivoting"];
 pub struct Case {
     /// How the equations are scaled.
     pub scaling: ScaleBy,
+    /// Whether the scaled tangent is equilibrated besides.
+    pub equilibrated: bool,
     /// Whether the augmented term is there.
     pub augmented: bool,
     /// Name of the solver.
@@ -80,12 +82,18 @@ pub fn factorization_study(simulation: &Simulation) -> Option<Vec<Case>> {
     }
     let penalty = simulation.settings().scaling.penalty;
     let mut cases = Vec::new();
-    for scaling in [ScaleBy::None, ScaleBy::Unit, ScaleBy::Physical] {
+    let scalings = [
+        (ScaleBy::None, false),
+        (ScaleBy::Unit, false),
+        (ScaleBy::Physical, false),
+        (ScaleBy::Physical, true),
+    ];
+    for (scaling, equilibrated) in scalings {
         for augmented in [false, true] {
             for kind in SOLVERS.iter().filter_map(|name| lissom_solver::kind(name)) {
-                let choice = ScalingChoice { by: scaling, augmented, penalty };
+                let choice = ScalingChoice { by: scaling, equilibrated, augmented, penalty };
                 let outcome = examine(simulation, &choice, kind);
-                cases.push(Case { scaling, augmented, solver: kind.name, outcome });
+                cases.push(Case { scaling, equilibrated, augmented, solver: kind.name, outcome });
             }
         }
     }
@@ -100,7 +108,8 @@ fn examine(
     let (system, state, settings) = (simulation.system(), simulation.state(), simulation.settings());
     let representative = simulation.representative();
     let layout = system.layout();
-    let mut work = Workspace::new(system, state, &settings.scheme, representative, kind);
+    let equilibrated = choice.equilibrates();
+    let mut work = Workspace::new(system, state, &settings.scheme, representative, kind, equilibrated);
     let scaled = Scaled::new(choice, representative, settings.step_size);
     scaled.enter(layout, state, &mut work.unit);
     let mut equations = StepEquations {
@@ -117,8 +126,13 @@ fn examine(
     let physical = ScalingChoice { by: ScaleBy::Physical, ..*choice };
     let physical = Scaled::new(&physical, representative, settings.step_size);
     let multiplier_size = physical.multiplier_factor() / scaled.multiplier_factor();
+    let mut sizes = vec![1.0; layout.size()];
+    sizes[layout.coordinate_count()..].fill(multiplier_size);
+    if let Some(equilibration) = &equations.work.equilibration {
+        sizes.iter_mut().zip(equilibration.factors()).for_each(|(size, factor)| *size /= factor);
+    }
     let [coordinate_error, multiplier_error, known] =
-        forward_errors(&mut equations.work.factorization, &system.pattern(), layout, multiplier_size);
+        forward_errors(&mut equations.work.factorization, &system.pattern(), layout, &sizes);
     Ok(Factored {
         smallest_pivot: layout.name_of(report.smallest_pivot_unknown),
         report,
@@ -175,19 +189,19 @@ fn largest(start: f64, values: impl Iterator<Item = f64>) -> f64 {
 }
 
 /// Errors of coordinates and multipliers when a known problem is solved, and 1 if they are certain. The problem
-/// is the same in SI whatever the scaling: multipliers are `multiplier_size` times numbers of order one.
+/// is the same in SI whatever the scaling: each unknown is of its size in `sizes` times a number of order one.
 fn forward_errors(
     factorization: &mut Factorization,
     pattern: &Pattern,
     layout: &Layout,
-    multiplier_size: f64,
+    sizes: &[f64],
 ) -> [f64; 3] {
     match factorization {
         Factorization::Single { solver, values } => {
-            forward_errors_of(&mut **solver, pattern, values, layout, multiplier_size)
+            forward_errors_of(&mut **solver, pattern, values, layout, sizes)
         }
         Factorization::Pair { solver, values, .. } => {
-            forward_errors_of(&mut **solver, pattern, values, layout, multiplier_size)
+            forward_errors_of(&mut **solver, pattern, values, layout, sizes)
         }
     }
 }
@@ -197,23 +211,21 @@ fn forward_errors_of<S: Scalar>(
     pattern: &Pattern,
     values: &[S],
     layout: &Layout,
-    multiplier_size: f64,
+    sizes: &[f64],
 ) -> [f64; 3] {
     let count = layout.coordinate_count();
     let mut seed = 1;
-    let known: Vec<S> = (0..pattern.size())
-        .map(|row| {
-            let size = if row < count { 1.0 } else { multiplier_size };
-            S::from_parts(size * number(&mut seed), size * number(&mut seed))
-        })
-        .collect();
+    let known: Vec<S> =
+        sizes.iter().map(|size| S::from_parts(size * number(&mut seed), size * number(&mut seed))).collect();
     let mut right_hand_side = vec![S::zero(); known.len()];
     pattern.multiply(values, &known, &mut right_hand_side);
     let refined = refined_solution(solver, pattern, values, &right_hand_side);
-    let size = |values: &[S]| largest(0.0, values.iter().map(|value| value.magnitude()));
+    let largest_of = |values: &[S], range: std::ops::Range<usize>| {
+        largest(0.0, range.map(|row| values[row].magnitude() / sizes[row]))
+    };
     let error = |range: std::ops::Range<usize>| {
-        let solved = size(&refined.solved[range.clone()]);
-        if solved == 0.0 { 0.0 } else { size(&refined.errors[range]) / solved }
+        let solved = largest_of(&refined.solved, range.clone());
+        if solved == 0.0 { 0.0 } else { largest_of(&refined.errors, range) / solved }
     };
     [error(0..count), error(layout.multiplier_rows()), f64::from(u8::from(refined.converged))]
 }

@@ -13,7 +13,9 @@ use lissom_solver::{FactorError, LinearSolver, SolverKind};
 use super::step_error::pivot_hint;
 use crate::joints::attached::Increments;
 use crate::scaling::Representative;
-use crate::system::{Chart, Kinematics, LOCKED, Layout, Linearization, MotionChange, Point, State, System};
+use crate::system::{
+    Augmentation, Chart, Kinematics, LOCKED, Layout, Linearization, MotionChange, Point, State, System,
+};
 
 /// Initial values that do not exist.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -43,6 +45,8 @@ pub struct Initial {
     linearization: Linearization,
     values: Vec<f64>,
     scale: f64,
+    /// Length that stands for a radian [m].
+    radian: f64,
     still: Vec<MotionChange>,
     unchanged: Vec<f64>,
 }
@@ -55,6 +59,7 @@ impl Initial {
             linearization: Linearization::new(system),
             values: vec![0.0; system.structure().pattern.entries()],
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
+            radian: representative.length,
             still: vec![MotionChange::none(); state.kinematics.nodes.len()],
             unchanged: vec![0.0; state.kinematics.coordinates.len()],
         }
@@ -82,6 +87,10 @@ impl Initial {
         })
     }
 
+    fn augmentation(&self) -> Augmentation {
+        Augmentation { weight: 0.0, radian: self.radian }
+    }
+
     fn point<'b>(&'b self, at: &'b Kinematics, multipliers: &'b [f64]) -> Point<'b> {
         Point {
             at,
@@ -89,7 +98,7 @@ impl Initial {
             increments: Increments { start: at, nodes: &self.still, coordinates: &self.unchanged },
             multipliers,
             violations: multipliers,
-            augmentation: 0.0,
+            augmentation: self.augmentation(),
         }
     }
 
@@ -99,7 +108,7 @@ impl Initial {
         let count = layout.coordinate_count();
         let original = right.to_vec();
         let mut solution = vec![0.0; right.len()];
-        // Scaled rows s B, and the augmented term s Bᵀ B x = s Bᵀ c on both sides; refined once.
+        // Scaled rows s B, and the augmented term s Bᵀ W B x = s Bᵀ W c on both sides; refined once.
         for _ in 0..2 {
             let mut rest = original.clone();
             self.subtract_product(system, &solution, &mut rest);
@@ -127,12 +136,13 @@ impl Initial {
         }
     }
 
-    /// motion += s Bᵀ c.
+    /// motion += s Bᵀ W c.
     fn add_transposed(&self, system: &System, constraints: &[f64], rest: &mut [f64]) {
         let pattern = &system.structure().pattern;
         let count = system.layout().coordinate_count();
-        for (k, &violation) in constraints.iter().enumerate() {
+        for (k, violation) in constraints.iter().enumerate() {
             let column = count + k;
+            let violation = self.augmentation().relative(system.layout().quantities()[column]) * violation;
             let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
             for position in range {
                 let row = pattern.row_indices()[position];

@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::joints::attached::Increments;
-use crate::system::{Chart, Linearization, MotionChange, Point, State, System};
+use crate::system::{Augmentation, Chart, Linearization, MotionChange, Point, State, System};
 
 /// Entries below this part of a row's largest count as round-off.
 const ROUND_OFF: f64 = 1e-9;
@@ -121,7 +121,7 @@ fn rows(system: &System, state: &State) -> Vec<BTreeMap<usize, f64>> {
         increments: Increments { start: &state.kinematics, nodes: &still, coordinates: &unchanged },
         multipliers: &zero,
         violations: &zero,
-        augmentation: 0.0,
+        augmentation: Augmentation::none(),
     };
     let mut linearization = Linearization::new(system);
     system.linearize(&point, Chart::Body, &mut linearization);

@@ -26,6 +26,15 @@ pub const MOST_EQUATIONS: usize = 6;
 /// Most algebraic coordinates a joint may have.
 pub const MOST_COORDINATES: usize = 2;
 
+/// What an equation or a coordinate of a joint is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    /// [m]
+    Length,
+    /// [rad]
+    Angle,
+}
+
 /// Motion of the tip's joint frame in the base's joint frame, and its change since the start of the
 /// step, computed from the increments without cancellation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -97,6 +106,17 @@ pub trait Joint: Send + Sync + std::fmt::Debug {
     /// Name of each algebraic coordinate.
     fn coordinates(&self) -> &'static [&'static str] {
         &[]
+    }
+
+    /// What an equation is: the first three are lengths, unless a joint says otherwise.
+    fn equation_quantity(&self, equation: usize) -> Quantity {
+        if equation < 3 { Quantity::Length } else { Quantity::Angle }
+    }
+
+    /// What a coordinate is: angles, unless a joint says otherwise.
+    fn coordinate_quantity(&self, coordinate: usize) -> Quantity {
+        let _ = coordinate;
+        Quantity::Angle
     }
 
     /// Coordinates at the start, and the relative motion for which they satisfy the equations.

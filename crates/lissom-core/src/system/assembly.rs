@@ -14,7 +14,7 @@ use super::state::{Kinematics, MotionChange};
 use super::{Drive, System};
 use crate::elements::{MOST_UNKNOWNS, Tangents};
 use crate::joints::attached::{AttachedJoint, Increments, LOCAL};
-use crate::joints::{Equations, MOST_EQUATIONS};
+use crate::joints::{Equations, MOST_EQUATIONS, Quantity};
 
 /// Where residual and tangent are evaluated.
 #[derive(Clone, Copy, Debug)]
@@ -32,8 +32,32 @@ pub struct Point<'a> {
     pub multipliers: &'a [f64],
     /// Violations at the start of the step.
     pub violations: &'a [f64],
-    /// Weight of the augmented Lagrangian term: force per violation [N/m].
-    pub augmentation: f64,
+    /// The augmented Lagrangian term.
+    pub augmentation: Augmentation,
+}
+
+/// How violations are turned into forces by the augmented Lagrangian term.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Augmentation {
+    /// Force per violation of a length [N/m].
+    pub weight: f64,
+    /// The length that stands for a radian: an angle's violation weighs its square [m].
+    pub radian: f64,
+}
+
+impl Augmentation {
+    /// No forces.
+    pub fn none() -> Self {
+        Self { weight: 0.0, radian: 1.0 }
+    }
+
+    /// Weight of an equation's violation relative to that of a length: 1 or [m²].
+    pub fn relative(&self, quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::Length => 1.0,
+            Quantity::Angle => self.radian * self.radian,
+        }
+    }
 }
 
 /// Derivatives of the equations of motion in SI, each on the values of the tangent's pattern.
@@ -45,7 +69,7 @@ pub struct Linearization {
     pub damping: Vec<f64>,
     /// ∂/∂ acceleration.
     pub mass: Vec<f64>,
-    /// BᵀB: the augmented Lagrangian term for weight 1.
+    /// BᵀWB: the augmented Lagrangian term for weight 1 of lengths.
     pub gram: Vec<f64>,
     /// B and Bᵀ in the multipliers' rows and columns.
     pub constraint: Vec<f64>,
@@ -101,8 +125,13 @@ impl System {
         for (drive, rows) in self.drives.iter().zip(&self.joint_rows[self.joints.len()..]) {
             let violation = drive_violation(drive, point);
             out[rows[1] as usize] = violation;
-            out[rows[0] as usize] += point.multipliers[drive.multiplier] + point.augmentation * violation;
+            let weight = point.augmentation.weight * self.relative_weight(point, drive.multiplier);
+            out[rows[0] as usize] += point.multipliers[drive.multiplier] + weight * violation;
         }
+    }
+
+    fn relative_weight(&self, point: &Point<'_>, multiplier: usize) -> f64 {
+        point.augmentation.relative(self.layout.quantities[self.layout.coordinate_count + multiplier])
     }
 
     /// Violations at `point` alone, by multiplier.
@@ -133,8 +162,8 @@ impl System {
             let free = Local { equations: joint.equations(), size: rows.len() };
             joint_linearization(joint, positions, free, point, chart, out);
         }
-        for positions in &self.joint_positions[self.joints.len()..] {
-            out.gram[positions[0] as usize] += 1.0;
+        for (drive, positions) in self.drives.iter().zip(&self.joint_positions[self.joints.len()..]) {
+            out.gram[positions[0] as usize] += self.relative_weight(point, drive.multiplier);
             out.constraint[positions[1] as usize] = 1.0;
             out.constraint[positions[2] as usize] = 1.0;
         }
@@ -198,7 +227,8 @@ fn joint_multipliers(
     for k in 0..joint.equations() {
         let multiplier = joint.first_multiplier + k;
         violation[k] += point.violations[multiplier];
-        mu[k] = point.multipliers[multiplier] + point.augmentation * violation[k];
+        let relative = point.augmentation.relative(joint.joint().equation_quantity(k));
+        mu[k] = point.multipliers[multiplier] + point.augmentation.weight * relative * violation[k];
     }
     (violation, mu)
 }
@@ -242,7 +272,11 @@ fn joint_linearization(
     );
     let (rows, curvature) = joint.linearize(&configuration, &mu);
     let unknowns = local.size - local.equations;
-    let gram: SMatrix<f64, LOCAL, LOCAL> = rows.transpose() * rows;
+    let mut weighted = rows;
+    for k in 0..local.equations {
+        weighted.row_mut(k).scale_mut(point.augmentation.relative(joint.joint().equation_quantity(k)));
+    }
+    let gram: SMatrix<f64, LOCAL, LOCAL> = rows.transpose() * weighted;
     // Row-major copies, through the charts where asked.
     let mut gradient = [0.0; MOST_EQUATIONS * LOCAL];
     let mut stiffness = [0.0; LOCAL * LOCAL];

@@ -14,7 +14,7 @@ use crate::elements::Element;
 use crate::elements::inertia::Inertia;
 use crate::joints::attached::{AttachedJoint, CarriedFrame};
 use crate::joints::prescribed_rotation::PrescribedRotation;
-use crate::joints::{Build, Frames, Geometry, JointKind};
+use crate::joints::{Build, Frames, Geometry, JointKind, Quantity};
 use crate::registry::{ParameterError, Parameters};
 
 /// Why a system could not be built.
@@ -51,14 +51,22 @@ struct Node {
     mass: Option<Matrix6>,
 }
 
+struct Coordinate {
+    name: String,
+    /// At the start [m, rad].
+    value: f64,
+    quantity: Quantity,
+}
+
 /// Collects the parts of a system.
 pub struct Builder {
     nodes: Vec<Node>,
-    coordinates: Vec<(String, f64)>,
+    coordinates: Vec<Coordinate>,
     batches: Vec<Box<dyn AnyBatch>>,
     joints: Vec<AttachedJoint>,
     drives: Vec<Drive>,
     multipliers: Vec<(String, &'static str)>,
+    multiplier_quantities: Vec<Quantity>,
     gravity: Vector3,
 }
 
@@ -84,6 +92,7 @@ impl Builder {
             joints: Vec::new(),
             drives: Vec::new(),
             multipliers: Vec::new(),
+            multiplier_quantities: Vec::new(),
             gravity: Vector3::zeros(),
         }
     }
@@ -164,12 +173,16 @@ impl Builder {
             .iter()
             .enumerate()
             .map(|(k, label)| {
-                self.coordinates.push((format!("{name}.{label}"), values[k]));
+                let (name, quantity) = (format!("{name}.{label}"), joint.coordinate_quantity(k));
+                self.coordinates.push(Coordinate { name, value: values[k], quantity });
                 self.coordinates.len() - 1
             })
             .collect();
         let first_multiplier = self.multipliers.len();
-        self.multipliers.extend(joint.equations().iter().map(|&equation| (name.to_owned(), equation)));
+        for (k, &equation) in joint.equations().iter().enumerate() {
+            self.multipliers.push((name.to_owned(), equation));
+            self.multiplier_quantities.push(joint.equation_quantity(k));
+        }
         self.joints.push(AttachedJoint {
             name: name.to_owned(),
             kind: kind.name,
@@ -207,6 +220,7 @@ impl Builder {
         let prescribed = PrescribedRotation { coordinate, rotation: build(parameters)? };
         self.drives.push(Drive { name: name.to_owned(), prescribed, multiplier: self.multipliers.len() });
         self.multipliers.push((name.to_owned(), "rotation"));
+        self.multiplier_quantities.push(self.coordinates[coordinate].quantity);
         Ok(())
     }
 
@@ -282,11 +296,18 @@ impl Builder {
             }));
             layout.node_names.push(node.name.clone());
         }
-        for (name, _) in &self.coordinates {
+        for coordinate in &self.coordinates {
             layout.coordinate_rows.push(next);
-            layout.coordinate_names.push(name.clone());
+            layout.coordinate_names.push(coordinate.name.clone());
             next += 1;
         }
+        let of_node = |rows: &[u32; 6]| {
+            let quantity = |k| if k < 3 { Quantity::Length } else { Quantity::Angle };
+            (0..6).filter(|&k| rows[k] != LOCKED).map(quantity).collect::<Vec<_>>()
+        };
+        layout.quantities = layout.node_rows.iter().flat_map(of_node).collect();
+        layout.quantities.extend(self.coordinates.iter().map(|coordinate| coordinate.quantity));
+        layout.quantities.append(&mut self.multiplier_quantities);
         layout.coordinate_count = next as usize;
         layout.multiplier_count = self.multipliers.len();
         layout.multiplier_names = std::mem::take(&mut self.multipliers);
@@ -348,7 +369,7 @@ impl Builder {
         let coordinates = self
             .coordinates
             .iter()
-            .map(|&(_, value)| CoordinateMotion { value, ..CoordinateMotion::default() })
+            .map(|coordinate| CoordinateMotion { value: coordinate.value, ..CoordinateMotion::default() })
             .collect();
         State {
             kinematics: Kinematics {

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use super::state::{CoordinateId, NodeId};
+use crate::joints::Quantity;
 
 /// Marks a freedom that is locked: it has no row.
 pub const LOCKED: u32 = u32::MAX;
@@ -47,6 +48,8 @@ pub struct Layout {
     pub(crate) coordinate_names: Vec<String>,
     /// Name and equation of every multiplier.
     pub(crate) multiplier_names: Vec<(String, &'static str)>,
+    /// What every coordinate row is, then every constraint.
+    pub(crate) quantities: Vec<Quantity>,
 }
 
 impl Layout {
@@ -58,6 +61,11 @@ impl Layout {
     /// Number of rows that belong to node freedoms and algebraic coordinates.
     pub fn coordinate_count(&self) -> usize {
         self.coordinate_count
+    }
+
+    /// What the unknown of every coordinate row is, then the equation of every multiplier.
+    pub fn quantities(&self) -> &[Quantity] {
+        &self.quantities
     }
 
     /// Rows of the multipliers.
@@ -110,10 +118,5 @@ impl Layout {
             }
         }
         format!("unknown {row}")
-    }
-
-    /// Whether `row` is a translation [m], as against a rotation [rad] or a multiplier.
-    pub fn is_translation(&self, row: usize) -> bool {
-        self.node_rows.iter().any(|rows| rows[..3].iter().any(|&r| r as usize == row))
     }
 }

@@ -8,7 +8,7 @@ pub(crate) mod state;
 
 use std::sync::Arc;
 
-pub use assembly::{Linearization, Point};
+pub use assembly::{Augmentation, Linearization, Point};
 pub use batch::Chart;
 pub(crate) use batch::positions_of;
 pub use builder::{BuildError, Builder, Placement};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use lissom_core::joints::attached::Increments;
 use lissom_core::registry::{Constant, Parameter, ParameterType, Parameters, TimeFunction, Value};
-use lissom_core::system::{Kinematics, LOCKED, Layout, MotionChange, Point, State, System};
+use lissom_core::system::{Augmentation, Kinematics, LOCKED, Layout, MotionChange, Point, State, System};
 use lissom_motion::{Motion, Vector3, Vector6};
 
 /// A small generator of numbers in -1 … 1 that is the same on every machine.
@@ -129,7 +129,7 @@ impl Configuration {
             },
             multipliers: &self.multipliers,
             violations: &self.violations,
-            augmentation,
+            augmentation: Augmentation { weight: augmentation, radian: 0.75 },
         }
     }
 

@@ -43,18 +43,20 @@ fn check(name: &str, system: &System, state: &State, size: f64, random: &mut Ran
                 }
             }
         }
-        // BᵀB belongs to the same B (columns through the chart, rows not).
+        // BᵀWB belongs to the same B (columns through the chart, rows not).
         for row in 0..layout.coordinate_count() {
             for column in 0..layout.coordinate_count() {
                 let get = |r, c, values: &[f64]| pattern.position(r, c).map_or(0.0, |p| values[p]);
                 let product: f64 = layout
                     .multiplier_rows()
                     .map(|m| {
-                        get(row, m, &linearization.constraint) * get(m, column, &linearization.constraint)
+                        get(row, m, &linearization.constraint)
+                            * here.point(0.0).augmentation.relative(layout.quantities()[m])
+                            * get(m, column, &linearization.constraint)
                     })
                     .sum();
                 let gram = get(row, column, &linearization.gram);
-                assert!((product - gram).abs() < 1e-12 * (1.0 + gram.abs()), "{name}: BᵀB");
+                assert!((product - gram).abs() < 1e-12 * (1.0 + gram.abs()), "{name}: BᵀWB");
             }
         }
     }

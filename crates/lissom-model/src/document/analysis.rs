@@ -50,6 +50,8 @@ pub struct Analysis {
     pub end: f64,
     /// How the equations are scaled.
     pub scaling: Scaling,
+    /// Whether rows and columns of the scaled tangent are brought to one size.
+    pub equilibrated: bool,
     /// Whether the augmented Lagrangian term is added.
     pub augmented: bool,
     /// Factor of the augmented term.
@@ -106,6 +108,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         scheme,
         parameters,
         scaling,
+        equilibrated: reader.flag("equilibrated").is_none_or(|flag| flag.value),
         augmented: reader.flag("augmented").is_none_or(|flag| flag.value),
         penalty: penalty?.value,
         solver,

@@ -326,6 +326,12 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
                 "",
                 "scale of the equations, default physical",
             ),
+            optional(
+                "equilibrated",
+                Shape::Flag,
+                "",
+                "rows and columns of the scaled tangent brought to one size, default true",
+            ),
             optional("augmented", Shape::Flag, "", "with the augmented Lagrangian term, default true"),
             optional("penalty", Shape::NotNegative, "", "factor of the augmented term, default 1e-3"),
             optional("solver", words(&registry.solvers), "", "linear solver"),

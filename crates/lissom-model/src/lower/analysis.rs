@@ -46,6 +46,7 @@ pub(super) fn settings(analysis: &Analysis) -> Result<(Settings, Plan), Problem>
                 Scaling::Unit => ScaleBy::Unit,
                 Scaling::None => ScaleBy::None,
             },
+            equilibrated: analysis.equilibrated,
             augmented: analysis.augmented,
             penalty: analysis.penalty,
         },

@@ -14,8 +14,24 @@ use crate::model::{Model, Override};
 /// More steps than this are not taken: the run ends earlier.
 pub const MOST_STEPS: usize = 2_000_000;
 
+/// One of the scalings compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Compared {
+    /// Name of its column.
+    pub name: &'static str,
+    /// What the drawing calls it.
+    label: &'static str,
+    by: ScaleBy,
+    equilibrated: bool,
+}
+
 /// The scalings compared, in the order of the columns.
-pub const SCALINGS: [ScaleBy; 3] = [ScaleBy::None, ScaleBy::Unit, ScaleBy::Physical];
+pub const SCALINGS: [Compared; 4] = [
+    Compared { name: "none", label: "no scaling", by: ScaleBy::None, equilibrated: false },
+    Compared { name: "unit", label: "s = 1", by: ScaleBy::Unit, equilibrated: false },
+    Compared { name: "physical", label: "s physical", by: ScaleBy::Physical, equilibrated: false },
+    Compared { name: "equilibrated", label: "equilibrated", by: ScaleBy::Physical, equilibrated: true },
+];
 
 /// What is asked for. Numbers stand as written, so that they reach the model unchanged.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -45,7 +61,7 @@ pub struct Row {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measured {
     /// Condition numbers of the last step's tangent, by [`SCALINGS`].
-    pub conditions: [f64; 3],
+    pub conditions: [f64; SCALINGS.len()],
     /// How they were found.
     pub method: ConditionMethod,
     /// Unknowns of the tangent.
@@ -142,12 +158,16 @@ fn measure(model: &Model, overrides: &[Override], effort: &Effort<'_>) -> Result
         }
     }
     let tangents = simulation
-        .converged_tangents(&SCALINGS.map(|by| ScalingChoice { by, ..choice }))
+        .converged_tangents(&SCALINGS.map(|Compared { by, equilibrated, .. }| ScalingChoice {
+            by,
+            equilibrated,
+            ..choice
+        }))
         .ok_or_else(|| StudyError::Scheme(simulation.settings().scheme.name.clone()))?;
     let structure = simulation.system().structure();
     let conditions: Vec<_> = tangents.iter().map(|tangent| tangent.condition(structure)).collect();
     Ok(Measured {
-        conditions: [conditions[0].value, conditions[1].value, conditions[2].value],
+        conditions: std::array::from_fn(|k| conditions[k].value),
         method: conditions[0].method,
         unknowns: simulation.system().layout().size(),
         end: simulation.state().kinematics.time,
@@ -161,7 +181,7 @@ impl Table {
     pub fn csv(&self) -> String {
         let mut heading = vec!["step_size"];
         heading.extend(self.path.as_deref());
-        heading.extend(SCALINGS.map(ScaleBy::name));
+        heading.extend(SCALINGS.map(|compared| compared.name));
         heading.extend(["method", "end"]);
         let mut text = csv_line(heading);
         for row in &self.rows {
@@ -172,7 +192,10 @@ impl Table {
                     fields.extend(measured.conditions.map(|value| format!("{value:e}")));
                     fields.extend([measured.method.name().to_owned(), measured.end.to_string()]);
                 }
-                Err(_) => fields.extend(["NaN", "NaN", "NaN", "failed", "NaN"].map(str::to_owned)),
+                Err(_) => {
+                    fields.extend(SCALINGS.map(|_| "NaN".to_owned()));
+                    fields.extend(["failed", "NaN"].map(str::to_owned));
+                }
             }
             text += &csv_line(fields.iter().map(String::as_str));
         }
@@ -188,10 +211,10 @@ impl Table {
             let Ok(measured) = &row.outcome else { continue };
             let varied = row.varied.as_deref().unwrap_or_default();
             let x = if over_value { varied.parse().unwrap_or(f64::NAN) } else { row.step_size };
-            for (by, value) in SCALINGS.iter().zip(measured.conditions) {
+            for (compared, value) in SCALINGS.iter().zip(measured.conditions) {
                 let name = match &self.path {
-                    Some(_) if !over_value => format!("{}, {varied}", label(*by)),
-                    _ => label(*by).to_owned(),
+                    Some(_) if !over_value => format!("{}, {varied}", compared.label),
+                    _ => compared.label.to_owned(),
                 };
                 match curves.iter_mut().find(|curve| curve.0 == name) {
                     Some(curve) => curve.1.push((x, value)),
@@ -210,13 +233,5 @@ impl Table {
             y_label: "condition number of the tangent [-]".to_owned(),
             curves,
         }
-    }
-}
-
-fn label(by: ScaleBy) -> &'static str {
-    match by {
-        ScaleBy::None => "no scaling",
-        ScaleBy::Unit => "s = 1",
-        ScaleBy::Physical => "s physical",
     }
 }

@@ -56,7 +56,7 @@ impl Table {
         ]);
         for case in &self.cases {
             let mut fields =
-                vec![case.scaling.name().to_owned(), case.augmented.to_string(), case.solver.to_owned()];
+                vec![scaling_name(case).to_owned(), case.augmented.to_string(), case.solver.to_owned()];
             match &case.outcome {
                 Err(stopped) => {
                     fields.extend(["false".to_owned(), stopped.unknown.clone()]);
@@ -79,4 +79,9 @@ impl Table {
         }
         text
     }
+}
+
+/// What tables call a case's scaling.
+pub fn scaling_name(case: &Case) -> &'static str {
+    if case.equilibrated { "equilibrated" } else { case.scaling.name() }
 }

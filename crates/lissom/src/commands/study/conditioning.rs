@@ -100,7 +100,7 @@ fn told(title: &str, table: &Table) -> String {
     let mut heading = vec!["step_size".to_owned()];
     heading.extend(table.path.clone());
     let words = heading.len();
-    heading.extend(SCALINGS.map(|by| by.name().to_owned()));
+    heading.extend(SCALINGS.map(|compared| compared.name.to_owned()));
     let mut lines = vec![heading];
     let mut notes = String::new();
     for row in &table.rows {

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::PathBuf;
 
 use clap::Args;
-use lissom::study::factorization::{Table, study};
+use lissom::study::factorization::{Table, scaling_name, study};
 use lissom_core::analysis::factorization_study::{Case, ITERATIONS};
 
 use super::super::{Exit, Failure, ModelArguments, show_warnings};
@@ -76,7 +76,7 @@ fn told(title: &str, table: &Table) -> String {
     text += &super::aligned(&lines, 4);
     for case in &table.cases {
         let combination =
-            format!("{}, {}, {}", case.scaling.name(), with_or_without(case.augmented), case.solver);
+            format!("{}, {}, {}", scaling_name(case), with_or_without(case.augmented), case.solver);
         let _ = match &case.outcome {
             Err(stopped) => writeln!(text, "{combination}: elimination stops at the {}", stopped.unknown),
             Ok(factored) => match &factored.newton.stopped_at {
@@ -95,7 +95,7 @@ fn with_or_without(augmented: bool) -> &'static str {
 fn line(case: &Case) -> Vec<String> {
     let yes_or_no = |yes: bool| if yes { "yes" } else { "no" }.to_owned();
     let mut cells = vec![
-        case.scaling.name().to_owned(),
+        scaling_name(case).to_owned(),
         yes_or_no(case.augmented),
         case.solver.to_owned(),
         yes_or_no(case.outcome.is_ok()),

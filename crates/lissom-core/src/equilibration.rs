@@ -1,0 +1,91 @@
+//! Brings the rows and columns of a tangent to one size, by powers of two: what is left of its condition is
+//! the model's own, not that of units or of parts that are light beside others. Powers of two are exact and
+//! elimination without pivoting does not see them, so that no result changes by a bit. Knows no mechanics.
+//!
+//! ```text
+//! Ĵ = F J F,   F_i = |J_ii|^(-1/2) for coordinates,   F_k = |J_k· F|₂⁻¹ for multipliers
+//! ```
+//!
+//! With the first, the blocks of coordinates have a unit diagonal, which is within a factor of the best
+//! diagonal scaling of a definite matrix [van der Sluis 1969]; with the second, so has their Schur complement
+//! where they are nearly diagonal.
+
+use lissom_solver::{Pattern, Scalar};
+
+/// A diagonal entry below this part of its column's largest is round-off.
+const NOTHING: f64 = 1e-14;
+
+/// The factors of rows and columns.
+#[derive(Clone, Debug)]
+pub struct Equilibration {
+    factors: Vec<f64>,
+    /// Rows before this one belong to coordinates, the others to multipliers.
+    coordinate_count: usize,
+}
+
+impl Equilibration {
+    /// No change yet, for `size` unknowns of which the first `coordinate_count` are coordinates.
+    pub fn new(size: usize, coordinate_count: usize) -> Self {
+        Self { factors: vec![1.0; size], coordinate_count }
+    }
+
+    /// Factor of each row and column.
+    pub fn factors(&self) -> &[f64] {
+        &self.factors
+    }
+
+    /// Finds the factors of the tangent with `values` on `pattern` and applies them to it.
+    pub fn apply<S: Scalar>(&mut self, pattern: &Pattern, values: &mut [S]) {
+        let (starts, rows) = (pattern.column_starts(), pattern.row_indices());
+        let count = self.coordinate_count;
+        for column in 0..pattern.size() {
+            let entries = || (starts[column]..starts[column + 1]).map(|k| (rows[k], values[k].magnitude()));
+            let square = if column < count {
+                let diagonal = entries().find(|&(row, _)| row == column).map_or(0.0, |(_, value)| value);
+                let largest = entries().fold(0.0, |most, (_, value)| value.max(most));
+                // A coordinate that only constraints see has no diagonal without the augmented term.
+                if diagonal > NOTHING * largest { diagonal } else { largest }
+            } else {
+                let own = entries().filter(|&(row, _)| row < count);
+                own.map(|(row, value)| (value * self.factors[row]).powi(2)).sum()
+            };
+            self.factors[column] = power_of_two(square);
+        }
+        for column in 0..pattern.size() {
+            let own = self.factors[column];
+            for k in starts[column]..starts[column + 1] {
+                values[k] *= S::from_parts(own * self.factors[rows[k]], 0.0);
+            }
+        }
+    }
+
+    /// Right-hand side of the equilibrated tangent, or from its solution to the tangent's own.
+    pub fn scale(&self, vector: &mut [f64]) {
+        for (value, factor) in vector.iter_mut().zip(&self.factors) {
+            *value *= factor;
+        }
+    }
+}
+
+/// The power of two next to the inverse root of `square`; 1 where there is nothing to go by.
+fn power_of_two(square: f64) -> f64 {
+    if square > 0.0 && square.is_finite() { (-0.5 * square.log2()).round().exp2() } else { 1.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn units_do_not_show_in_the_equilibrated_tangent() {
+        let pattern = Pattern::from_cliques(3, [&[0, 1, 2][..]]);
+        let tangent = [4.0, 1.0, 0.5, 1.0, 9.0, 0.25, 0.5, 0.25, 0.0];
+        let factors = [1024.0, 1.0 / 64.0, 16.0];
+        let mut plain = tangent;
+        let mut other: Vec<f64> = (0..9).map(|k| tangent[k] * factors[k / 3] * factors[k % 3]).collect();
+        Equilibration::new(3, 2).apply(&pattern, &mut plain);
+        Equilibration::new(3, 2).apply(&pattern, &mut other);
+        assert_eq!(plain.as_slice(), other.as_slice());
+        assert!(plain[..2].iter().chain(&plain[4..5]).all(|value| (0.1..=2.0).contains(value)), "{plain:?}");
+    }
+}

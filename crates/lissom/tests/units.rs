@@ -1,0 +1,111 @@
+//! The same mechanism in other units and on another level of mass takes the same iterations and gives the same
+//! motion.
+
+use std::path::Path;
+
+use lissom::Model;
+
+/// What a run came to: iterations, tangents, and the last record with its columns' quantities.
+struct Run {
+    iterations: usize,
+    tangents: usize,
+    last: Vec<(String, String, f64)>,
+}
+
+fn run(scheme: &[(&str, &str)], changes: &[(&str, String)]) -> Run {
+    let path = format!("{}/../../examples/tip-crank.toml", env!("CARGO_MANIFEST_DIR"));
+    let model = Model::read(Path::new(&path)).unwrap();
+    let mut overrides: Vec<(String, String)> =
+        changes.iter().map(|(path, value)| ((*path).to_owned(), value.clone())).collect();
+    overrides.extend(scheme.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())));
+    let mut session = model.session(&overrides).unwrap();
+    while !session.is_finished() {
+        session.advance().unwrap();
+    }
+    let mut values = Vec::new();
+    session.values(&mut values);
+    let last = session
+        .columns()
+        .iter()
+        .zip(values)
+        .map(|(column, value)| (column.name(), column.quantity.clone(), value));
+    let totals = session.simulation().totals();
+    Run { iterations: totals.newton_iterations, tangents: totals.factorizations, last: last.collect() }
+}
+
+/// Lengths in mm, masses in t: forces stay in N, moments and energies are in N mm.
+fn in_millimetres_and_tonnes() -> Vec<(&'static str, String)> {
+    [
+        ("materials.aluminium.E", "73e3"),
+        ("materials.aluminium.density", "2.7e-9"),
+        ("materials.steel.E", "210e3"),
+        ("materials.steel.density", "7.8e-9"),
+        ("sections.strip.width", "2.5"),
+        ("sections.strip.height", "100"),
+        ("sections.tube.outer_radius", "15"),
+        ("sections.tube.thickness", "10"),
+        ("points.tip", "[1000, 0, 0]"),
+        ("points.C", "[1000, 5, 0]"),
+        ("points.L", "[1000, 5, -500]"),
+        ("points.G", "[970, 5, -500]"),
+    ]
+    .map(|(path, value)| (path, value.to_owned()))
+    .into()
+}
+
+/// All masses and stiffnesses times `factor`.
+fn heavier(factor: f64) -> Vec<(&'static str, String)> {
+    [
+        ("materials.aluminium.E", 73e9),
+        ("materials.aluminium.density", 2700.0),
+        ("materials.steel.E", 210e9),
+        ("materials.steel.density", 7800.0),
+    ]
+    .map(|(path, value)| (path, format!("{:e}", value * factor)))
+    .into()
+}
+
+/// Factor of a quantity's unit: lengths, and forces; moments and energies are both together.
+fn factor(quantity: &str, length: f64, force: f64) -> f64 {
+    match quantity {
+        "displacement" | "position" => length,
+        "force" => force,
+        "moment" | "energy" => force * length,
+        other => panic!("no unit known for {other}"),
+    }
+}
+
+fn compare(reference: &Run, other: &Run, length: f64, force: f64) {
+    assert_eq!((reference.iterations, reference.tangents), (other.iterations, other.tangents));
+    for quantity in ["displacement", "force", "moment", "energy"] {
+        let of_quantity = |run: &Run| -> Vec<f64> {
+            run.last.iter().filter(|(_, kind, _)| kind == quantity).map(|(.., value)| *value).collect()
+        };
+        let (ours, theirs) = (of_quantity(reference), of_quantity(other));
+        assert!(!ours.is_empty(), "{quantity}");
+        let largest = ours.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        for (a, b) in ours.iter().zip(theirs) {
+            let error = (a - b / factor(quantity, length, force)).abs() / largest;
+            assert!(error < 1e-9, "{quantity}: {a:e}, {b:e}");
+        }
+    }
+}
+
+#[test]
+fn units_and_mass_levels_do_not_show() {
+    for scheme in [
+        &[("analysis.end", "0.05")][..],
+        &[
+            ("analysis.scheme", "\"hht\""),
+            ("analysis.alpha", "-0.3"),
+            ("analysis.step", "1e-3"),
+            ("analysis.end", "0.1"),
+        ],
+    ] {
+        let reference = run(scheme, &[]);
+        compare(&reference, &run(scheme, &in_millimetres_and_tonnes()), 1e3, 1.0);
+        for factor in [1e6, 1e-6] {
+            compare(&reference, &run(scheme, &heavier(factor)), 1.0, factor);
+        }
+    }
+}
