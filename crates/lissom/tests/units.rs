@@ -5,7 +5,7 @@ use std::path::Path;
 
 use lissom::Model;
 
-/// What a run came to: iterations, tangents, and the last record with its columns' quantities.
+/// What a run came to: iterations, tangents, and the last record with its columns' units.
 struct Run {
     iterations: usize,
     tangents: usize,
@@ -28,7 +28,7 @@ fn run(scheme: &[(&str, &str)], changes: &[(&str, String)]) -> Run {
         .columns()
         .iter()
         .zip(values)
-        .map(|(column, value)| (column.name(), column.quantity.clone(), value));
+        .map(|(column, value)| (column.name(), column.unit.clone(), value));
     let totals = session.simulation().totals();
     Run { iterations: totals.newton_iterations, tangents: totals.factorizations, last: last.collect() }
 }
@@ -65,28 +65,28 @@ fn heavier(factor: f64) -> Vec<(&'static str, String)> {
     .into()
 }
 
-/// Factor of a quantity's unit: lengths, and forces; moments and energies are both together.
-fn factor(quantity: &str, length: f64, force: f64) -> f64 {
-    match quantity {
-        "displacement" | "position" => length,
-        "force" => force,
-        "moment" | "energy" => force * length,
+/// Factor of a unit: lengths, and forces; moments and energies are both together.
+fn factor(unit: &str, length: f64, force: f64) -> f64 {
+    match unit {
+        "m" => length,
+        "N" => force,
+        "N m" | "J" => force * length,
         other => panic!("no unit known for {other}"),
     }
 }
 
 fn compare(reference: &Run, other: &Run, length: f64, force: f64) {
     assert_eq!((reference.iterations, reference.tangents), (other.iterations, other.tangents));
-    for quantity in ["displacement", "force", "moment", "energy"] {
-        let of_quantity = |run: &Run| -> Vec<f64> {
-            run.last.iter().filter(|(_, kind, _)| kind == quantity).map(|(.., value)| *value).collect()
+    for unit in ["m", "N", "N m", "J"] {
+        let in_unit = |run: &Run| -> Vec<f64> {
+            run.last.iter().filter(|(_, kind, _)| kind == unit).map(|(.., value)| *value).collect()
         };
-        let (ours, theirs) = (of_quantity(reference), of_quantity(other));
-        assert!(!ours.is_empty(), "{quantity}");
+        let (ours, theirs) = (in_unit(reference), in_unit(other));
+        assert!(!ours.is_empty(), "{unit}");
         let largest = ours.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         for (a, b) in ours.iter().zip(theirs) {
-            let error = (a - b / factor(quantity, length, force)).abs() / largest;
-            assert!(error < 1e-9, "{quantity}: {a:e}, {b:e}");
+            let error = (a - b / factor(unit, length, force)).abs() / largest;
+            assert!(error < 1e-9, "{unit}: {a:e}, {b:e}");
         }
     }
 }

@@ -187,15 +187,12 @@ impl Table {
         for row in &self.rows {
             let mut fields = vec![row.step.clone()];
             fields.extend(row.varied.clone());
-            match &row.outcome {
-                Ok(measured) => {
-                    fields.extend(measured.conditions.map(|value| format!("{value:e}")));
-                    fields.extend([measured.method.name().to_owned(), measured.end.to_string()]);
-                }
-                Err(_) => {
-                    fields.extend(SCALINGS.map(|_| "NaN".to_owned()));
-                    fields.extend(["failed", "NaN"].map(str::to_owned));
-                }
+            if let Ok(measured) = &row.outcome {
+                fields.extend(measured.conditions.map(|value| format!("{value:e}")));
+                fields.extend([measured.method.name().to_owned(), measured.end.to_string()]);
+            } else {
+                fields.extend(SCALINGS.map(|_| "NaN".to_owned()));
+                fields.extend(["failed", "NaN"].map(str::to_owned));
             }
             text += &csv_line(fields.iter().map(String::as_str));
         }

@@ -21,7 +21,9 @@ fn conditioning_prints_a_table_and_leaves_table_and_plot() {
     assert_eq!(lissom(&arguments, folder.path()).code, 0);
     let csv = std::fs::read_to_string(folder.path().join("tables/mass.csv")).unwrap();
     assert!(
-        csv.starts_with("step_size,point_masses.bob.mass,none,unit,physical,equilibrated,method,end\n1e-2,1,"),
+        csv.starts_with(
+            "step_size,point_masses.bob.mass,none,unit,physical,equilibrated,method,end\n1e-2,1,"
+        ),
         "{csv}"
     );
     assert!(folder.path().join("tables/mass.svg").is_file());
