@@ -31,6 +31,7 @@ mod report;
 mod session;
 pub mod study;
 pub mod summary;
+pub mod telemetry;
 
 pub use folder::{FolderError, ResultFolder};
 pub use lissom_core as core;

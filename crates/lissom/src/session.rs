@@ -13,6 +13,7 @@ use lissom_model::{Document, Report};
 
 use crate::pace::Pace;
 use crate::report::{EnergyChange, RunError, RunReport, Stopped};
+use crate::telemetry::Telemetry;
 
 /// A session that cannot start.
 #[derive(Debug, thiserror::Error)]
@@ -48,6 +49,7 @@ pub struct Session {
     tally: Tally,
     scale: f64,
     first_condition: Option<f64>,
+    telemetry: Telemetry,
     began: Instant,
 }
 
@@ -98,6 +100,7 @@ impl Session {
             tally: Tally { violations, ..Tally::default() },
             scale: simulation.scaled().scale(),
             first_condition: None,
+            telemetry: Telemetry::default(),
             simulation,
             channels,
             pace,
@@ -123,6 +126,11 @@ impl Session {
     /// Scale factor s of the planned step.
     pub fn scale(&self) -> f64 {
         self.scale
+    }
+
+    /// What the steps so far tell of their tangents.
+    pub fn telemetry(&self) -> &Telemetry {
+        &self.telemetry
     }
 
     /// Where it stands.
@@ -158,8 +166,9 @@ impl Session {
                 Ok(report) => {
                     let most = self.simulation.settings().limits.max_iterations;
                     self.pace.accept(2 * report.iterations <= most);
+                    self.telemetry.note(&mut self.simulation, &report, self.tally.solving);
                     if self.simulation.totals().steps == 1 {
-                        self.first_condition = self.condition_estimate();
+                        self.first_condition = self.telemetry.condition_range().map(|(least, _)| least);
                     }
                     return Ok(report);
                 }

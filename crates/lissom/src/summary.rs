@@ -108,15 +108,22 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
         }),
     );
     let [start, end] = report.conditions;
+    let range = session.telemetry().condition_range();
     tell(
         "tangent",
         json!({
-            "condition_estimate": { "start": start, "end": end },
+            "condition_estimate": {
+                "start": start,
+                "end": end,
+                "least": range.map(|range| range.0),
+                "most": range.map(|range| range.1),
+            },
             "smallest_relative_pivot": totals.smallest_relative_pivot,
             "scale": session.scale(),
             "penalty": if scaling.augmented { scaling.penalty } else { 0.0 },
         }),
     );
+    tell("telemetry", session.telemetry().to_json());
     let Representative { mass, damping, stiffness, length } = *simulation.representative();
     tell(
         "representative",

@@ -107,3 +107,26 @@ fn wrong_models_are_told_apart_from_failing_ones() {
     assert!(report.error().is_some() && !report.is_complete());
     assert_eq!(record.times, [0.0]);
 }
+
+#[test]
+fn telemetry_counts_every_iteration_and_stays_short() {
+    for (steps, most) in [(50, 50), (5000, 512)] {
+        let step = 0.5 / f64::from(steps);
+        let mut session = Model::from_text("spring", SPRING)
+            .session(&[set("analysis.step", step)])
+            .expect("the model is right");
+        let (_, report) = session.record();
+        let telemetry = session.telemetry();
+        let samples = telemetry.samples();
+        assert!(samples.len() <= most && samples.len() >= most / 2, "{}", samples.len());
+        let iterations: usize = samples.iter().map(|sample| sample.iterations).sum();
+        let tangents: usize = samples.iter().map(|sample| sample.factorizations).sum();
+        let open = report.totals.steps - samples[samples.len() - 1].step;
+        assert!(report.totals.newton_iterations - iterations <= 20 * open);
+        assert!(tangents >= 1 && tangents <= report.totals.factorizations);
+        assert!(samples.iter().all(|sample| sample.condition.is_some_and(|value| value >= 1.0)));
+        assert!(samples.iter().all(|sample| sample.relative_pivot.is_some_and(|value| value > 0.0)));
+        let (least, most) = telemetry.condition_range().expect("there is an estimate");
+        assert!(least <= most);
+    }
+}

@@ -197,6 +197,11 @@ impl Simulation {
         value.map(|value| value.max(1.0))
     }
 
+    /// Smallest pivot over largest diagonal entry of the tangent factored last.
+    pub fn relative_pivot(&self) -> Option<f64> {
+        self.engine.report().map(FactorReport::relative_pivot)
+    }
+
     /// Takes one step. On failure the state stays where it was.
     ///
     /// # Errors

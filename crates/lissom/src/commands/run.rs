@@ -168,6 +168,13 @@ fn told(heading: &str, session: &Session, report: &RunReport, folder: &Path) -> 
         let _ = write!(effort, ", {} steps ended at round-off", totals.stagnated_steps);
     }
     line("iterations", effort);
+    if let Some((least, most)) = session.telemetry().condition_range() {
+        let pivot = totals.smallest_relative_pivot;
+        line(
+            "tangent",
+            format!("condition {least:.1e} … {most:.1e} (1-norm), relative pivots from {pivot:.1e}"),
+        );
+    }
     if let Some(row) = totals.fell_back_at {
         let unknown = simulation.system().layout().name_of(row);
         line("solver", format!("a pivot vanished for the {unknown}: went on with the pivoting solver"));

@@ -1,0 +1,140 @@
+//! What every step tells of its tangent: condition, pivots, iterations. Long runs are thinned out, so that the
+//! summary stays small, and estimates of the condition never take more than a small share of the time.
+
+use std::time::{Duration, Instant};
+
+use lissom_core::analysis::{Simulation, StepReport};
+use serde_json::{Value, json};
+
+/// Most samples kept.
+const MOST_SAMPLES: usize = 512;
+/// Most time spent on estimates, as a share of the time spent on steps.
+const MOST_TIME: f64 = 0.05;
+
+/// One step, or several in a row where the run is long.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Number of the step, from 1.
+    pub step: usize,
+    /// Time at its end [s].
+    pub time: f64,
+    /// Condition number of the tangent in use, as estimated last in the 1-norm.
+    pub condition: Option<f64>,
+    /// Smallest pivot over largest diagonal entry of the tangent factored last.
+    pub relative_pivot: Option<f64>,
+    /// Newton iterations since the last sample.
+    pub iterations: usize,
+    /// Tangents factored since the last sample.
+    pub factorizations: usize,
+}
+
+/// Samples over a run.
+#[derive(Debug)]
+pub struct Telemetry {
+    samples: Vec<Sample>,
+    /// Steps from one sample to the next.
+    every: usize,
+    /// Iterations and tangents since the last sample.
+    open: (usize, usize),
+    /// The last estimate, and whether another tangent has been factored since.
+    condition: Option<f64>,
+    is_stale: bool,
+    range: Option<(f64, f64)>,
+    spent: Duration,
+}
+
+impl Default for Telemetry {
+    fn default() -> Self {
+        Self {
+            samples: Vec::new(),
+            every: 1,
+            open: (0, 0),
+            condition: None,
+            is_stale: true,
+            range: None,
+            spent: Duration::ZERO,
+        }
+    }
+}
+
+impl Telemetry {
+    /// The samples, in the order of time.
+    pub fn samples(&self) -> &[Sample] {
+        &self.samples
+    }
+
+    /// Smallest and largest condition number estimated.
+    pub fn condition_range(&self) -> Option<(f64, f64)> {
+        self.range
+    }
+
+    /// Notes a step that was completed; `solving` is the time spent on steps so far.
+    pub(crate) fn note(&mut self, simulation: &mut Simulation, report: &StepReport, solving: Duration) {
+        self.open.0 += report.iterations;
+        self.open.1 += report.factorizations;
+        self.is_stale |= report.factorizations > 0;
+        let step = simulation.totals().steps;
+        if step != 1 && !step.is_multiple_of(self.every) {
+            return;
+        }
+        if self.is_stale && (self.condition.is_none() || self.spent <= solving.mul_f64(MOST_TIME)) {
+            self.estimate(simulation);
+        }
+        let (iterations, factorizations) = std::mem::take(&mut self.open);
+        self.samples.push(Sample {
+            step,
+            time: simulation.state().kinematics.time,
+            condition: self.condition,
+            relative_pivot: simulation.relative_pivot(),
+            iterations,
+            factorizations,
+        });
+        if self.samples.len() >= MOST_SAMPLES {
+            self.thin_out();
+        }
+    }
+
+    fn estimate(&mut self, simulation: &mut Simulation) {
+        let began = Instant::now();
+        if let Some(condition) = simulation.condition_estimate() {
+            let value = condition.value;
+            self.condition = Some(value);
+            let (least, most) = self.range.unwrap_or((value, value));
+            self.range = Some((least.min(value), most.max(value)));
+            self.is_stale = false;
+        }
+        self.spent += began.elapsed();
+    }
+
+    /// Joins pairs of samples.
+    fn thin_out(&mut self) {
+        self.every *= 2;
+        let mut kept: Vec<Sample> = Vec::with_capacity(MOST_SAMPLES);
+        let (mut iterations, mut factorizations) = (0, 0);
+        for sample in &self.samples {
+            iterations += sample.iterations;
+            factorizations += sample.factorizations;
+            if sample.step == 1 || sample.step.is_multiple_of(self.every) {
+                kept.push(Sample { iterations, factorizations, ..*sample });
+                (iterations, factorizations) = (0, 0);
+            }
+        }
+        self.open.0 += iterations;
+        self.open.1 += factorizations;
+        self.samples = kept;
+    }
+
+    /// As columns for the summary.
+    pub(crate) fn to_json(&self) -> Value {
+        let column = |of: fn(&Sample) -> Value| self.samples.iter().map(of).collect::<Value>();
+        json!({
+            "every": self.every,
+            "step": column(|sample| json!(sample.step)),
+            "time": column(|sample| json!(sample.time)),
+            "condition_estimate": column(|sample| json!(sample.condition)),
+            "relative_pivot": column(|sample| json!(sample.relative_pivot)),
+            "newton_iterations": column(|sample| json!(sample.iterations)),
+            "factorizations": column(|sample| json!(sample.factorizations)),
+        })
+    }
+}
