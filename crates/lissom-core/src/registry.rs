@@ -100,7 +100,7 @@ pub const COORDINATE: Parameter = Parameter::optional(
     "coordinate",
     ParameterType::Positive,
     "",
-    "Which of the joint's coordinates, counted from 1; default 1.",
+    "Which of the joint's coordinates, counted from 1; default the first that fits.",
 );
 
 /// A parameter's value.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use lissom_core::elements::beam_line::{BeamLine, BeamProbe};
 use lissom_core::elements::quadrature::gauss_lobatto;
 use lissom_core::elements::shape::lagrange;
-use lissom_core::joints::Equations;
+use lissom_core::joints::{Equations, Quantity};
 use lissom_core::system::{CoordinateId, Kinematics, NodeId, State, System};
 use lissom_motion::{Motion, Vector3, rotation_part, translation_part};
 
@@ -180,7 +180,7 @@ fn channel(
             Source::Place(place, start)
         }
     };
-    let (components, units) = components(output.kind, &source);
+    let (components, units) = components(output.kind, &source, system);
     Ok(Channel { name: output.name.value.clone(), kind: output.kind, components, units, source })
 }
 
@@ -193,9 +193,10 @@ fn joint_source(
     if output.kind == OutputKind::Relative {
         let coordinates = names.coordinates.get(&name.value).cloned().unwrap_or_default();
         if coordinates.is_empty() {
-            let message = format!("joint `{}` has no relative rotation to record", name.value);
-            return Err(Problem::error(name.span, message)
-                .help("name a revolute, universal or swing_arm joint, or a drive of one"));
+            let message = format!("joint `{}` has no relative coordinate to record", name.value);
+            return Err(Problem::error(name.span, message).help(
+                "name a revolute, universal, swing_arm, prismatic or cylindrical joint, or a drive of one",
+            ));
         }
         return Ok(Source::Coordinates(coordinates));
     }
@@ -255,7 +256,7 @@ fn place(
     }
 }
 
-fn components(kind: OutputKind, source: &Source) -> (Vec<String>, Vec<&'static str>) {
+fn components(kind: OutputKind, source: &Source, system: &System) -> (Vec<String>, Vec<&'static str>) {
     let three =
         |letter: &str, unit: &'static str| ((1..=3).map(|k| format!("{letter}{k}")).collect(), vec![unit; 3]);
     let words = |words: &[&str], units: &[&'static str]| {
@@ -270,15 +271,37 @@ fn components(kind: OutputKind, source: &Source) -> (Vec<String>, Vec<&'static s
         (OutputKind::Acceleration, _) => three("a", "m/s²"),
         (OutputKind::SectionForce, _) => three("f", "N"),
         (OutputKind::SectionMoment, _) => three("m", "N m"),
-        (OutputKind::Reaction, Source::Drive(_)) => words(&["moment"], &["N m"]),
+        (OutputKind::Reaction, Source::Drive(index)) => {
+            match system.layout().coordinate_quantity(system.drives()[*index].prescribed.coordinate) {
+                Quantity::Angle => words(&["moment"], &["N m"]),
+                Quantity::Length => words(&["force"], &["N"]),
+            }
+        }
         (OutputKind::Reaction, _) => {
             words(&["f1", "f2", "f3", "m1", "m2", "m3"], &["N", "N", "N", "N m", "N m", "N m"])
         }
-        (OutputKind::Relative, Source::Coordinates(coordinates)) if coordinates.len() > 1 => {
-            let labels = (1..=coordinates.len()).flat_map(|k| [format!("angle{k}"), format!("rate{k}")]);
-            (labels.collect(), ["rad", "rad/s"].repeat(coordinates.len()))
-        }
-        (OutputKind::Relative, _) => words(&["angle", "rate"], &["rad", "rad/s"]),
+        (OutputKind::Relative, Source::Coordinates(coordinates)) => relative(coordinates, system),
+        (OutputKind::Relative, _) => (Vec::new(), Vec::new()),
         (OutputKind::Energy, _) => words(&["kinetic", "strain", "potential", "total"], &["J"; 4]),
     }
+}
+
+/// Components of relative coordinates, numbered where there are several of a kind.
+fn relative(coordinates: &[CoordinateId], system: &System) -> (Vec<String>, Vec<&'static str>) {
+    let kind = |&coordinate: &CoordinateId| system.layout().coordinate_quantity(coordinate);
+    let mut components = Vec::new();
+    let mut units = Vec::new();
+    for (index, coordinate) in coordinates.iter().enumerate() {
+        let alike =
+            |others: &[CoordinateId]| others.iter().filter(|&other| kind(other) == kind(coordinate)).count();
+        let number =
+            if alike(coordinates) > 1 { alike(&coordinates[..=index]).to_string() } else { String::new() };
+        let (words, of_words) = match kind(coordinate) {
+            Quantity::Angle => (["angle", "rate"], ["rad", "rad/s"]),
+            Quantity::Length => (["displacement", "velocity"], ["m", "m/s"]),
+        };
+        components.extend(words.map(|word| format!("{word}{number}")));
+        units.extend(of_words);
+    }
+    (components, units)
 }

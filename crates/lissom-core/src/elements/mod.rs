@@ -6,6 +6,7 @@
 pub mod beam;
 pub mod beam_line;
 mod beam_mean;
+pub mod coordinate_spring;
 pub mod force;
 pub mod inertia;
 pub mod interval;
@@ -13,8 +14,8 @@ pub mod moment;
 pub mod point_spring;
 pub mod quadrature;
 pub mod shape;
-pub mod torsional_spring;
 
+use crate::joints::Quantity;
 use crate::registry::{Parameter, ParameterError, Parameters};
 use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
 use interval::Interval;
@@ -145,8 +146,8 @@ pub enum Attachment {
     OneNode,
     /// Two nodes, base and tip, and a point carried by each.
     TwoNodes,
-    /// A joint's algebraic coordinate.
-    Coordinate,
+    /// A joint's algebraic coordinate of this quantity.
+    Coordinate(Quantity),
 }
 
 /// Where a component is attached, resolved to indices.
@@ -213,7 +214,8 @@ pub struct ElementKind {
 }
 
 /// Springs and dampers, one line each.
-pub static SPRINGS: &[ElementKind] = &[point_spring::KIND, torsional_spring::KIND];
+pub static SPRINGS: &[ElementKind] =
+    &[coordinate_spring::AXIAL, point_spring::KIND, coordinate_spring::TORSIONAL];
 
 /// Loads, one line each.
 pub static LOADS: &[ElementKind] = &[force::KIND, moment::KIND];

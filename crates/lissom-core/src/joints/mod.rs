@@ -6,10 +6,14 @@
 
 pub mod attached;
 pub mod clamp;
+pub mod cylindrical;
 pub mod distance;
 mod mean;
+pub mod prescribed;
+pub mod prescribed_displacement;
 pub mod prescribed_rotation;
 pub mod primitives;
+pub mod prismatic;
 pub mod revolute;
 pub mod rigid_link;
 pub mod spherical;
@@ -33,6 +37,16 @@ pub enum Quantity {
     Length,
     /// [rad]
     Angle,
+}
+
+impl Quantity {
+    /// What a joint's relative coordinate of this quantity is called.
+    pub fn relative(self) -> &'static str {
+        match self {
+            Self::Length => "displacement",
+            Self::Angle => "rotation",
+        }
+    }
 }
 
 /// Motion of the tip's joint frame in the base's joint frame, and its change since the start of the
@@ -66,7 +80,28 @@ impl Relative {
     }
 }
 
-/// The joint's own coordinates now, and their change since the start of the step [rad].
+/// An algebraic coordinate of a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Coordinate {
+    /// Name within the joint.
+    pub name: &'static str,
+    /// What it is.
+    pub quantity: Quantity,
+}
+
+impl Coordinate {
+    /// A relative rotation.
+    pub const fn rotation(name: &'static str) -> Self {
+        Self { name, quantity: Quantity::Angle }
+    }
+
+    /// A relative displacement.
+    pub const fn displacement(name: &'static str) -> Self {
+        Self { name, quantity: Quantity::Length }
+    }
+}
+
+/// The joint's own coordinates now, and their change since the start of the step [rad, m].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Own {
     /// Values now.
@@ -103,20 +138,14 @@ pub trait Joint: Send + Sync + std::fmt::Debug {
     /// Name of each equation.
     fn equations(&self) -> &'static [&'static str];
 
-    /// Name of each algebraic coordinate.
-    fn coordinates(&self) -> &'static [&'static str] {
+    /// Its algebraic coordinates.
+    fn coordinates(&self) -> &'static [Coordinate] {
         &[]
     }
 
     /// What an equation is: the first three are lengths, unless a joint says otherwise.
     fn equation_quantity(&self, equation: usize) -> Quantity {
         if equation < 3 { Quantity::Length } else { Quantity::Angle }
-    }
-
-    /// What a coordinate is: angles, unless a joint says otherwise.
-    fn coordinate_quantity(&self, coordinate: usize) -> Quantity {
-        let _ = coordinate;
-        Quantity::Angle
     }
 
     /// Coordinates at the start, and the relative motion for which they satisfy the equations.
@@ -170,8 +199,8 @@ pub type MakeJoint = fn(&Parameters, &Geometry) -> Result<Box<dyn Joint>, Parame
 pub enum Build {
     /// Between two nodes.
     Relative(Frames, MakeJoint),
-    /// Prescribes the algebraic coordinate of another joint as a function of time.
-    Coordinate(fn(&Parameters) -> Result<Function, ParameterError>),
+    /// Prescribes an algebraic coordinate of another joint, of this quantity, as a function of time.
+    Coordinate(Quantity, fn(&Parameters) -> Result<Function, ParameterError>),
 }
 
 /// A kind of joint, as the model file and the tests know it.
@@ -192,8 +221,11 @@ pub struct JointKind {
 /// All kinds of joints, one line each.
 pub static KINDS: &[JointKind] = &[
     clamp::KIND,
+    cylindrical::KIND,
     distance::KIND,
+    prescribed_displacement::KIND,
     prescribed_rotation::KIND,
+    prismatic::KIND,
     revolute::KIND,
     rigid_link::KIND,
     spherical::KIND,

@@ -1,9 +1,7 @@
-//! Prescribed relative rotation: a joint's coordinate is a function of time, c = φ - f(t).
-//! Its multiplier is the drive's moment.
+//! Prescribed relative rotation: a joint's angle is a function of time; the multiplier is the drive's moment.
 
-use super::{Build, JointKind};
-use crate::registry::{COORDINATE, Function, Parameter, ParameterType};
-use crate::system::CoordinateId;
+use super::{Build, JointKind, Quantity};
+use crate::registry::{COORDINATE, Parameter, ParameterType};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -19,79 +17,5 @@ pub const KIND: JointKind = JointKind {
         ),
         COORDINATE,
     ],
-    build: Build::Coordinate(|parameters| parameters.function("rotation")),
+    build: Build::Coordinate(Quantity::Angle, |parameters| parameters.function("rotation")),
 };
-
-/// A driven coordinate.
-#[derive(Clone, Debug)]
-pub struct PrescribedRotation {
-    /// The coordinate that is driven.
-    pub coordinate: CoordinateId,
-    /// Its value as a function of time [rad].
-    pub rotation: Function,
-}
-
-impl PrescribedRotation {
-    /// Violation, evaluated outright.
-    pub fn violation(&self, value: f64, time: f64) -> f64 {
-        value - self.rotation.value(time)
-    }
-
-    /// Change of the violation over the time `elapsed` [s] that ends at `time`.
-    pub fn violation_change(&self, value_change: f64, time: f64, elapsed: f64) -> f64 {
-        value_change - function_change(&self.rotation, time, elapsed)
-    }
-}
-
-/// `f(time) - f(time - elapsed)`. Over short times the difference cancels; the integral of the
-/// derivative, by three Gauss points, does not. The two are told apart by their agreement within
-/// round-off.
-fn function_change(function: &Function, time: f64, elapsed: f64) -> f64 {
-    const OFFSET: f64 = 0.774_596_669_241_483_4;
-    let (start, end) = (function.value(time - elapsed), function.value(time));
-    let difference = end - start;
-    let half = 0.5 * elapsed;
-    let middle = time - half;
-    let slope = |x: f64| function.first_derivative(middle + x * half);
-    let integral = half * (5.0 * (slope(-OFFSET) + slope(OFFSET)) + 8.0 * slope(0.0)) / 9.0;
-    let rounding = 4.0 * f64::EPSILON * (start.abs() + end.abs() + time.abs() * slope(0.0).abs());
-    if (integral - difference).abs() <= rounding { integral } else { difference }
-}
-
-#[cfg(test)]
-mod tests {
-    use std::sync::Arc;
-
-    use super::*;
-    use crate::registry::TimeFunction;
-
-    #[derive(Debug)]
-    struct Sine;
-
-    impl TimeFunction for Sine {
-        fn value(&self, time: f64) -> f64 {
-            time.sin()
-        }
-        fn first_derivative(&self, time: f64) -> f64 {
-            time.cos()
-        }
-        fn second_derivative(&self, time: f64) -> f64 {
-            -time.sin()
-        }
-    }
-
-    #[test]
-    fn short_changes_keep_their_digits_and_long_ones_are_exact() {
-        let function: Function = Arc::new(Sine);
-        let from = 0.7_f64;
-        for exponent in 1..10 {
-            let to = from + 10.0_f64.powi(-exponent);
-            let width = to - from;
-            // sin b - sin a = 2 cos((a + b)/2) sin((b - a)/2)
-            let exact = 2.0 * (0.5 * (from + to)).cos() * (0.5 * width).sin();
-            let change = function_change(&function, to, width);
-            let allowed = if exponent < 3 { 1e-13 } else { 1e-15 };
-            assert!((change - exact).abs() <= allowed * exact.abs().max(1e-2 * allowed), "{exponent}");
-        }
-    }
-}

@@ -49,6 +49,20 @@ pub fn coincident_curvature(relative: &Relative, mu: &Vector3, out: &mut Curvatu
     view += turning;
 }
 
+/// Rows `row..row + 3`: the tip's point lies on the base's third axis at the displacement d, c = Rᵀ x - d e₃. Like
+/// [`coincident`] but for a constant gradient by d, so that gradient and curvature by the relative motion are the same.
+/// The axes of base and tip agree, by other rows.
+pub fn on_third_axis(relative: &Relative, displacement: f64, row: usize, out: &mut Equations) {
+    coincident(relative, row, out);
+    out[row + 2] -= displacement;
+}
+
+/// Change of [`on_third_axis`] since the start of the step, d having changed by `change`.
+pub fn on_third_axis_change(relative: &Relative, change: f64, row: usize, out: &mut Equations) {
+    coincident_change(relative, row, out);
+    out[row + 2] -= change;
+}
+
 /// A joint's own rotation Q(φ) and its derivatives.
 #[derive(Clone, Copy, Debug)]
 pub struct JointRotation {

@@ -8,7 +8,8 @@ use super::primitives::{
     JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient, elementary,
 };
 use super::{
-    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own, Relative,
+    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own,
+    Relative,
 };
 use crate::registry::{Parameter, ParameterType};
 
@@ -40,8 +41,8 @@ impl Joint for Revolute {
         &EQUATIONS
     }
 
-    fn coordinates(&self) -> &'static [&'static str] {
-        &["angle"]
+    fn coordinates(&self) -> &'static [Coordinate] {
+        const { &[Coordinate::rotation("angle")] }
     }
 
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {

@@ -5,7 +5,8 @@ use lissom_motion::{Motion, Rotation, Vector3, skew};
 
 use super::primitives::{POINT_EQUATIONS, elementary, elementary_change};
 use super::{
-    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own, Relative,
+    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own,
+    Relative,
 };
 use crate::registry::{Parameter, ParameterError, ParameterType};
 
@@ -59,8 +60,8 @@ impl Joint for SwingArm {
         &POINT_EQUATIONS[..self.equations]
     }
 
-    fn coordinates(&self) -> &'static [&'static str] {
-        &["angle"]
+    fn coordinates(&self) -> &'static [Coordinate] {
+        const { &[Coordinate::rotation("angle")] }
     }
 
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {

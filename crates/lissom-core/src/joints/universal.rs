@@ -7,7 +7,7 @@ use super::clamp::EQUATIONS;
 use super::primitives::{
     JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient,
 };
-use super::{Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, Own, Relative};
+use super::{Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, Own, Relative};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -27,8 +27,8 @@ impl Joint for Universal {
         &EQUATIONS
     }
 
-    fn coordinates(&self) -> &'static [&'static str] {
-        &["first angle", "second angle"]
+    fn coordinates(&self) -> &'static [Coordinate] {
+        const { &[Coordinate::rotation("first angle"), Coordinate::rotation("second angle")] }
     }
 
     fn violation(&self, relative: &Relative, own: &Own) -> Equations {

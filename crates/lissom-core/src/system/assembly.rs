@@ -186,7 +186,7 @@ impl System {
             }
         }
         for drive in &self.drives {
-            out[drive.multiplier] = -drive.prescribed.rotation.second_derivative(at.time);
+            out[drive.multiplier] = -drive.prescribed.value.second_derivative(at.time);
         }
     }
 
@@ -194,7 +194,7 @@ impl System {
     pub fn constraint_velocities(&self, at: &Kinematics, out: &mut [f64]) {
         out.fill(0.0);
         for drive in &self.drives {
-            out[drive.multiplier] = -drive.prescribed.rotation.first_derivative(at.time);
+            out[drive.multiplier] = -drive.prescribed.value.first_derivative(at.time);
         }
     }
 }

@@ -13,7 +13,7 @@ use super::{Drive, GROUND, System};
 use crate::elements::Element;
 use crate::elements::inertia::Inertia;
 use crate::joints::attached::{AttachedJoint, CarriedFrame};
-use crate::joints::prescribed_rotation::PrescribedRotation;
+use crate::joints::prescribed::Prescribed;
 use crate::joints::{Build, Frames, Geometry, JointKind, Quantity};
 use crate::registry::{ParameterError, Parameters};
 
@@ -172,9 +172,12 @@ impl Builder {
             .coordinates()
             .iter()
             .enumerate()
-            .map(|(k, label)| {
-                let (name, quantity) = (format!("{name}.{label}"), joint.coordinate_quantity(k));
-                self.coordinates.push(Coordinate { name, value: values[k], quantity });
+            .map(|(k, coordinate)| {
+                self.coordinates.push(Coordinate {
+                    name: format!("{name}.{}", coordinate.name),
+                    value: values[k],
+                    quantity: coordinate.quantity,
+                });
                 self.coordinates.len() - 1
             })
             .collect();
@@ -206,7 +209,7 @@ impl Builder {
     /// Prescribes a coordinate, with a drive of a kind that acts on one.
     ///
     /// # Errors
-    /// If a parameter is missing.
+    /// If a parameter is missing, or the drive is for another kind of coordinate.
     pub fn add_drive(
         &mut self,
         name: &str,
@@ -214,14 +217,32 @@ impl Builder {
         coordinate: CoordinateId,
         parameters: &Parameters,
     ) -> Result<(), ParameterError> {
-        let Build::Coordinate(build) = kind.build else {
+        let Build::Coordinate(wanted, build) = kind.build else {
             return Err(ParameterError::new("kind", "stands between two nodes"));
         };
-        let prescribed = PrescribedRotation { coordinate, rotation: build(parameters)? };
+        self.check_quantity(coordinate, wanted)?;
+        let prescribed = Prescribed { coordinate, value: build(parameters)? };
         self.drives.push(Drive { name: name.to_owned(), prescribed, multiplier: self.multipliers.len() });
-        self.multipliers.push((name.to_owned(), "rotation"));
-        self.multiplier_quantities.push(self.coordinates[coordinate].quantity);
+        self.multipliers.push((name.to_owned(), wanted.relative()));
+        self.multiplier_quantities.push(wanted);
         Ok(())
+    }
+
+    /// What a coordinate measures.
+    pub fn coordinate_quantity(&self, coordinate: CoordinateId) -> Quantity {
+        self.coordinates[coordinate].quantity
+    }
+
+    /// Whether a coordinate measures what a drive or spring acts on.
+    pub(crate) fn check_quantity(
+        &self,
+        coordinate: CoordinateId,
+        wanted: Quantity,
+    ) -> Result<(), ParameterError> {
+        if self.coordinates[coordinate].quantity == wanted {
+            return Ok(());
+        }
+        Err(ParameterError::new("coordinate", format!("must be a relative {}", wanted.relative())))
     }
 
     /// Numbers the unknowns and gives the system with its state at `time` [s]: places and twists as

@@ -88,6 +88,11 @@ impl Layout {
         self.coordinate_rows[coordinate] as usize
     }
 
+    /// What an algebraic coordinate is.
+    pub fn coordinate_quantity(&self, coordinate: CoordinateId) -> Quantity {
+        self.quantities[self.row_of_coordinate(coordinate)]
+    }
+
     /// Joint and equation of a multiplier.
     ///
     /// # Panics

@@ -21,7 +21,7 @@ use lissom_solver::Structure;
 use crate::elements::Energy;
 use crate::elements::inertia::Inertia;
 use crate::joints::attached::AttachedJoint;
-use crate::joints::prescribed_rotation::PrescribedRotation;
+use crate::joints::prescribed::Prescribed;
 use batch::AnyBatch;
 
 /// The ground: node 0 of every system, without freedoms.
@@ -33,8 +33,8 @@ pub struct Drive {
     /// Name in the model.
     pub name: String,
     /// What is prescribed.
-    pub prescribed: PrescribedRotation,
-    /// Its multiplier, the drive's moment, among all multipliers.
+    pub prescribed: Prescribed,
+    /// Its multiplier, the drive's moment or force, among all multipliers.
     pub multiplier: usize,
 }
 

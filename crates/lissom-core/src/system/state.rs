@@ -101,11 +101,11 @@ impl MotionChange {
 /// A scalar algebraic coordinate and its rates.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CoordinateMotion {
-    /// Value [rad].
+    /// Value [rad, m].
     pub value: f64,
-    /// First time derivative [rad/s].
+    /// First time derivative [rad/s, m/s].
     pub rate: f64,
-    /// Second time derivative [rad/s²].
+    /// Second time derivative [rad/s², m/s²].
     pub acceleration: f64,
 }
 

@@ -5,7 +5,7 @@ mod configuration;
 use configuration::{Configuration, Random, difference, sample_parameters};
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
-use lissom_core::joints::{self, Build};
+use lissom_core::joints::{self, Build, JointKind, Quantity};
 use lissom_core::system::{Builder, Chart, Freedoms, Linearization, Placement, State, System};
 use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
 
@@ -68,6 +68,15 @@ fn two_bodies(random: &mut Random) -> (Builder, [usize; 2]) {
     (builder, nodes)
 }
 
+/// A joint whose first coordinate is of this kind.
+fn joint_with(wanted: Quantity) -> &'static JointKind {
+    let name = match wanted {
+        Quantity::Angle => "revolute",
+        Quantity::Length => "prismatic",
+    };
+    joints::KINDS.iter().find(|kind| kind.name == name).expect("there")
+}
+
 #[test]
 fn springs_and_loads() {
     for (seed, kind) in SPRINGS.iter().chain(LOADS).enumerate() {
@@ -78,7 +87,7 @@ fn springs_and_loads() {
             let attached = match kind.attachment {
                 Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),
                 Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
-                Attachment::Coordinate => {
+                Attachment::Coordinate(wanted) => {
                     let placement = Placement {
                         nodes,
                         at: random.vector(),
@@ -86,9 +95,13 @@ fn springs_and_loads() {
                         axis: Some(random.vector()),
                         second_axis: None,
                     };
-                    let revolute = joints::KINDS.iter().find(|kind| kind.name == "revolute").expect("there");
                     let coordinates = builder
-                        .add_joint("hinge", revolute, &placement, &sample_parameters(&[], flag, &mut random))
+                        .add_joint(
+                            "joint",
+                            joint_with(wanted),
+                            &placement,
+                            &sample_parameters(&[], flag, &mut random),
+                        )
                         .expect("valid");
                     Attached::Coordinate(coordinates[0])
                 }
@@ -170,10 +183,14 @@ fn all_joints() {
                 Build::Relative(..) => {
                     builder.add_joint("joint", kind, &placement, &parameters).expect("valid");
                 }
-                Build::Coordinate(_) => {
-                    let revolute = joints::KINDS.iter().find(|kind| kind.name == "revolute").expect("there");
+                Build::Coordinate(wanted, _) => {
                     let coordinates = builder
-                        .add_joint("hinge", revolute, &placement, &sample_parameters(&[], false, &mut random))
+                        .add_joint(
+                            "joint",
+                            joint_with(wanted),
+                            &placement,
+                            &sample_parameters(&[], false, &mut random),
+                        )
                         .expect("valid");
                     builder.add_drive("drive", kind, coordinates[0], &parameters).expect("valid");
                 }

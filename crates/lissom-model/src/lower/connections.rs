@@ -1,7 +1,7 @@
 //! Joints, drives, springs and loads, by way of the registry.
 
-use lissom_core::elements::{Attached, ElementKind, LOADS, SPRINGS};
-use lissom_core::joints::{self, Build, JointKind};
+use lissom_core::elements::{self, Attached, ElementKind, LOADS, SPRINGS};
+use lissom_core::joints::{self, Build, JointKind, Quantity};
 use lissom_core::system::{Builder, CoordinateId, NodeId, Placement};
 use lissom_motion::Vector3;
 
@@ -22,7 +22,7 @@ pub(super) fn add(
                 problems.push(unknown_kind(component));
                 continue;
             };
-            if matches!(kind.build, Build::Coordinate(_)) == drives
+            if matches!(kind.build, Build::Coordinate(..)) == drives
                 && let Err(problem) = joint(component, kind, builder, names)
             {
                 problems.push(problem);
@@ -56,7 +56,11 @@ fn joint(
     let fault = |error| parameter_problem(component, &error);
     let placement = match &component.attachment {
         Attachment::JointCoordinate { joint } => {
-            let coordinate = coordinate(component, joint, names)?;
+            let wanted = match kind.build {
+                Build::Coordinate(wanted, _) => wanted,
+                Build::Relative(..) => Quantity::Angle,
+            };
+            let coordinate = coordinate(component, joint, wanted, builder, names)?;
             builder.add_drive(name, kind, coordinate, &component.parameters).map_err(fault)?;
             names.coordinates.insert(name.clone(), vec![coordinate]);
             return Ok(());
@@ -88,21 +92,29 @@ fn joint(
     Ok(())
 }
 
-/// The coordinate of a joint that a drive or a torsional spring acts on.
+/// The coordinate of a joint that a drive or a spring acts on: the one it names, or the first of the kind it wants.
 fn coordinate(
     component: &Component,
     joint: &Located<String>,
+    wanted: Quantity,
+    builder: &Builder,
     names: &Names,
 ) -> Result<CoordinateId, Problem> {
     let coordinates = names.coordinates.get(&joint.value).map_or(&[][..], Vec::as_slice);
-    if coordinates.is_empty() {
-        return Err(Problem::error(joint.span, format!("joint `{}` has no relative rotation", joint.value))
+    let fits = |coordinate: &CoordinateId| builder.coordinate_quantity(*coordinate) == wanted;
+    let Some(first) = coordinates.iter().position(fits) else {
+        let message = format!("joint `{}` has no relative {}", joint.value, wanted.relative());
+        let kinds = match wanted {
+            Quantity::Angle => "a revolute, universal, swing_arm or cylindrical joint",
+            Quantity::Length => "a prismatic or cylindrical joint",
+        };
+        return Err(Problem::error(joint.span, message)
             .label("nothing to act on")
-            .help("name a revolute, universal or swing_arm joint"));
-    }
+            .help(format!("name {kinds}")));
+    };
     let number = component
         .parameters
-        .number_or("coordinate", 1.0)
+        .number_or("coordinate", (first + 1) as f64)
         .map_err(|error| parameter_problem(component, &error))?;
     let index = number as usize;
     if index as f64 != number || index == 0 || index > coordinates.len() {
@@ -135,7 +147,13 @@ fn element(
             let nodes = [names.node(base)?, names.node(tip)?];
             Attached::TwoNodes(nodes, nodes.map(|node| local(builder, node, at)))
         }
-        Attachment::JointCoordinate { joint } => Attached::Coordinate(coordinate(component, joint, names)?),
+        Attachment::JointCoordinate { joint } => {
+            let wanted = match kind.attachment {
+                elements::Attachment::Coordinate(wanted) => wanted,
+                _ => Quantity::Angle,
+            };
+            Attached::Coordinate(coordinate(component, joint, wanted, builder, names)?)
+        }
     };
     (kind.build)(builder, attached, &component.parameters)
         .map_err(|error| parameter_problem(component, &error))

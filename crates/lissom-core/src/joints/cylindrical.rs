@@ -1,0 +1,97 @@
+//! Cylindrical joint: the tip slides along an axis of the base and turns about it. Rotation and displacement are
+//! algebraic coordinates: x = d e₃ in the joint frame, R = Q(φ).
+
+use lissom_motion::{Motion, Rotation, Vector3};
+
+use super::clamp::EQUATIONS;
+use super::primitives::{
+    JointRotation, coincident_curvature, coincident_gradient, elementary, on_third_axis, on_third_axis_change,
+};
+use super::{
+    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own,
+    Relative,
+};
+use crate::registry::{Parameter, ParameterType};
+
+/// The displacement's place among the coordinates, after the rotation.
+const SLIDE: usize = 1;
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "cylindrical",
+    summary: "The tip slides along an axis and turns about it; rotation and displacement are coordinates.",
+    sample: "axis = [1.0, 0.0, 0.0]",
+    parameters: &[
+        Parameter::optional(
+            "angle",
+            ParameterType::Number,
+            "rad",
+            "Value of the relative rotation at the start; default 0.",
+        ),
+        Parameter::optional(
+            "displacement",
+            ParameterType::Number,
+            "m",
+            "Value of the relative displacement at the start; default 0.",
+        ),
+    ],
+    build: Build::Relative(Frames::Axis, |parameters, _| {
+        Ok(Box::new(Cylindrical {
+            angle: parameters.number_or("angle", 0.0)?,
+            displacement: parameters.number_or("displacement", 0.0)?,
+        }))
+    }),
+};
+
+/// A slide that turns.
+#[derive(Clone, Copy, Debug)]
+pub struct Cylindrical {
+    /// Relative rotation at the start [rad].
+    angle: f64,
+    /// Relative displacement at the start [m].
+    displacement: f64,
+}
+
+impl Joint for Cylindrical {
+    fn equations(&self) -> &'static [&'static str] {
+        &EQUATIONS
+    }
+
+    fn coordinates(&self) -> &'static [Coordinate] {
+        const { &[Coordinate::rotation("angle"), Coordinate::displacement("displacement")] }
+    }
+
+    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+        let rotation = Rotation::from_matrix(&elementary(2, self.angle));
+        ([self.angle, self.displacement], Motion::new(rotation, self.displacement * Vector3::z()))
+    }
+
+    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+        let mut out = Equations::default();
+        on_third_axis(relative, own.value[SLIDE], 0, &mut out);
+        JointRotation::about_third_axis(own).matches(relative, 3, &mut out);
+        out
+    }
+
+    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations {
+        let mut out = Equations::default();
+        on_third_axis_change(relative, own.change[SLIDE], 0, &mut out);
+        JointRotation::about_third_axis(own).matches_change(relative, 3, &mut out);
+        out
+    }
+
+    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+        coincident_gradient(relative, 0, out);
+        out.own[(2, SLIDE)] = -1.0;
+        JointRotation::about_third_axis(own).matches_gradient(relative, 3, out);
+    }
+
+    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
+        coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+        JointRotation::about_third_axis(own).matches_curvature(
+            relative,
+            &Vector3::new(mu[3], mu[4], mu[5]),
+            out,
+        );
+    }
+}

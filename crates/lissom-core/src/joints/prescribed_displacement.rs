@@ -1,0 +1,21 @@
+//! Prescribed relative displacement: a joint's displacement is a function of time; the multiplier is the drive's force.
+
+use super::{Build, JointKind, Quantity};
+use crate::registry::{COORDINATE, Parameter, ParameterType};
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "prescribed_displacement",
+    summary: "Prescribes a joint's relative displacement as a function of time.",
+    sample: "displacement = \"0.1*sin(2*pi*t)\"",
+    parameters: &[
+        Parameter::required(
+            "displacement",
+            ParameterType::Function,
+            "m",
+            "The relative displacement as a function of time.",
+        ),
+        COORDINATE,
+    ],
+    build: Build::Coordinate(Quantity::Length, |parameters| parameters.function("displacement")),
+};

@@ -1,0 +1,80 @@
+//! Prismatic joint: the tip slides along an axis of the base and does not turn against it. The displacement along
+//! the axis is an algebraic coordinate: x = d e₃ in the joint frame, R = I.
+
+use lissom_motion::{Motion, Rotation, Vector3};
+
+use super::clamp::EQUATIONS;
+use super::primitives::{
+    JointRotation, coincident_curvature, coincident_gradient, on_third_axis, on_third_axis_change,
+};
+use super::{
+    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own,
+    Relative,
+};
+use crate::registry::{Parameter, ParameterType};
+
+/// The displacement's place among the coordinates.
+const SLIDE: usize = 0;
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "prismatic",
+    summary: "The tip slides along an axis without turning; the displacement is a coordinate.",
+    sample: "axis = [1.0, 0.0, 0.0]",
+    parameters: &[Parameter::optional(
+        "displacement",
+        ParameterType::Number,
+        "m",
+        "Value of the relative displacement at the start; default 0.",
+    )],
+    build: Build::Relative(Frames::Axis, |parameters, _| {
+        Ok(Box::new(Prismatic { displacement: parameters.number_or("displacement", 0.0)? }))
+    }),
+};
+
+/// A slide.
+#[derive(Clone, Copy, Debug)]
+pub struct Prismatic {
+    /// Relative displacement at the start [m].
+    displacement: f64,
+}
+
+impl Joint for Prismatic {
+    fn equations(&self) -> &'static [&'static str] {
+        &EQUATIONS
+    }
+
+    fn coordinates(&self) -> &'static [Coordinate] {
+        const { &[Coordinate::displacement("displacement")] }
+    }
+
+    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+        let place = Motion::new(Rotation::identity(), self.displacement * Vector3::z());
+        ([self.displacement, 0.0], place)
+    }
+
+    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+        let mut out = Equations::default();
+        on_third_axis(relative, own.value[SLIDE], 0, &mut out);
+        JointRotation::none().matches(relative, 3, &mut out);
+        out
+    }
+
+    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations {
+        let mut out = Equations::default();
+        on_third_axis_change(relative, own.change[SLIDE], 0, &mut out);
+        JointRotation::none().matches_change(relative, 3, &mut out);
+        out
+    }
+
+    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+        coincident_gradient(relative, 0, out);
+        out.own[(2, SLIDE)] = -1.0;
+        JointRotation::none().matches_gradient(relative, 3, out);
+    }
+
+    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
+        coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+        JointRotation::none().matches_curvature(relative, &Vector3::new(mu[3], mu[4], mu[5]), out);
+    }
+}
