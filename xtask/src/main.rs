@@ -1,5 +1,6 @@
 //! Chores of the project, as `cargo xtask verify`. Knows no mechanics: it runs models and compares numbers.
 
+mod bench;
 mod blade;
 mod case;
 mod compare;
@@ -7,10 +8,12 @@ mod curves;
 mod formula;
 mod invariants;
 mod outcome;
+mod peers;
 mod readme;
 mod refine;
 mod report;
 mod runs;
+mod scenes;
 mod transform;
 mod verify;
 
@@ -30,6 +33,46 @@ struct Arguments {
 enum Chore {
     /// Run the verification cases and write verification/REPORT.md
     Verify(VerifyArguments),
+    /// Write the scenes that speed is measured on to benches/scenes/
+    Scenes(ScenesArguments),
+    /// Run scenes without outputs and print where their time goes
+    Bench(BenchArguments),
+}
+
+/// What is written.
+#[derive(clap::Args)]
+struct ScenesArguments {
+    /// Write the large scenes as well
+    #[arg(long)]
+    large: bool,
+    /// Only print the names
+    #[arg(long)]
+    list: bool,
+}
+
+/// What is measured.
+#[derive(clap::Args)]
+struct BenchArguments {
+    /// Scenes by name, as `chain-s-1000`; those that are kept as files if none is given
+    names: Vec<String>,
+    /// Runs of each scene, of which the fastest counts
+    #[arg(long, default_value_t = 3)]
+    repeat: usize,
+    /// Values to change, as in `--set analysis.scheme=radau-iia`
+    #[arg(long)]
+    set: Vec<String>,
+    /// File for the table
+    #[arg(long)]
+    out: Option<PathBuf>,
+}
+
+impl BenchArguments {
+    fn overrides(&self) -> Vec<lissom::Override> {
+        let pair = |text: &String| {
+            text.split_once('=').map(|(path, value)| (path.trim().to_owned(), value.trim().to_owned()))
+        };
+        self.set.iter().filter_map(pair).collect()
+    }
 }
 
 /// What is verified.
@@ -55,8 +98,18 @@ struct VerifyArguments {
 }
 
 fn main() -> ExitCode {
-    let Chore::Verify(arguments) = Arguments::parse().chore;
-    match verify::verify(&arguments) {
+    let outcome = match Arguments::parse().chore {
+        Chore::Verify(arguments) => verify::verify(&arguments).map_err(|error| error.to_string()),
+        Chore::Scenes(arguments) if arguments.list => {
+            scenes::KEPT.iter().chain(scenes::LARGE).for_each(|name| println!("{name}"));
+            Ok(true)
+        }
+        Chore::Scenes(arguments) => {
+            bench::write(&verify::root(), arguments.large).map(|()| true).map_err(|error| error.to_string())
+        }
+        Chore::Bench(arguments) => bench::bench(&arguments).map(|()| true).map_err(|error| error.to_string()),
+    };
+    match outcome {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::FAILURE,
         Err(error) => {

@@ -41,7 +41,7 @@ impl VerifyError {
 }
 
 /// The project's folder: of the run where cargo tells it, of the build otherwise.
-fn root() -> PathBuf {
+pub(crate) fn root() -> PathBuf {
     let chores =
         std::env::var("CARGO_MANIFEST_DIR").unwrap_or_else(|_| env!("CARGO_MANIFEST_DIR").to_owned());
     Path::new(&chores).parent().map_or_else(PathBuf::new, Path::to_owned)

@@ -29,6 +29,7 @@ mod model;
 mod pace;
 mod report;
 mod session;
+mod spent;
 pub mod study;
 pub mod summary;
 pub mod telemetry;
@@ -41,6 +42,7 @@ pub use lissom_model::{Document, Report};
 pub use model::{Model, Override};
 pub use report::{EnergyChange, RunError, RunReport, Stopped};
 pub use session::{Progress, Session, SessionError};
+pub use spent::Seconds;
 
 /// Version of the program, as it stands in every summary.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

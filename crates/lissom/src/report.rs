@@ -6,6 +6,8 @@ use std::time::Duration;
 use lissom_core::analysis::{StepError, Totals};
 use lissom_core::elements::Energy;
 
+use crate::spent::Seconds;
+
 /// Why a run ended early.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -66,6 +68,8 @@ pub struct RunReport {
     pub wall: Duration,
     /// Steps alone, without initial values, outputs and writing.
     pub solving: Duration,
+    /// Where the time went.
+    pub seconds: Seconds,
     /// Largest violation of a constraint, evaluated outright, over all records [m, rad].
     pub violation: f64,
     /// Energy over all records.

@@ -3,7 +3,7 @@
 
 use std::io;
 use std::ops::ControlFlow;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use lissom_core::analysis::{InitialError, Simulation, StepError, StepReport};
 use lissom_model::channels::Channel;
@@ -13,6 +13,7 @@ use lissom_model::{Document, Report};
 
 use crate::pace::Pace;
 use crate::report::{EnergyChange, RunError, RunReport, Stopped};
+use crate::spent::Spent;
 use crate::telemetry::Telemetry;
 
 /// A session that cannot start.
@@ -47,6 +48,7 @@ pub struct Session {
     columns: Vec<Column>,
     pace: Pace,
     tally: Tally,
+    spent: Spent,
     scale: f64,
     first_condition: Option<f64>,
     telemetry: Telemetry,
@@ -57,7 +59,6 @@ pub struct Session {
 #[derive(Default)]
 struct Tally {
     records: usize,
-    solving: Duration,
     violation: f64,
     energy: EnergyChange,
     values: Vec<f64>,
@@ -95,8 +96,11 @@ impl Session {
         let pace = Pace::new(plan, settings.step_size);
         let simulation = Simulation::new(system, state, settings)?;
         let violations = vec![0.0; simulation.system().layout().multiplier_rows().len()];
+        let mut spent = Spent::new();
+        spent.start = began.elapsed();
         Ok(Self {
             columns: columns(&channels),
+            spent,
             tally: Tally { violations, ..Tally::default() },
             scale: simulation.scaled().scale(),
             first_condition: None,
@@ -159,14 +163,14 @@ impl Session {
     pub fn advance(&mut self) -> Result<StepReport, StepError> {
         loop {
             self.simulation.set_step_size(self.pace.next_size());
-            let began = Instant::now();
-            let outcome = self.simulation.step();
-            self.tally.solving += began.elapsed();
+            let began = self.spent.begin_step();
+            let outcome = self.simulation.step_watched(&mut self.spent);
+            self.spent.end_step(began);
             match outcome {
                 Ok(report) => {
                     let most = self.simulation.settings().limits.max_iterations;
                     self.pace.accept(2 * report.iterations <= most);
-                    self.telemetry.note(&mut self.simulation, &report, self.tally.solving);
+                    self.telemetry.note(&mut self.simulation, &report, self.spent.steps());
                     if self.simulation.totals().steps == 1 {
                         self.first_condition = self.telemetry.condition_range().map(|(least, _)| least);
                     }
@@ -212,7 +216,8 @@ impl Session {
             records: self.tally.records,
             totals: *self.simulation.totals(),
             wall: self.began.elapsed(),
-            solving: self.tally.solving,
+            solving: self.spent.steps(),
+            seconds: self.spent.seconds(),
             violation: self.tally.violation,
             energy: self.tally.energy,
             conditions: [self.first_condition, self.condition_estimate()],
@@ -262,13 +267,16 @@ impl Session {
     }
 
     fn write_row(&mut self, writers: &mut [&mut dyn Writer]) -> io::Result<()> {
+        let began = Instant::now();
         let mut values = std::mem::take(&mut self.tally.values);
         values.clear();
         self.values(&mut values);
         self.tally.values = values;
         self.take_stock();
         let time = self.pace.time();
-        writers.iter_mut().try_for_each(|writer| writer.row(time, &self.tally.values))
+        let written = writers.iter_mut().try_for_each(|writer| writer.row(time, &self.tally.values));
+        self.spent.output += began.elapsed();
+        written
     }
 
     /// Violations and energy at a recorded instant.

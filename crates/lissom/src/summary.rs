@@ -84,6 +84,19 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     tell("smallest_relative_pivot", json!(totals.smallest_relative_pivot));
     tell("wall_seconds", json!(report.wall.as_secs_f64()));
     tell("solve_seconds", json!(report.solving.as_secs_f64()));
+    let seconds = &report.seconds;
+    tell(
+        "seconds",
+        json!({
+            "start": seconds.start,
+            "evaluation": seconds.evaluation,
+            "linearisation": seconds.linearisation,
+            "factorisation": seconds.factorisation,
+            "solve": seconds.solve,
+            "rest": seconds.rest,
+            "output": seconds.output,
+        }),
+    );
     tell("max_constraint_violation", json!(report.violation));
     tell("max_carried_violation", json!(totals.max_constraint_violation));
     tell("velocity_correction", json!(simulation.velocity_correction()));
@@ -145,6 +158,7 @@ pub fn of_failed_start(summary: &mut Summary, error: &dyn std::error::Error) {
         "smallest_relative_pivot",
         "wall_seconds",
         "solve_seconds",
+        "seconds",
         "max_constraint_violation",
         "max_carried_violation",
         "velocity_correction",

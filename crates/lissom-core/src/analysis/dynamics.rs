@@ -6,6 +6,7 @@ use super::approach;
 use super::decaying::{DecayingEquations, DecayingWorkspace};
 use super::equations::{StepEquations, Workspace};
 use super::initial::{Initial, InitialError};
+use super::phase::{Phase, Stopwatch, Unwatched};
 use super::step_error::{StepError, pivot_hint};
 use crate::newton::{self, Failure, Limits, Memory};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
@@ -180,6 +181,7 @@ impl Simulation {
             rescale: &|_| scaled,
             start: &self.next,
             work,
+            watch: &mut Unwatched,
         };
         equations.linearize();
         Some(&work.linearization)
@@ -207,8 +209,18 @@ impl Simulation {
     /// # Errors
     /// If Newton's iterations do not converge or the tangent has no factorisation.
     pub fn step(&mut self) -> Result<StepReport, StepError> {
+        self.step_watched(&mut Unwatched)
+    }
+
+    /// Takes one step as [`step`](Self::step) does and tells `watch` which part of the work begins. The
+    /// energy-decaying scheme tells nothing.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn step_watched(&mut self, watch: &mut dyn Stopwatch) -> Result<StepReport, StepError> {
+        watch.begin(Phase::Rest);
         let outcome = match &mut self.engine {
-            Engine::Collocation(_) => self.collocate(),
+            Engine::Collocation(_) => self.collocate(watch),
             Engine::Decaying(_) => self.decay(),
         }?;
         std::mem::swap(&mut self.state, &mut self.next);
@@ -223,7 +235,7 @@ impl Simulation {
     }
 
     /// A step of a scheme with equilibrium at its stages.
-    fn collocate(&mut self) -> Result<newton::Outcome, StepError> {
+    fn collocate(&mut self, watch: &mut dyn Stopwatch) -> Result<newton::Outcome, StepError> {
         let Engine::Collocation(work) = &mut self.engine else {
             unreachable!("chosen by the engine");
         };
@@ -237,6 +249,7 @@ impl Simulation {
             rescale: &rescale,
             start: &self.state,
             work,
+            watch,
         };
         let outcome =
             approach::solve(&mut equations, &self.settings.limits, &mut self.memory).map_err(|failure| {

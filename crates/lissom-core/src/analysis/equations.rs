@@ -5,6 +5,7 @@ use lissom_solver::{FactorError, FactorReport};
 
 use super::approach::Approachable;
 use super::factorization::Factorization;
+use super::phase::{Phase, Stopwatch};
 use crate::equilibration::Equilibration;
 use crate::joints::{Quantity, attached};
 use crate::newton::{Correction, Equations, Failure};
@@ -98,6 +99,7 @@ pub(crate) struct StepEquations<'a> {
     pub(crate) rescale: &'a dyn Fn(f64) -> Scaled,
     pub(crate) start: &'a State,
     pub(crate) work: &'a mut Workspace,
+    pub(crate) watch: &'a mut dyn Stopwatch,
 }
 
 impl StepEquations<'_> {
@@ -117,6 +119,7 @@ impl StepEquations<'_> {
 
     /// Motions at all stages from the increments.
     pub(crate) fn update_motions(&mut self) {
+        self.watch.begin(Phase::Evaluation);
         let layout = self.system.layout();
         for i in 0..self.scheme.stages.len() {
             let increments = StageIncrements { all: &self.work.increments, stage: i };
@@ -129,6 +132,7 @@ impl StepEquations<'_> {
                 &mut self.work.motions[i],
             );
         }
+        self.watch.begin(Phase::Rest);
     }
 
     fn point(&self, stage: usize) -> Point<'_> {
@@ -290,11 +294,14 @@ impl Equations for StepEquations<'_> {
         if !std::mem::take(&mut self.work.backed_off) {
             std::mem::swap(&mut self.work.residuals, &mut self.work.before);
         }
+        self.watch.begin(Phase::Evaluation);
         self.evaluate();
+        self.watch.begin(Phase::Rest);
         let layout = self.system.layout();
         for residual in &mut self.work.residuals {
             self.scaled.scale_residual(layout, residual);
         }
+        self.watch.begin(Phase::Solve);
         let work = &mut *self.work;
         let equilibrate = |residuals: &mut Vec<Vec<f64>>| {
             if let Some(equilibration) = &work.equilibration {
@@ -306,13 +313,16 @@ impl Equations for StepEquations<'_> {
         equilibrate(&mut work.residuals);
         work.factorization.solve(&self.scheme.coupling, &mut work.residuals);
         equilibrate(&mut work.residuals);
+        self.watch.begin(Phase::Rest);
         let correction = self.add_corrections();
         self.update_motions();
         correction
     }
 
     fn renew_tangent(&mut self) -> Result<(), FactorError> {
+        self.watch.begin(Phase::Linearisation);
         self.linearize();
+        self.watch.begin(Phase::Factorisation);
         let work = &mut *self.work;
         let coupling = &self.scheme.coupling;
         let pattern = &self.system.structure().pattern;
@@ -336,6 +346,7 @@ impl Equations for StepEquations<'_> {
             );
         }
         work.report = Some(result?);
+        self.watch.begin(Phase::Rest);
         Ok(())
     }
 

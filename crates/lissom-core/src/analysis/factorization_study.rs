@@ -6,6 +6,7 @@ use lissom_solver::{FactorError, FactorReport, LinearSolver, Pattern, Scalar, So
 use super::dynamics::Simulation;
 use super::equations::{StepEquations, Workspace};
 use super::factorization::Factorization;
+use super::phase::Unwatched;
 use crate::newton::Equations;
 use crate::scaling::{ScaleBy, Scaled, ScalingChoice};
 use crate::schemes::Coupling;
@@ -119,6 +120,7 @@ fn examine(
         rescale: &|_| scaled,
         start: state,
         work: &mut work,
+        watch: &mut Unwatched,
     };
     equations.predict();
     equations.renew_tangent().map_err(|error| stopped(layout, error))?;

@@ -9,10 +9,12 @@ mod factorization;
 pub mod factorization_study;
 pub mod initial;
 pub mod mobility;
+pub mod phase;
 mod step_error;
 
 pub use conditioning::{Condition, ConditionMethod};
 pub use dynamics::{Settings, Simulation, StepReport, Totals};
 pub use initial::InitialError;
 pub use mobility::{Mobility, Redundant};
+pub use phase::{Phase, Stopwatch, Unwatched};
 pub use step_error::StepError;

@@ -1,0 +1,140 @@
+//! Where the time of a run went. Short steps are watched now and then only, so that looking at the clock does
+//! not become part of what is seen.
+
+use std::time::{Duration, Instant};
+
+use lissom_core::analysis::{Phase, Stopwatch};
+
+/// Steps that take longer than this on average are all watched.
+const LONG: Duration = Duration::from_micros(20);
+/// Of shorter ones, one in so many.
+const STRIDE: u32 = 16;
+
+/// Time by kind of work [s]. What steps spend is their whole time, shared out as it was seen in the steps that
+/// were watched.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Seconds {
+    /// Consistent initial values, first analysis of the tangent's pattern.
+    pub start: f64,
+    /// Motions, forces and violations.
+    pub evaluation: f64,
+    /// Derivatives of forces and violations.
+    pub linearisation: f64,
+    /// Factorisation of tangents.
+    pub factorisation: f64,
+    /// Forward and backward substitution.
+    pub solve: f64,
+    /// What else a step does: prediction, corrections and their size, the end of the step.
+    pub rest: f64,
+    /// Outputs, energy and violations of recorded instants, and writing them.
+    pub output: f64,
+}
+
+impl Seconds {
+    /// All steps together.
+    pub fn steps(&self) -> f64 {
+        self.evaluation + self.linearisation + self.factorisation + self.solve + self.rest
+    }
+}
+
+/// Watches steps.
+pub(crate) struct Spent {
+    by_phase: [Duration; Phase::COUNT],
+    steps: Duration,
+    count: u32,
+    watching: bool,
+    mark: Instant,
+    phase: Phase,
+    pub(crate) start: Duration,
+    pub(crate) output: Duration,
+}
+
+impl Spent {
+    pub(crate) fn new() -> Self {
+        Self {
+            by_phase: [Duration::ZERO; Phase::COUNT],
+            steps: Duration::ZERO,
+            count: 0,
+            watching: false,
+            mark: Instant::now(),
+            phase: Phase::Rest,
+            start: Duration::ZERO,
+            output: Duration::ZERO,
+        }
+    }
+
+    /// A step begins.
+    pub(crate) fn begin_step(&mut self) -> Instant {
+        let short = self.count > 0 && self.steps / self.count < LONG;
+        self.watching = !short || self.count.is_multiple_of(STRIDE);
+        self.count += 1;
+        self.phase = Phase::Rest;
+        self.mark = Instant::now();
+        self.mark
+    }
+
+    /// The step that began then is over.
+    pub(crate) fn end_step(&mut self, began: Instant) {
+        let now = Instant::now();
+        self.note(now);
+        self.watching = false;
+        self.steps += now - began;
+    }
+
+    /// All steps so far, failed ones included.
+    pub(crate) fn steps(&self) -> Duration {
+        self.steps
+    }
+
+    fn note(&mut self, now: Instant) {
+        if self.watching {
+            self.by_phase[self.phase as usize] += now - self.mark;
+            self.mark = now;
+        }
+    }
+
+    pub(crate) fn seconds(&self) -> Seconds {
+        let seen: Duration = self.by_phase.iter().sum();
+        let factor = if seen.is_zero() { 0.0 } else { self.steps.as_secs_f64() / seen.as_secs_f64() };
+        let of = |phase: Phase| factor * self.by_phase[phase as usize].as_secs_f64();
+        Seconds {
+            start: self.start.as_secs_f64(),
+            evaluation: of(Phase::Evaluation),
+            linearisation: of(Phase::Linearisation),
+            factorisation: of(Phase::Factorisation),
+            solve: of(Phase::Solve),
+            rest: of(Phase::Rest),
+            output: self.output.as_secs_f64(),
+        }
+    }
+}
+
+impl Stopwatch for Spent {
+    fn begin(&mut self, phase: Phase) {
+        if self.watching {
+            self.note(Instant::now());
+            self.phase = phase;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_parts_are_the_whole() {
+        let mut spent = Spent::new();
+        for _ in 0..40 {
+            let began = spent.begin_step();
+            for phase in [Phase::Evaluation, Phase::Solve, Phase::Linearisation, Phase::Factorisation] {
+                spent.begin(phase);
+                std::hint::black_box((0..1000).fold(0_u64, |sum, k| std::hint::black_box(sum ^ k)));
+            }
+            spent.end_step(began);
+        }
+        let seconds = spent.seconds();
+        assert!((seconds.steps() - spent.steps().as_secs_f64()).abs() < 1e-9);
+        assert!(seconds.evaluation > 0.0 && seconds.factorisation > 0.0 && seconds.solve > 0.0);
+    }
+}

@@ -1,0 +1,185 @@
+//! `cargo xtask bench`: runs scenes without outputs and prints where their time goes. Knows no mechanics.
+
+use std::fmt::Write;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use lissom::{Model, RunReport, Seconds, Session};
+
+use crate::BenchArguments;
+use crate::peers;
+use crate::scenes::{self, Scene};
+
+/// A chore that cannot be carried out.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum BenchError {
+    /// There is no such scene.
+    #[error("there is no scene `{0}`; `cargo xtask scenes --list` names them")]
+    Unknown(String),
+    /// A scene is wrong or has no solution.
+    #[error("{name}: {message}")]
+    Failed {
+        /// The scene.
+        name: String,
+        /// Why.
+        message: String,
+    },
+    /// A file cannot be written.
+    #[error("{path}: {error}")]
+    File {
+        /// The file or folder.
+        path: PathBuf,
+        /// What the system says.
+        error: std::io::Error,
+    },
+}
+
+/// What a scene came to.
+struct Measured {
+    name: String,
+    unknowns: usize,
+    bodies: usize,
+    report: RunReport,
+    /// Processor time of the steps [s].
+    steps: f64,
+    /// Bytes that the process holds more than before, by the largest it ever held.
+    bytes: Option<u64>,
+}
+
+/// Writes the scenes that are kept, and the large ones where asked for.
+pub(crate) fn write(root: &Path, large: bool) -> Result<(), BenchError> {
+    let folder = root.join("benches/scenes");
+    let file = |path: &Path| {
+        let path = path.to_owned();
+        move |error| BenchError::File { path, error }
+    };
+    std::fs::create_dir_all(&folder).map_err(file(&folder))?;
+    let more = if large { scenes::LARGE } else { &[] };
+    for name in scenes::KEPT.iter().chain(more) {
+        let scene = find(name)?;
+        let path = folder.join(format!("{name}.toml"));
+        std::fs::write(&path, scene.text).map_err(file(&path))?;
+        println!("{}", path.display());
+    }
+    Ok(())
+}
+
+fn find(name: &str) -> Result<Scene, BenchError> {
+    scenes::scene(name).ok_or_else(|| BenchError::Unknown(name.to_owned()))
+}
+
+/// Runs scenes and prints the table.
+pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), BenchError> {
+    let named: Vec<&str> = arguments.names.iter().map(String::as_str).collect();
+    let names = if named.is_empty() { scenes::KEPT.to_vec() } else { named };
+    let mut table = String::from(HEADING);
+    print!("{HEADING}");
+    for name in names {
+        let scene = find(name)?;
+        let mut best: Option<Measured> = None;
+        for _ in 0..arguments.repeat.max(1) {
+            let measured = run(&scene, &arguments.overrides())?;
+            if best.as_ref().is_none_or(|best| measured.steps < best.steps) {
+                best = Some(measured);
+            }
+        }
+        let line = best.as_ref().map_or_else(String::new, line);
+        print!("{line}");
+        table.push_str(&line);
+    }
+    if let Some(path) = &arguments.out {
+        std::fs::write(path, table).map_err(|error| BenchError::File { path: path.clone(), error })?;
+    }
+    Ok(())
+}
+
+const HEADING: &str = "| scene | unknowns | steps | iterations per step | tangents | µs per step | \
+evaluation | linearisation | factorisation | solve | rest | output | start [s] | bytes per body | \
+fastest peer [µs] | ratio |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+
+fn run(scene: &Scene, overrides: &[lissom::Override]) -> Result<Measured, BenchError> {
+    let fail = |message: String| BenchError::Failed { name: scene.name.clone(), message };
+    let before = resident();
+    let model = Model::from_text(&scene.name, &scene.text);
+    let document = model.document(overrides).map_err(|report| fail(report.render(false)))?;
+    let mut session = Session::new(&document).map_err(|error| fail(error.to_string()))?;
+    drop(document);
+    let bytes = resident().zip(before).map(|(after, before)| after.saturating_sub(before));
+    let (wall, busy) = (std::time::Instant::now(), processor_time());
+    let report = session.run(&mut [], &mut |_| ControlFlow::Continue(()));
+    let wall = wall.elapsed();
+    // The share of the wall time in which this thread had a processor.
+    let busy = processor_time().zip(busy).map_or(wall, |(now, then)| now.saturating_sub(then));
+    let share = (busy.as_secs_f64() / wall.as_secs_f64()).min(1.0);
+    if let Some(error) = report.error() {
+        return Err(fail(format!("at {} s: {error}", report.time)));
+    }
+    let system = session.simulation().system();
+    Ok(Measured {
+        name: scene.name.clone(),
+        unknowns: system.layout().size(),
+        bodies: system.layout().node_count() - 1,
+        steps: share * report.solving.as_secs_f64(),
+        report,
+        bytes,
+    })
+}
+
+/// Time for which this thread had a processor, where the system tells.
+fn processor_time() -> Option<Duration> {
+    let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    text.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)
+}
+
+/// Bytes of memory in use, where the system tells.
+fn resident() -> Option<u64> {
+    let text = std::fs::read_to_string("/proc/self/statm").ok()?;
+    let pages: u64 = text.split_whitespace().nth(1)?.parse().ok()?;
+    Some(4096 * pages)
+}
+
+fn line(measured: &Measured) -> String {
+    let Measured { name, unknowns, bodies, report, steps, bytes } = measured;
+    let totals = &report.totals;
+    let count = totals.steps.max(1) as f64;
+    let per_step = 1e6 * steps / count;
+    let Seconds { start, evaluation, linearisation, factorisation, solve, rest, output } = report.seconds;
+    let whole = report.seconds.steps() + output;
+    let share = |part: f64| format!("{:.0} %", 100.0 * part / whole);
+    let peer = peers::fastest(name);
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "| `{name}` | {unknowns} | {} | {:.2} | {} | {} | {} | {} | {} | {} | {} | {} | {start:.3} | {} | {} | {} |",
+        totals.steps,
+        totals.newton_iterations as f64 / count,
+        totals.factorizations,
+        digits(per_step),
+        share(evaluation),
+        share(linearisation),
+        share(factorisation),
+        share(solve),
+        share(rest),
+        share(output),
+        bytes.map_or("–".to_owned(), |bytes| (bytes / *bodies as u64).to_string()),
+        peer.as_ref().map_or("–".to_owned(), |peer| format!(
+            "{} ({})",
+            digits(peer.microseconds),
+            peer.program
+        )),
+        peer.as_ref().map_or("–".to_owned(), |peer| format!("{:.1}", peer.microseconds / per_step)),
+    );
+    text
+}
+
+/// Three digits.
+fn digits(value: f64) -> String {
+    match value {
+        0.0..1.0 => format!("{value:.3}"),
+        1.0..10.0 => format!("{value:.2}"),
+        10.0..100.0 => format!("{value:.1}"),
+        _ => format!("{value:.0}"),
+    }
+}
