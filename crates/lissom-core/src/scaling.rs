@@ -312,6 +312,8 @@ impl Scaled {
         reached: &mut StageMotion,
     ) {
         let (stage, kind) = (&scheme.stages[increments.stage], scheme.increments);
+        // Load steps have no rates to go on with.
+        let straight = if scheme.dynamic { 1.0 } else { 0.0 };
         let square = self.h * self.h;
         let StageMotion { at: out, changes, coordinate_changes } = reached;
         (out.time, out.elapsed) = self.instant(start.kinematics.time, stage);
@@ -334,16 +336,17 @@ impl Scaled {
                     curvature[k] = unit.combine(&stage.curvature, increments.all, row);
                 }
             }
-            let (motion, change) = (Motion::exponential(&psi), MotionChange::exponential(&psi));
             match kind {
                 Increments::FromStart => {
-                    to.frame = from.frame * motion;
-                    changes[node] = change;
-                    to.twist = rate / self.h;
+                    psi += straight * out.elapsed * from.twist;
+                    to.frame = from.frame * Motion::exponential(&psi);
+                    changes[node] = MotionChange::exponential(&psi);
+                    to.twist = straight * from.twist + rate / self.h;
                     to.acceleration = curvature / square;
                 }
                 // V = Ad(exp(-ψ)) V₀ + W with W = T ψ', and V̇ = T ψ'' + Ṫ ψ' - ad_W Ad(exp(-ψ)) V₀.
                 Increments::Departure => {
+                    let motion = Motion::exponential(&psi);
                     let carried = motion.adjoint_inverse_times(&from.twist);
                     let own = tangent_times(&psi, &rate) / self.h;
                     to.twist = carried + own;
@@ -352,7 +355,7 @@ impl Scaled {
                             - lie_bracket(&own, &carried);
                     let ahead = out.elapsed * from.twist;
                     to.frame = from.frame * Motion::exponential(&ahead) * motion;
-                    changes[node] = MotionChange::exponential(&ahead).then(&change);
+                    changes[node] = MotionChange::exponential(&ahead).then(&MotionChange::exponential(&psi));
                 }
             }
         }
@@ -360,10 +363,7 @@ impl Scaled {
             let row = row as usize;
             let from = &start.kinematics.coordinates[coordinate];
             let to = &mut out.coordinates[coordinate];
-            let ahead = match kind {
-                Increments::FromStart => 0.0,
-                Increments::Departure => from.rate,
-            };
+            let ahead = straight * from.rate;
             coordinate_changes[coordinate] = out.elapsed * ahead + own[row];
             to.value = from.value + coordinate_changes[coordinate];
             to.rate = ahead + unit.combine(&stage.rate, increments.all, row) / self.h;

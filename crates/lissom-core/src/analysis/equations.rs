@@ -25,7 +25,7 @@ const MULTIPLIER_WEIGHT: f64 = 1e-2;
 /// Everything a step needs besides system and state, allocated once.
 pub(crate) struct Workspace {
     pub(crate) unit: UnitStart,
-    /// Increments since the start of the step, by stage and coordinate row.
+    /// Departures from going straight on since the start of the step, by stage and coordinate row.
     pub(crate) increments: Vec<Vec<f64>>,
     /// The increments by node, for the tangent.
     node_increments: Vec<Vector6>,
@@ -165,12 +165,13 @@ impl StepEquations<'_> {
     /// Linearises at the last stage.
     pub(crate) fn linearize(&mut self) {
         let last = self.scheme.stages.len() - 1;
-        let layout = self.system.layout();
         let mut linearization = std::mem::replace(&mut self.work.linearization, Linearization::empty());
         let mut increments = std::mem::take(&mut self.work.node_increments);
-        spread(layout, &self.work.increments[last], &mut increments);
         let chart = match self.scheme.increments {
-            Increments::FromStart => Chart::Increments(&increments),
+            Increments::FromStart => {
+                self.whole_increments(last, &mut increments);
+                Chart::Increments(&increments)
+            }
             Increments::Departure => Chart::Departures(&self.start.kinematics.nodes),
         };
         let mut point = self.point(last);
@@ -180,6 +181,18 @@ impl StepEquations<'_> {
         self.system.linearize(&point, chart, &mut linearization);
         self.work.node_increments = increments;
         self.work.linearization = linearization;
+    }
+
+    /// Increments of the nodes since the start of the step, straight motion included.
+    fn whole_increments(&self, stage: usize, nodes: &mut [Vector6]) {
+        let work = &*self.work;
+        let straight = if self.scheme.dynamic { self.scheme.stages[stage].abscissa } else { 0.0 };
+        for (rows, psi) in self.system.layout().node_rows.iter().zip(nodes) {
+            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+                let row = row as usize;
+                psi[k] = straight * work.unit.rate[row] + work.increments[stage][row];
+            }
+        }
     }
 
     /// Applies the corrections. Places are measured by the largest scaled correction; multipliers by
@@ -239,9 +252,7 @@ impl StepEquations<'_> {
         let count = self.system.layout().coordinate_count();
         let (mut size, mut reference) = (0.0_f64, 0.0_f64);
         let work = &*self.work;
-        for (i, stage) in self.scheme.stages.iter().enumerate() {
-            let from_start = self.scheme.dynamic && self.scheme.increments == Increments::FromStart;
-            let rate = if from_start { stage.abscissa } else { 0.0 };
+        for i in 0..self.scheme.stages.len() {
             for row in 0..count {
                 let correction = work.sizes[row] * work.residuals[i][row].abs();
                 if !correction.is_finite() {
@@ -249,8 +260,7 @@ impl StepEquations<'_> {
                 }
                 size = size.max(correction);
                 // What the step has to find out: how far it departs from going straight on.
-                let departure = work.increments[i][row] - rate * work.unit.rate[row];
-                reference = reference.max(work.sizes[row] * departure.abs());
+                reference = reference.max(work.sizes[row] * work.increments[i][row].abs());
             }
         }
         Correction { size, reference }
@@ -383,10 +393,7 @@ impl Approachable for StepEquations<'_> {
     }
 
     fn extrapolate(&mut self, factor: f64) {
-        let factor = match self.scheme.increments {
-            Increments::FromStart => factor,
-            Increments::Departure => factor * factor,
-        };
+        let factor = if self.scheme.dynamic { factor * factor } else { factor };
         let work = &mut *self.work;
         for (values, saved) in work.increments.iter_mut().zip(&work.saved) {
             for (value, saved) in values.iter_mut().zip(saved) {
@@ -410,15 +417,4 @@ pub(crate) fn sizes(layout: &Layout, representative: &Representative) -> Vec<f64
 /// What joints see of a stage.
 fn joint_changes<'a>(start: &'a Kinematics, motion: &'a StageMotion) -> attached::Increments<'a> {
     attached::Increments { start, nodes: &motion.changes, coordinates: &motion.coordinate_changes }
-}
-
-/// Increments by row as node increments.
-fn spread(layout: &Layout, increments: &[f64], nodes: &mut [Vector6]) {
-    for (rows, psi) in layout.node_rows.iter().zip(nodes) {
-        for (k, &row) in rows.iter().enumerate() {
-            if row != LOCKED {
-                psi[k] = increments[row as usize];
-            }
-        }
-    }
 }

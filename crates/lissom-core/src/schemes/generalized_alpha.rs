@@ -55,22 +55,19 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
     // These two give second order and, at given (α_m, α_f), the most damping of high frequencies.
     let gamma = 0.5 + alpha_f - alpha_m;
     let beta = 0.25 * (gamma + 0.5).powi(2);
-    // a_{n+1} = (z - v_n - (½ - β) a_n) / β
+    // a_{n+1} = (z - (½ - β) a_n) / β with the departure z = ψ - v_n
     let memory = Combination {
         increments: [1.0 / beta, 0.0],
-        rate: -1.0 / beta,
         algorithmic: -(0.5 - beta) / beta,
-        curvature: 0.0,
+        ..Combination::default()
     };
     let old = Combination { algorithmic: 1.0, ..Combination::default() };
-    let rate = Combination { rate: 1.0, ..Combination::default() }
-        .plus(&old.times(1.0 - gamma))
-        .plus(&memory.times(gamma));
+    let rate = old.times(1.0 - gamma).plus(&memory.times(gamma));
     let curvature = memory
         .times((1.0 - alpha_m) / (1.0 - alpha_f))
         .plus(&old.times(alpha_m / (1.0 - alpha_f)))
         .plus(&Combination { curvature: -alpha_f / (1.0 - alpha_f), ..Combination::default() });
-    let prediction = Combination { rate: 1.0, algorithmic: 0.5, ..Combination::default() };
+    let prediction = Combination { algorithmic: 0.5, ..Combination::default() };
     Scheme {
         name,
         coupling: Coupling::Single(Weights { rate: rate.increments[0], curvature: curvature.increments[0] }),

@@ -55,7 +55,7 @@ impl Combination {
 pub struct Stage {
     /// Place in the step, 0 … 1.
     pub abscissa: f64,
-    /// q' at the stage.
+    /// q' at the stage, less that at the start.
     pub rate: Combination,
     /// q'' at the stage.
     pub curvature: Combination,
@@ -66,10 +66,11 @@ pub struct Stage {
 /// What a scheme's increments z mean for a frame H that turns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Increments {
-    /// H = H_start exp z, and q' is the body twist: the scheme is stated on the Lie group.
+    /// H = H_start exp(c q'_start + z), and q' is the body twist: the scheme is stated on the Lie group. Only
+    /// the departure z from going straight on is unknown, so that it keeps its digits in short steps.
     FromStart,
     /// H = H_start exp(c q'_start) exp z, the departure from going on as at the start, c the stage's
-    /// abscissa. q' is the rate of z: the scheme is stated in these local coordinates. They stay small
+    /// abscissa. q' - q'_start is the rate of z: the scheme is stated in these local coordinates. They stay small
     /// however fast the frame turns, and both stages see nearly the same tangent.
     Departure,
 }
