@@ -262,3 +262,37 @@ fn tiny_steps_leave_reactions_smooth() {
     let stopped = roundoff::study(&example("pendulum"), &request, &|_, _| ControlFlow::Break(()));
     assert!(matches!(stopped, Err(StudyError::Interrupted)));
 }
+
+/// The largest error of `output` after fifty steps.
+fn largest_round_off(model: &str, scheme: &str, output: &str, steps: &[&str]) -> f64 {
+    let overrides = vec![("analysis.scheme".to_owned(), format!("\"{scheme}\""))];
+    let request = roundoff::Request { steps: texts(steps), output: output.to_owned(), overrides };
+    let table = roundoff::study(&example(model), &request, &|_, _| ControlFlow::Continue(())).unwrap();
+    table.rows.iter().map(|row| row.outcome.as_ref().unwrap().error).fold(0.0, f64::max)
+}
+
+#[test]
+fn reactions_keep_their_digits_however_small_the_step() {
+    let steps = ["1e-5", "1e-6", "1e-7", "1e-8"];
+    assert!(largest_round_off("pendulum", "generalized-alpha", "force", &steps) < 1e-8);
+    // Two rigid bodies and a beam in space. At 1e-5 s the error is the scheme's.
+    assert!(largest_round_off("energy", "radau-iia", "shoulder", &steps[..1]) < 2e-6);
+    assert!(largest_round_off("energy", "radau-iia", "shoulder", &steps[1..]) < 1e-8);
+}
+
+#[test]
+fn one_step_of_any_size_is_solved_to_round_off() {
+    // Bounds are a few roundings of the largest forces: a weight, a top's gyroscopic moment, a strip's EA.
+    for (model, bound) in [("pendulum", 1e-14), ("top", 2e-11), ("tip-crank", 3e-5)] {
+        for step in ["1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9"] {
+            let step = ("analysis.step".to_owned(), step.to_owned());
+            let table = factorization::study(&example(model), std::slice::from_ref(&step)).unwrap();
+            let case = table
+                .cases
+                .iter()
+                .find(|case| case.equilibrated && case.augmented && case.solver == "sparse");
+            let newton = &case.unwrap().outcome.as_ref().unwrap().newton;
+            assert!(newton.residual < bound && newton.violation < 1e-15, "{model} {step:?} {newton:?}");
+        }
+    }
+}

@@ -77,6 +77,8 @@ pub struct Simulation {
     memory: Memory,
     totals: Totals,
     velocity_correction: f64,
+    /// Whether the engine still holds the step that led to the state.
+    is_last_step_known: bool,
 }
 
 impl Simulation {
@@ -114,6 +116,7 @@ impl Simulation {
             memory: Memory::default(),
             totals: Totals { smallest_relative_pivot: f64::INFINITY, ..Totals::default() },
             velocity_correction,
+            is_last_step_known: false,
         })
     }
 
@@ -170,8 +173,7 @@ impl Simulation {
     /// failed, and none for a scheme without the tangent of a stage. `scaled` weighs the augmented term.
     pub(super) fn linearize_last_step(&mut self, scaled: Scaled) -> Option<&Linearization> {
         let Engine::Collocation(work) = &mut self.engine else { return None };
-        let reached = work.motions.last().map(|motion| motion.at.time);
-        if self.totals.steps == 0 || reached != Some(self.state.kinematics.time) {
+        if !self.is_last_step_known {
             return None;
         }
         let mut equations = StepEquations {
@@ -219,11 +221,13 @@ impl Simulation {
     /// As [`step`](Self::step).
     pub fn step_watched(&mut self, watch: &mut dyn Stopwatch) -> Result<StepReport, StepError> {
         watch.begin(Phase::Rest);
+        self.is_last_step_known = false;
         let outcome = match &mut self.engine {
             Engine::Collocation(_) => self.collocate(watch),
             Engine::Decaying(_) => self.decay(),
         }?;
         std::mem::swap(&mut self.state, &mut self.next);
+        self.is_last_step_known = true;
         let report = StepReport {
             iterations: outcome.iterations,
             factorizations: outcome.factorizations,
@@ -266,7 +270,7 @@ impl Simulation {
             let memory = work.unit.combine(&self.settings.scheme.algorithmic, &work.increments, row);
             *value = self.scaled.leave(memory);
         }
-        compensate_positions(&self.state, &work.motions[last].changes, &mut self.next);
+        compensate(&self.state, &work.motions[last].changes, &mut self.next);
         Ok(outcome)
     }
 
@@ -298,7 +302,7 @@ impl Simulation {
         copy_motion(end, &mut self.next.kinematics);
         self.next.violations.copy_from_slice(violations);
         self.next.multipliers.copy_from_slice(&work.multipliers);
-        compensate_positions(&self.state, changes, &mut self.next);
+        compensate(&self.state, changes, &mut self.next);
         self.scaled.leave_rates(self.system.layout(), &self.state, &work.rate_end, &mut self.next);
         project_velocities(&self.system, scheme.alpha, &mut work.initial, &mut self.next)
             .map_err(|error| StepError::Velocities { time: self.next.kinematics.time, error })?;
@@ -329,14 +333,18 @@ impl Simulation {
 }
 
 fn copy_motion(from: &Kinematics, to: &mut Kinematics) {
-    to.time = from.time;
+    to.elapsed = from.elapsed;
     to.nodes.copy_from_slice(&from.nodes);
     to.coordinates.copy_from_slice(&from.coordinates);
 }
 
-/// Adds each node's displacement to its position with the remainder of earlier roundings, so that many
-/// small steps do not lose digits [Kahan 1965].
-fn compensate_positions(start: &State, changes: &[MotionChange], next: &mut State) {
+/// Adds each node's displacement to its position, and the step to the time, with the remainders of earlier
+/// roundings, so that many small steps do not lose digits [Kahan 1965].
+fn compensate(start: &State, changes: &[MotionChange], next: &mut State) {
+    let step = std::mem::take(&mut next.kinematics.elapsed) + start.time_remainder;
+    let time = start.kinematics.time + step;
+    next.time_remainder = step - (time - start.kinematics.time);
+    next.kinematics.time = time;
     for (node, change) in changes.iter().enumerate() {
         let from = &start.kinematics.nodes[node].frame;
         let shift = from.rotation.apply(&change.shift) + start.position_remainders[node];

@@ -402,6 +402,7 @@ impl Builder {
             multipliers: vec![0.0; layout.multiplier_count],
             violations: vec![0.0; layout.multiplier_count],
             algorithmic: vec![0.0; layout.coordinate_count],
+            time_remainder: 0.0,
             position_remainders: vec![Vector3::zeros(); self.nodes.len()],
         }
     }

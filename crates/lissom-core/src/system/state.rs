@@ -134,6 +134,8 @@ pub struct State {
     pub violations: Vec<f64>,
     /// The scheme's own acceleration-like memory, one entry per coordinate row [m/s², rad/s²].
     pub algorithmic: Vec<f64>,
+    /// What rounding has cut off the time so far [s].
+    pub time_remainder: f64,
     /// What rounding has cut off each node's position so far [m].
     pub position_remainders: Vec<Vector3>,
 }
