@@ -212,6 +212,24 @@ fn schemes_converge_with_their_orders() {
 }
 
 #[test]
+fn a_single_component_can_be_compared() {
+    let study = |output: &str| {
+        let request = convergence::Request {
+            schemes: texts(&["hht(-0.3)"]),
+            steps: texts(&["2e-2", "1e-2"]),
+            reference: ("radau-iia".to_owned(), "1e-3".to_owned()),
+            output: output.to_owned(),
+            overrides: vec![],
+        };
+        convergence::study(&example("pendulum"), &request, &|_, _| ControlFlow::Continue(()))
+    };
+    let [whole, x, y] = ["bob", "bob.x", "bob.y"]
+        .map(|output| study(output).unwrap().rows[1].outcome.as_ref().map_or(f64::NAN, |&error| error));
+    assert!(x != y && whole > 0.0 && whole <= x.max(y), "{whole:e} {x:e} {y:e}");
+    assert!(matches!(study("bob.w"), Err(StudyError::Output { .. })));
+}
+
+#[test]
 fn errors_are_relative_to_the_reference() {
     // From 0.3 s to 0.35 s, the last instant that whole steps of 0.05 s meet before 0.39 s: the error of one
     // instant, by hand.

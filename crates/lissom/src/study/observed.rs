@@ -35,9 +35,20 @@ pub(super) fn prepared(
     Ok(lowered)
 }
 
+/// An output's name, and one of its components where that is asked for, as `tip` or `tip.u2`.
+fn parts<'a>(lowered: &Lowered, output: &'a str) -> Option<(&'a str, Option<usize>)> {
+    let find = |name: &str| lowered.channels.iter().find(|channel| channel.name == name);
+    if find(output).is_some() {
+        return Some((output, None));
+    }
+    let (name, component) = output.rsplit_once('.')?;
+    let index = find(name)?.components.iter().position(|known| known == component)?;
+    Some((name, Some(index)))
+}
+
 /// Complains unless the model has `output`.
 pub(super) fn check_output(lowered: &Lowered, output: &str) -> Result<(), StudyError> {
-    if lowered.channels.iter().any(|channel| channel.name == output) {
+    if parts(lowered, output).is_some() {
         return Ok(());
     }
     let known: Vec<&str> = lowered.channels.iter().map(|channel| channel.name.as_str()).collect();
@@ -51,7 +62,8 @@ pub(super) fn observe(
     (steps, every): (usize, usize),
     effort: &Effort<'_>,
 ) -> Result<History, StudyError> {
-    lowered.channels.retain(|channel| channel.name == output);
+    let (name, component) = parts(&lowered, output).unwrap_or((output, None));
+    lowered.channels.retain(|channel| channel.name == name);
     let start = lowered.plan.start;
     let end = start + steps as f64 * lowered.settings.step_size;
     lowered.plan = Plan { start, end, steps, output_every: every, is_static: false };
@@ -66,7 +78,11 @@ pub(super) fn observe(
         Stopped::Interrupted => return Err(StudyError::Interrupted),
         Stopped::Failed(error) => return Err(StudyError::Run(error)),
     }
-    let instant = |index: usize| record.values.iter().map(|column| column[index]).collect();
+    let chosen = match component {
+        Some(index) => &record.values[index..=index],
+        None => &record.values[..],
+    };
+    let instant = |index: usize| chosen.iter().map(|column| column[index]).collect();
     Ok((0..record.times.len()).map(instant).collect())
 }
 

@@ -22,7 +22,7 @@ Examples:
   lissom study convergence examples/pendulum.toml --schemes 'generalized-alpha(0.8),hht(-0.3),radau-iia' \\
     --steps 2e-2,1e-2,5e-3 --reference radau-iia:1e-4 --output bob
   lissom study convergence examples/tip-crank.toml --schemes 'radau-iia,hht(-0.3),energy-decaying(0.0)' \\
-    --steps 1e-3,5e-4,2.5e-4 --reference radau-iia:5e-5 --output midspan --set analysis.end=0.1
+    --steps 1e-3,5e-4,2.5e-4 --reference radau-iia:5e-5 --output midspan.u2 --set analysis.end=0.1
 
 A scheme is a word of the model file, with its parameter in parentheses (alpha of hht, spectral radius of \
 generalized-alpha and energy-decaying) or else its default; quote the list for the shell. Scheme and its \
@@ -48,7 +48,7 @@ pub(super) struct Convergence {
     #[arg(long, value_name = "SCHEME:STEP", value_parser = parse_reference)]
     reference: Reference,
 
-    /// The output to compare.
+    /// The output to compare, or one component of it, as `tip.u2`.
     #[arg(long, value_name = "NAME")]
     output: String,
 

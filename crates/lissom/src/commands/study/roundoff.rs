@@ -37,7 +37,7 @@ pub(super) struct Roundoff {
     #[arg(long, value_name = "LIST", value_delimiter = ',', required = true)]
     steps: Vec<String>,
 
-    /// The output to observe.
+    /// The output to observe, or one component of it, as `tip.u2`.
     #[arg(long, value_name = "NAME")]
     output: String,
 
