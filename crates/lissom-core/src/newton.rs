@@ -20,6 +20,12 @@ pub trait Equations {
 
     /// Takes the last correction back, and half of what is left of the one before.
     fn back_off(&mut self);
+
+    /// Whether what is promised of the solution holds to round-off only where the solution does: then slow
+    /// corrections are not taken for round-off before new tangents have failed to speed them up.
+    fn is_wanted_exactly(&self) -> bool {
+        false
+    }
 }
 
 /// Size of a correction.
@@ -121,6 +127,13 @@ const MOST_REMEMBERED: f64 = 1e-13;
 /// A stalled correction below this fraction of the reference is good enough to go on.
 const STALLED_FRACTION: f64 = 1e-6;
 
+/// Corrections below this are round-off even where the solution is wanted exactly [-].
+const EXACT_ROUND_OFF: f64 = 1e-13;
+/// Then smaller round-off than this is remembered [-].
+const EXACT_REMEMBERED: f64 = 1e-15;
+/// Where the solution is wanted exactly, so many new tangents are made for corrections that stall.
+const MOST_STALLS: usize = 2;
+
 /// Solves `equations`.
 ///
 /// # Errors
@@ -137,6 +150,7 @@ pub fn solve<E: Equations>(
     // Corrections made with the tangent since it was made, and halvings of the last one.
     let mut age = 0;
     let mut halvings = 0;
+    let mut stalls = if equations.is_wanted_exactly() { MOST_STALLS } else { 0 };
     while outcome.iterations < limits.max_iterations {
         if !memory.has_tangent {
             equations.renew_tangent().map_err(Failure::Factor)?;
@@ -153,7 +167,16 @@ pub fn solve<E: Equations>(
         age += 1;
         match judge(&correction, previous, fresh, limits, memory) {
             Verdict::Converged => return Ok(outcome),
+            Verdict::Stalled if stalls > 0 && correction.size > EXACT_ROUND_OFF => {
+                stalls -= 1;
+                halvings = 0;
+                memory.forget_tangent();
+                previous = Some(correction.size);
+            }
             Verdict::Stalled => {
+                if equations.is_wanted_exactly() {
+                    memory.round_off = memory.round_off.min(EXACT_REMEMBERED);
+                }
                 outcome.stagnated = true;
                 return Ok(outcome);
             }

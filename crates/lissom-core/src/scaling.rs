@@ -13,8 +13,10 @@ use lissom_motion::{Motion, Vector6, lie_bracket, tangent_rate_times, tangent_ti
 use num_complex::Complex64;
 
 use crate::joints::Quantity;
-use crate::schemes::{Combination, Increments, Scheme, Stage, Weights};
-use crate::system::{Augmentation, Kinematics, Layout, Linearization, MotionChange, State, System};
+use crate::schemes::{Combination, Increments, Scheme, Stage, Tableau, Weights};
+use crate::system::{
+    Augmentation, CoordinateMotion, Kinematics, Layout, Linearization, MotionChange, State, System,
+};
 
 /// How the equations are scaled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -189,21 +191,6 @@ impl Scaled {
         unit(quantity, self.radian)
     }
 
-    /// Factor of the forces in the equations of motion.
-    pub(crate) fn dynamic_factor(&self) -> f64 {
-        self.dynamic
-    }
-
-    /// Factor of inertia forces whose accelerations are given for the unit step.
-    pub(crate) fn inertia_factor(&self) -> f64 {
-        self.dynamic / (self.h * self.h)
-    }
-
-    /// Factor p s of the augmented Lagrangian term.
-    pub(crate) fn augmented_factor(&self) -> f64 {
-        self.augmented
-    }
-
     /// From a scaled multiplier to λ [N, N m].
     pub fn multiplier_factor(&self) -> f64 {
         self.s / self.dynamic
@@ -275,25 +262,6 @@ impl Scaled {
         memory / (self.h * self.h)
     }
 
-    /// Twists at the end of a step from the unit-step rates, and mean accelerations over it.
-    pub(crate) fn leave_rates(&self, layout: &Layout, start: &State, rates: &[f64], end: &mut State) {
-        for (node, rows) in layout.node_rows.iter().enumerate() {
-            let before = start.kinematics.nodes[node].twist;
-            let after = &mut end.kinematics.nodes[node];
-            for (k, &row) in rows.iter().enumerate() {
-                let locked = row == crate::system::LOCKED;
-                after.twist[k] = if locked { 0.0 } else { rates[row as usize] / self.h };
-                after.acceleration[k] = (after.twist[k] - before[k]) / self.h;
-            }
-        }
-        for (coordinate, &row) in layout.coordinate_rows.iter().enumerate() {
-            let before = start.kinematics.coordinates[coordinate].rate;
-            let after = &mut end.kinematics.coordinates[coordinate];
-            after.rate = rates[row as usize] / self.h;
-            after.acceleration = (after.rate - before) / self.h;
-        }
-    }
-
     /// Time of a stage and time since the start of the step.
     fn instant(&self, start: f64, stage: &Stage) -> (f64, f64) {
         let elapsed = stage.abscissa * self.h;
@@ -344,6 +312,15 @@ impl Scaled {
                     to.twist = straight * from.twist + rate / self.h;
                     to.acceleration = curvature / square;
                 }
+                Increments::Departure if scheme.tableau.is_some() => {
+                    let (motion, change) = (Motion::exponential(&psi), MotionChange::exponential(&psi));
+                    let gained = change.seen_differently(&from.twist) + tangent_times(&psi, &rate) / self.h;
+                    to.twist = from.twist + gained;
+                    to.acceleration = gained / self.h;
+                    let ahead = out.elapsed * from.twist;
+                    to.frame = from.frame * Motion::exponential(&ahead) * motion;
+                    changes[node] = MotionChange::exponential(&ahead).then(&change);
+                }
                 // V = Ad(exp(-ψ)) V₀ + W with W = T ψ', and V̇ = T ψ'' + Ṫ ψ' - ad_W Ad(exp(-ψ)) V₀.
                 Increments::Departure => {
                     let motion = Motion::exponential(&psi);
@@ -369,6 +346,80 @@ impl Scaled {
             to.rate = ahead + unit.combine(&stage.rate, increments.all, row) / self.h;
             to.acceleration = unit.combine(&stage.curvature, increments.all, row) / square;
         }
+    }
+}
+
+impl Scaled {
+    /// Accelerations at the stages of a scheme that integrates velocities, and the motion at the end of the step:
+    ///
+    /// ```text
+    /// h V̇_i = Σ_j (A⁻¹)_ij (V_j - V_0),   V_end = V_0 + Σ_j (bᵀA⁻¹)_j (V_j - V_0),   ψ_end = Σ_j (bᵀA⁻¹)_j ψ_j
+    /// ```
+    ///
+    /// On entry the stages hold (V_j - V_0)/h in place of accelerations, see [`Self::stage_motion`]; algebraic
+    /// coordinates hold their rates.
+    pub fn integrate_velocities(
+        &self,
+        layout: &Layout,
+        tableau: &Tableau,
+        start: &State,
+        increments: &[Vec<f64>],
+        motions: &mut [StageMotion],
+    ) {
+        let [first, second, reached] = motions else { return };
+        let (w, end) = (&tableau.inverse, &tableau.reached);
+        reached.at.elapsed = self.h;
+        reached.at.time = start.kinematics.time + self.h;
+        for (node, rows) in layout.node_rows.iter().enumerate() {
+            let from = &start.kinematics.nodes[node];
+            let (a, b) = (&mut first.at.nodes[node], &mut second.at.nodes[node]);
+            let to = &mut reached.at.nodes[node];
+            if rows.iter().all(|&row| row == crate::system::LOCKED) {
+                *to = *from;
+                continue;
+            }
+            let gains = [a.acceleration, b.acceleration];
+            a.acceleration = w[0][0] * gains[0] + w[0][1] * gains[1];
+            b.acceleration = w[1][0] * gains[0] + w[1][1] * gains[1];
+            if tableau.is_stiffly_accurate() {
+                *to = *b;
+                reached.changes[node] = second.changes[node];
+                continue;
+            }
+            let mut psi = Vector6::zeros();
+            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != crate::system::LOCKED) {
+                let row = row as usize;
+                psi[k] = end[0] * increments[0][row] + end[1] * increments[1][row];
+            }
+            to.twist = from.twist + self.h * (end[0] * gains[0] + end[1] * gains[1]);
+            to.acceleration = b.acceleration;
+            let ahead = self.h * from.twist;
+            to.frame = from.frame * Motion::exponential(&ahead) * Motion::exponential(&psi);
+            reached.changes[node] = MotionChange::exponential(&ahead).then(&MotionChange::exponential(&psi));
+        }
+        for (coordinate, &row) in layout.coordinate_rows.iter().enumerate() {
+            let row = row as usize;
+            let from = &start.kinematics.coordinates[coordinate];
+            let (a, b) = (&mut first.at.coordinates[coordinate], &mut second.at.coordinates[coordinate]);
+            let gains = [a.rate - from.rate, b.rate - from.rate];
+            a.acceleration = (w[0][0] * gains[0] + w[0][1] * gains[1]) / self.h;
+            b.acceleration = (w[1][0] * gains[0] + w[1][1] * gains[1]) / self.h;
+            let change = self.h * from.rate + end[0] * increments[0][row] + end[1] * increments[1][row];
+            reached.coordinate_changes[coordinate] = change;
+            reached.at.coordinates[coordinate] = CoordinateMotion {
+                value: from.value + change,
+                rate: from.rate + end[0] * gains[0] + end[1] * gains[1],
+                acceleration: b.acceleration,
+            };
+        }
+    }
+
+    /// How long the rates at the stages last on the way to each stage, and to the end [s].
+    pub(crate) fn durations(&self, tableau: &Tableau) -> ([[f64; 2]; 2], [f64; 2]) {
+        (
+            tableau.stages.map(|row| row.map(|weight| self.h * weight)),
+            tableau.end.map(|weight| self.h * weight),
+        )
     }
 }
 

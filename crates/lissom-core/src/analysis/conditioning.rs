@@ -65,17 +65,18 @@ impl TangentValues {
     /// The tangent of the scaled equations.
     pub(crate) fn new(scaled: &Scaled, coupling: &Coupling, linearization: &Linearization) -> Self {
         let entries = linearization.mass.len();
-        if let Coupling::Single(weights) = coupling {
-            let mut values = vec![0.0; entries];
-            scaled.tangent(linearization, *weights, &mut values);
-            return Self::Real(values);
+        match coupling {
+            Coupling::Single(weights) => {
+                let mut values = vec![0.0; entries];
+                scaled.tangent(linearization, *weights, &mut values);
+                Self::Real(values)
+            }
+            Coupling::Pair { weights, .. } => {
+                let mut values = vec![Complex64::default(); entries];
+                scaled.complex_tangent(linearization, *weights, &mut values);
+                Self::Complex(values)
+            }
         }
-        let Coupling::Pair { weights, .. } = coupling else {
-            unreachable!("other schemes have no tangent of a stage");
-        };
-        let mut values = vec![Complex64::default(); entries];
-        scaled.complex_tangent(linearization, *weights, &mut values);
-        Self::Complex(values)
     }
 
     /// Its condition number: measured if it is small, estimated if it is large.

@@ -3,14 +3,13 @@
 use lissom_solver::{FactorError, FactorReport, SolverKind};
 
 use super::approach;
-use super::decaying::{DecayingEquations, DecayingWorkspace};
 use super::equations::{StepEquations, Workspace};
 use super::initial::{Initial, InitialError};
 use super::phase::{Phase, Stopwatch, Unwatched};
 use super::step_error::{StepError, pivot_hint};
 use crate::newton::{self, Failure, Limits, Memory};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
-use crate::schemes::{Coupling, Scheme};
+use crate::schemes::{Scheme, Tableau};
 use crate::system::{Augmentation, Chart, Kinematics, Linearization, MotionChange, Point, State, System};
 
 /// What a simulation is told besides system and state.
@@ -73,7 +72,9 @@ pub struct Simulation {
     settings: Settings,
     representative: Representative,
     scaled: Scaled,
-    engine: Engine,
+    work: Box<Workspace>,
+    /// For schemes whose velocities leave the constraints a little.
+    projection: Option<Projection>,
     memory: Memory,
     totals: Totals,
     velocity_correction: f64,
@@ -104,7 +105,15 @@ impl Simulation {
         system.violations(&state.kinematics, &mut violations);
         state.violations = violations;
         let scaled = Scaled::new(&settings.scaling, &representative, settings.step_size);
-        let engine = Engine::new(&system, &state, &settings, &representative);
+        let equilibrated = settings.scaling.equilibrates();
+        let mut work =
+            Workspace::new(&system, &state, &settings.scheme, &representative, settings.solver, equilibrated);
+        work.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
+        let projection = settings
+            .scheme
+            .tableau
+            .filter(|tableau| !tableau.is_stiffly_accurate() && layout_has_constraints(&system))
+            .map(|tableau| Projection::new(&system, &state, &representative, settings.solver, tableau));
         Ok(Self {
             next: state.clone(),
             system,
@@ -112,7 +121,8 @@ impl Simulation {
             settings,
             representative,
             scaled,
-            engine,
+            work: Box::new(work),
+            projection,
             memory: Memory::default(),
             totals: Totals { smallest_relative_pivot: f64::INFINITY, ..Totals::default() },
             velocity_correction,
@@ -152,7 +162,7 @@ impl Simulation {
 
     /// Stored numbers of the tangent's factors.
     pub fn factor_entries(&self) -> usize {
-        self.engine.factor_entries()
+        self.work.factorization.entries()
     }
 
     /// Largest change made to the given initial twists to satisfy the constraints [m/s, rad/s].
@@ -170,9 +180,9 @@ impl Simulation {
     }
 
     /// Linearises anew at the solution of the last step; none before the first step and after one that
-    /// failed, and none for a scheme without the tangent of a stage. `scaled` weighs the augmented term.
+    /// failed. `scaled` weighs the augmented term.
     pub(super) fn linearize_last_step(&mut self, scaled: Scaled) -> Option<&Linearization> {
-        let Engine::Collocation(work) = &mut self.engine else { return None };
+        let work = &mut self.work;
         if !self.is_last_step_known {
             return None;
         }
@@ -191,19 +201,14 @@ impl Simulation {
 
     /// Estimates the condition number of the tangent factored last, in the 1-norm, if it is still in use.
     pub(super) fn factored_condition(&mut self) -> Option<f64> {
-        let value = match &mut self.engine {
-            Engine::Collocation(work) => {
-                let pattern = &self.system.structure().pattern;
-                self.memory.has_tangent.then(|| work.factorization.condition_estimate(pattern))
-            }
-            Engine::Decaying(work) => self.memory.has_tangent.then(|| work.condition_estimate()),
-        };
+        let pattern = &self.system.structure().pattern;
+        let value = self.memory.has_tangent.then(|| self.work.factorization.condition_estimate(pattern));
         value.map(|value| value.max(1.0))
     }
 
     /// Smallest pivot over largest diagonal entry of the tangent factored last.
     pub fn relative_pivot(&self) -> Option<f64> {
-        self.engine.report().map(FactorReport::relative_pivot)
+        self.work.report.as_ref().map(FactorReport::relative_pivot)
     }
 
     /// Takes one step. On failure the state stays where it was.
@@ -214,18 +219,14 @@ impl Simulation {
         self.step_watched(&mut Unwatched)
     }
 
-    /// Takes one step as [`step`](Self::step) does and tells `watch` which part of the work begins. The
-    /// energy-decaying scheme tells nothing.
+    /// Takes one step as [`step`](Self::step) does and tells `watch` which part of the work begins.
     ///
     /// # Errors
     /// As [`step`](Self::step).
     pub fn step_watched(&mut self, watch: &mut dyn Stopwatch) -> Result<StepReport, StepError> {
         watch.begin(Phase::Rest);
         self.is_last_step_known = false;
-        let outcome = match &mut self.engine {
-            Engine::Collocation(_) => self.collocate(watch),
-            Engine::Decaying(_) => self.decay(),
-        }?;
+        let outcome = self.collocate(watch)?;
         std::mem::swap(&mut self.state, &mut self.next);
         self.is_last_step_known = true;
         let report = StepReport {
@@ -238,11 +239,8 @@ impl Simulation {
         Ok(report)
     }
 
-    /// A step of a scheme with equilibrium at its stages.
     fn collocate(&mut self, watch: &mut dyn Stopwatch) -> Result<newton::Outcome, StepError> {
-        let Engine::Collocation(work) = &mut self.engine else {
-            unreachable!("chosen by the engine");
-        };
+        let work = &mut *self.work;
         self.scaled.enter(self.system.layout(), &self.state, &mut work.unit);
         let Settings { scaling, step_size, .. } = &self.settings;
         let rescale = |share: f64| Scaled::new(scaling, &self.representative, share * step_size);
@@ -255,57 +253,32 @@ impl Simulation {
             work,
             watch,
         };
-        let outcome =
-            approach::solve(&mut equations, &self.settings.limits, &mut self.memory).map_err(|failure| {
-                self.memory = Memory::default();
-                let failure = equations.unforgiven(failure);
-                describe(&failure, &self.system, &self.state, &self.settings, &equations.worst_unknown())
-            })?;
+        let mut limits = self.settings.limits;
+        if equations.scheme.tableau.is_some() {
+            // The energy is as good as the solution: to round-off.
+            limits.tolerance = limits.tolerance.min(EXACT);
+        }
+        let outcome = approach::solve(&mut equations, &limits, &mut self.memory).map_err(|failure| {
+            self.memory = Memory::default();
+            let failure = equations.unforgiven(failure);
+            describe(&failure, &self.system, &self.state, &self.settings, &equations.worst_unknown())
+        })?;
         equations.final_violations(&mut self.next.violations);
 
         let last = self.settings.scheme.stages.len() - 1;
-        copy_motion(&work.motions[last].at, &mut self.next.kinematics);
+        let Some(end) = work.motions.last() else { unreachable!("every scheme has a stage") };
+        copy_motion(&end.at, &mut self.next.kinematics);
         self.next.multipliers.copy_from_slice(&work.multipliers[last]);
         for (row, value) in self.next.algorithmic.iter_mut().enumerate() {
             let memory = work.unit.combine(&self.settings.scheme.algorithmic, &work.increments, row);
             *value = self.scaled.leave(memory);
         }
-        compensate(&self.state, &work.motions[last].changes, &mut self.next);
-        Ok(outcome)
-    }
-
-    /// A step of the energy-decaying scheme.
-    fn decay(&mut self) -> Result<newton::Outcome, StepError> {
-        let (Engine::Decaying(work), Coupling::Jump(scheme)) =
-            (&mut self.engine, self.settings.scheme.coupling)
-        else {
-            unreachable!("chosen by the engine");
-        };
-        self.scaled.enter(self.system.layout(), &self.state, &mut work.unit);
-        let Settings { scaling, step_size, .. } = &self.settings;
-        let rescale = |share: f64| Scaled::new(scaling, &self.representative, share * step_size);
-        let mut equations = DecayingEquations {
-            system: &self.system,
-            scheme,
-            scaled: self.scaled,
-            rescale: &rescale,
-            start: &self.state,
-            work,
-        };
-        // The energy is as good as the solution: to round-off.
-        let limits = Limits { tolerance: self.settings.limits.tolerance.min(EXACT), ..self.settings.limits };
-        let outcome = approach::solve(&mut equations, &limits, &mut self.memory).map_err(|failure| {
-            self.memory = Memory::default();
-            describe(&failure, &self.system, &self.state, &self.settings, &equations.worst_unknown())
-        })?;
-        let (end, changes, violations) = work.end();
-        copy_motion(end, &mut self.next.kinematics);
-        self.next.violations.copy_from_slice(violations);
-        self.next.multipliers.copy_from_slice(&work.multipliers);
-        compensate(&self.state, changes, &mut self.next);
-        self.scaled.leave_rates(self.system.layout(), &self.state, &work.rate_end, &mut self.next);
-        project_velocities(&self.system, scheme.alpha, &mut work.initial, &mut self.next)
-            .map_err(|error| StepError::Velocities { time: self.next.kinematics.time, error })?;
+        compensate(&self.state, &end.changes, &mut self.next);
+        if let Some(projection) = &mut self.projection {
+            projection
+                .apply(&self.system, &mut self.next)
+                .map_err(|error| StepError::Velocities { time: self.next.kinematics.time, error })?;
+        }
         Ok(outcome)
     }
 
@@ -315,10 +288,8 @@ impl Simulation {
         totals.newton_iterations += report.iterations;
         totals.factorizations += report.factorizations;
         totals.stagnated_steps += usize::from(report.stagnated);
-        if let Engine::Collocation(work) = &self.engine {
-            totals.fell_back_at = work.fell_back.map(|(unknown, _)| unknown);
-        }
-        if let Some(factor) = self.engine.report() {
+        totals.fell_back_at = self.work.fell_back.map(|(unknown, _)| unknown);
+        if let Some(factor) = self.work.report.as_ref() {
             totals.smallest_relative_pivot = totals.smallest_relative_pivot.min(factor.relative_pivot());
         }
         for violation in &self.state.violations {
@@ -378,24 +349,45 @@ fn representative(system: &System, state: &State) -> Representative {
     Representative::of(system, &state.kinematics, &linearization)
 }
 
-/// Takes the share α of the velocities' violation of the constraints away, as a projection that is
-/// orthogonal in the kinetic energy, which therefore never grows: the constraints' own oscillation, which the
-/// step leaves undamped.
-fn project_velocities(
-    system: &System,
-    alpha: f64,
-    initial: &mut Initial,
-    state: &mut State,
-) -> Result<(), InitialError> {
-    if alpha == 0.0 || system.layout().multiplier_rows().is_empty() {
-        return Ok(());
+fn layout_has_constraints(system: &System) -> bool {
+    !system.layout().multiplier_rows().is_empty()
+}
+
+/// Takes away what the velocities have across the constraints after a step that is not stiffly accurate: the
+/// projection is orthogonal in the kinetic energy, which therefore falls; the share 1 - α of that is given back by
+/// scaling all velocities.
+struct Projection {
+    initial: Initial,
+    tableau: Tableau,
+}
+
+impl Projection {
+    fn new(
+        system: &System,
+        state: &State,
+        representative: &Representative,
+        solver: &SolverKind,
+        tableau: Tableau,
+    ) -> Self {
+        Self { initial: Initial::new(system, state, representative, solver), tableau }
     }
-    let given: Vec<_> = state.kinematics.nodes.iter().map(|node| node.twist).collect();
-    initial.velocities(system, state)?;
-    for (node, given) in state.kinematics.nodes.iter_mut().zip(given) {
-        node.twist = given + alpha * (node.twist - given);
+
+    fn apply(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {
+        let before = system.energy(&state.kinematics).kinetic;
+        self.initial.velocities(system, state)?;
+        let after = system.energy(&state.kinematics).kinetic;
+        let wanted = after + (1.0 - self.tableau.dissipation) * (before - after);
+        if system.drives().is_empty() && after > 0.0 && wanted > after {
+            let factor = (wanted / after).sqrt();
+            for node in &mut state.kinematics.nodes {
+                node.twist *= factor;
+            }
+            for coordinate in &mut state.kinematics.coordinates {
+                coordinate.rate *= factor;
+            }
+        }
+        Ok(())
     }
-    Ok(())
 }
 
 fn describe(
@@ -425,40 +417,6 @@ fn describe(
         },
         Failure::Factor(FactorError::NotFinite { unknown }) => {
             StepError::NotFinite { time, iterations: 0, worst: layout.name_of(*unknown) }
-        }
-    }
-}
-
-/// How steps are taken.
-enum Engine {
-    Collocation(Box<Workspace>),
-    Decaying(Box<DecayingWorkspace>),
-}
-
-impl Engine {
-    fn new(system: &System, state: &State, settings: &Settings, representative: &Representative) -> Self {
-        if matches!(settings.scheme.coupling, Coupling::Jump(_)) {
-            let work = DecayingWorkspace::new(system, state, representative, settings.solver);
-            return Self::Decaying(Box::new(work));
-        }
-        let equilibrated = settings.scaling.equilibrates();
-        let mut work =
-            Workspace::new(system, state, &settings.scheme, representative, settings.solver, equilibrated);
-        work.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
-        Self::Collocation(Box::new(work))
-    }
-
-    fn factor_entries(&self) -> usize {
-        match self {
-            Self::Collocation(work) => work.factorization.entries(),
-            Self::Decaying(work) => work.factor_entries(),
-        }
-    }
-
-    fn report(&self) -> Option<&FactorReport> {
-        match self {
-            Self::Collocation(work) => work.report.as_ref(),
-            Self::Decaying(work) => work.report.as_ref(),
         }
     }
 }

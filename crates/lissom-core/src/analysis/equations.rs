@@ -6,12 +6,13 @@ use lissom_solver::{FactorError, FactorReport};
 use super::approach::Approachable;
 use super::factorization::Factorization;
 use super::phase::{Phase, Stopwatch};
+use crate::elements::passage::Passage;
 use crate::equilibration::Equilibration;
 use crate::joints::{Quantity, attached};
 use crate::newton::{Correction, Equations, Failure};
 use crate::scaling::{Representative, Scaled, StageIncrements, StageMotion, UnitStart};
-use crate::schemes::{Increments, Scheme};
-use crate::system::{Chart, Kinematics, LOCKED, Layout, Linearization, Point, State, System};
+use crate::schemes::{Increments, Scheme, Tableau};
+use crate::system::{Chart, Course, Kinematics, LOCKED, Layout, Linearization, Point, State, System};
 
 /// Corrections of rotations larger than this are cut short [rad].
 const LARGEST_ROTATION: f64 = 1.0;
@@ -31,6 +32,7 @@ pub(crate) struct Workspace {
     node_increments: Vec<Vector6>,
     /// Multipliers by stage [N, N m].
     pub(crate) multipliers: Vec<Vec<f64>>,
+    /// By stage; then at the end of the step, for schemes that integrate velocities.
     pub(crate) motions: Vec<StageMotion>,
     /// Residuals, then corrections, by stage.
     pub(crate) residuals: Vec<Vec<f64>>,
@@ -52,6 +54,8 @@ pub(crate) struct Workspace {
     pub(crate) sizes: Vec<f64>,
     /// Of the tangent, if it is wanted.
     pub(crate) equilibration: Option<Equilibration>,
+    /// Representative length [m].
+    length: f64,
     pub(crate) report: Option<FactorReport>,
 }
 
@@ -73,7 +77,10 @@ impl Workspace {
             increments: vec![vec![0.0; count]; stages],
             node_increments: vec![Vector6::zeros(); state.kinematics.nodes.len()],
             multipliers: vec![state.multipliers.clone(); stages],
-            motions: vec![StageMotion::new(&state.kinematics); stages],
+            motions: vec![
+                StageMotion::new(&state.kinematics);
+                stages + usize::from(scheme.tableau.is_some())
+            ],
             residuals: vec![vec![0.0; layout.size()]; stages],
             before: vec![vec![0.0; layout.size()]; stages],
             backed_off: false,
@@ -85,6 +92,7 @@ impl Workspace {
             factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
             sizes,
             equilibration: equilibrated.then(|| Equilibration::new(layout.size(), count)),
+            length: representative.length,
             report: None,
         }
     }
@@ -132,6 +140,16 @@ impl StepEquations<'_> {
                 &mut self.work.motions[i],
             );
         }
+        if let Some(tableau) = &self.scheme.tableau {
+            let work = &mut *self.work;
+            self.scaled.integrate_velocities(
+                layout,
+                tableau,
+                self.start,
+                &work.increments,
+                &mut work.motions,
+            );
+        }
         self.watch.begin(Phase::Rest);
     }
 
@@ -148,13 +166,50 @@ impl StepEquations<'_> {
         }
     }
 
-    /// Violations at the last stage, from the final increments.
+    /// Violations at the end of the step, from the final increments.
     pub(crate) fn final_violations(&self, out: &mut [f64]) {
-        self.system.stage_violations(&self.point(self.scheme.stages.len() - 1), out);
+        let last = self.scheme.stages.len() - 1;
+        let mut point = self.point(last);
+        if let Some(end) = self.work.motions.last() {
+            point.at = &end.at;
+            point.increments = joint_changes(&self.start.kinematics, end);
+        }
+        self.system.stage_violations(&point, out);
+    }
+
+    /// The step as those see it whose strains and violations are integrated.
+    fn course(&self, tableau: &Tableau) -> Option<Course<'_>> {
+        let work = &*self.work;
+        let [first, second, end] = &work.motions[..] else { return None };
+        let (durations, lasting) = self.scaled.durations(tableau);
+        let start = &self.start.kinematics;
+        Some(Course {
+            passage: Passage {
+                start,
+                stages: [&first.at, &second.at],
+                end: &end.at,
+                changes: &end.changes,
+                durations,
+                lasting,
+                length: work.length,
+            },
+            increments: [first, second, end].map(|motion| joint_changes(start, motion)),
+            multipliers: [&work.multipliers[0], &work.multipliers[1]],
+            violations: &self.start.violations,
+            augmentation: self.scaled.augmentation(),
+        })
     }
 
     /// Residuals of all stages, in SI.
     pub(crate) fn evaluate(&mut self) {
+        if let Some(tableau) = &self.scheme.tableau {
+            let mut residuals = std::mem::take(&mut self.work.residuals);
+            if let Some(course) = self.course(tableau) {
+                self.system.course_residuals(&course, &mut residuals);
+            }
+            self.work.residuals = residuals;
+            return;
+        }
         for stage in 0..self.scheme.stages.len() {
             let mut residual = std::mem::take(&mut self.work.residuals[stage]);
             self.system.residual(&self.point(stage), &mut residual);
@@ -362,6 +417,10 @@ impl Equations for StepEquations<'_> {
 
     fn restart(&mut self) {
         self.predict();
+    }
+
+    fn is_wanted_exactly(&self) -> bool {
+        self.scheme.tableau.is_some()
     }
 
     fn back_off(&mut self) {

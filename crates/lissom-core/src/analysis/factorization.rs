@@ -24,7 +24,6 @@ impl Factorization {
             Coupling::Single(_) => {
                 Self::Single { solver: (kind.real)(structure), values: vec![0.0; entries] }
             }
-            Coupling::Jump(_) => unreachable!("the energy-decaying scheme has a system of its own"),
             Coupling::Pair { .. } => Self::Pair {
                 solver: (kind.complex)(structure),
                 values: vec![Complex64::default(); entries],

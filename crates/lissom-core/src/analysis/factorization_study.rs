@@ -9,7 +9,6 @@ use super::factorization::Factorization;
 use super::phase::Unwatched;
 use crate::newton::Equations;
 use crate::scaling::{ScaleBy, Scaled, ScalingChoice};
-use crate::schemes::Coupling;
 use crate::system::Layout;
 
 /// Newton iterations made, far more than convergence takes.
@@ -74,13 +73,8 @@ pub struct Attained {
     pub stopped_at: Option<String>,
 }
 
-/// Tries all combinations on the next step of `simulation`, which stays where it is. None for a scheme
-/// without the tangent of a stage.
-pub fn factorization_study(simulation: &Simulation) -> Option<Vec<Case>> {
-    let coupling = &simulation.settings().scheme.coupling;
-    if !matches!(coupling, Coupling::Single(_) | Coupling::Pair { .. }) {
-        return None;
-    }
+/// Tries all combinations on the next step of `simulation`, which stays where it is.
+pub fn factorization_study(simulation: &Simulation) -> Vec<Case> {
     let penalty = simulation.settings().scaling.penalty;
     let mut cases = Vec::new();
     let scalings = [
@@ -98,7 +92,7 @@ pub fn factorization_study(simulation: &Simulation) -> Option<Vec<Case>> {
             }
         }
     }
-    Some(cases)
+    cases
 }
 
 fn examine(

@@ -2,7 +2,6 @@
 
 mod approach;
 pub mod conditioning;
-mod decaying;
 pub mod dynamics;
 mod equations;
 mod factorization;

@@ -25,10 +25,10 @@ use lissom_motion::{
     tangent_rate_times, tangent_times, tangent_transpose_derivative, tangent_transpose_times,
 };
 
-use super::interval::Interval;
+use super::passage::{Passage, STAGES};
 use super::quadrature::gauss_legendre;
 use super::shape::lagrange;
-use super::{Element, Energy, Tangents, add_block};
+use super::{Element, Energy, MOST_UNKNOWNS, Tangents, add_block};
 use crate::system::{Kinematics, NodeId};
 
 /// Elastic law of a beam's cross section: forces (axial, shear 2, shear 3) and moments (torsion,
@@ -66,7 +66,7 @@ pub struct Beam<const N: usize> {
 }
 
 /// Relative coordinates of the nodes with respect to the reference node.
-type Relative<const N: usize> = [Vector6; N];
+pub(super) type Relative<const N: usize> = [Vector6; N];
 
 impl<const N: usize> Beam<N> {
     /// The node the others are measured from: one in the middle, so that relative rotations are small.
@@ -126,7 +126,7 @@ impl<const N: usize> Beam<N> {
     }
 
     /// V_i - Ad(exp(-d_i)) V_r: the twist of each node relative to the reference node.
-    fn relative_twists(&self, at: &Kinematics, d: &Relative<N>) -> Relative<N> {
+    pub(super) fn relative_twists(&self, at: &Kinematics, d: &Relative<N>) -> Relative<N> {
         let reference = self.section_twist(at, Self::REFERENCE);
         std::array::from_fn(|i| {
             if i == Self::REFERENCE {
@@ -220,7 +220,7 @@ pub(super) fn combine<const N: usize>(weights: &[f64; N], vectors: &Relative<N>)
     sum
 }
 
-pub(super) fn relative_coordinates<const N: usize>(frames: &[Motion; N]) -> Relative<N> {
+fn relative_coordinates<const N: usize>(frames: &[Motion; N]) -> Relative<N> {
     let reference = frames[Beam::<N>::REFERENCE];
     std::array::from_fn(|i| {
         if i == Beam::<N>::REFERENCE {
@@ -289,8 +289,8 @@ impl<const N: usize> Element for Beam<N> {
         self.add_relative_forces(&relative, &forces, out);
     }
 
-    fn mean_forces(&self, interval: &Interval<'_>, out: &mut [f64]) {
-        self.add_mean_forces(interval, out);
+    fn passage_forces(&self, passage: &Passage<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
+        self.add_passage_forces(passage, out);
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {

@@ -1,6 +1,5 @@
 //! Springs and dampers on a joint's relative rotation or displacement: moment or force k (φ - φ₀) + c φ̇.
 
-use super::interval::Interval;
 use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
 use crate::joints::Quantity;
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
@@ -88,14 +87,6 @@ impl Element for CoordinateSpring {
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
         let coordinate = &at.coordinates[self.coordinate[0]];
         out[0] += self.stiffness * (coordinate.value - self.rest) + self.damping * coordinate.rate;
-    }
-
-    fn mean_forces(&self, interval: &Interval<'_>, out: &mut [f64]) {
-        let coordinate = self.coordinate[0];
-        let [from, to] = [interval.from, interval.to].map(|at| at.coordinates[coordinate].value);
-        let change = interval.coordinate_increments[coordinate];
-        out[0] += self.stiffness * (0.5 * (from + to) - self.rest + interval.dissipation * change)
-            + self.damping * interval.rate() * change;
     }
 
     fn linearize(&self, _: &Kinematics, out: &mut Tangents) {

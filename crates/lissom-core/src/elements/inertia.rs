@@ -7,12 +7,10 @@
 //!
 //! M 6x6 mass matrix about the node, V twist, g gravity. [Sonneville, Cardona and Brüls 2014, eq. 25]
 
-use lissom_motion::{
-    Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times, lie_bracket_matrix, rotation_tangent, skew,
-};
+use lissom_motion::{Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times, lie_bracket_matrix, skew};
 
-use super::interval::Interval;
-use super::{Element, Energy, Tangents, add_block};
+use super::passage::{Passage, STAGES};
+use super::{Element, Energy, MOST_UNKNOWNS, Tangents, add_block};
 use crate::system::state::split;
 use crate::system::{Kinematics, NodeId};
 
@@ -52,6 +50,11 @@ impl Inertia {
         self.node[0]
     }
 
+    /// Mass, and first moment m c from the coupling block m c̃.
+    fn moments(&self) -> (f64, Vector3) {
+        (self.mass[(0, 0)], Vector3::new(self.mass[(5, 1)], self.mass[(3, 2)], self.mass[(4, 0)]))
+    }
+
     /// Gravity in body axes, as a twist rate γ.
     fn gravity_in_body(&self, at: &Kinematics) -> Vector6 {
         let g = at.nodes[self.node[0]].frame.rotation.apply_inverse(&self.gravity);
@@ -73,17 +76,28 @@ impl Element for Inertia {
         }
     }
 
-    /// Gravity alone: the mean of Rᵀ g along H exp(τ ψ) is T(θ) Rᵀ g, and its work exactly the change of
-    /// potential energy.
-    fn mean_forces(&self, interval: &Interval<'_>, out: &mut [f64]) {
+    /// Gravity is corrected along the momenta P_j, so that its work is exactly the change of potential energy:
+    /// by ρ P_j with ρ Σ D_j V_j·P_j = -ΔW - Σ D_j V_j·M γ_j.
+    fn passage_forces(&self, passage: &Passage<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
+        for (at, out) in passage.stages.iter().zip(out.iter_mut()) {
+            self.forces(at, out);
+        }
         if self.gravity == Vector3::zeros() {
             return;
         }
-        let theta = split(&interval.increments[self.node[0]]).1;
-        let mean = rotation_tangent(&theta) * split(&self.gravity_in_body(interval.from)).0;
-        let force = self.mass.fixed_view::<6, 3>(0, 0) * mean;
-        for (sum, value) in out.iter_mut().zip(force.iter()) {
-            *sum -= value;
+        let node = self.node[0];
+        let twists = passage.stages.map(|at| at.nodes[node].twist);
+        let momenta = twists.map(|twist| self.mass * twist);
+        let powers = [0, 1].map(|j| momenta[j].dot(&self.gravity_in_body(passage.stages[j])));
+        let change = &passage.changes[node];
+        let g = split(&self.gravity_in_body(passage.start)).0;
+        let (mass, moment) = self.moments();
+        let missed = g.dot(&(mass * change.shift + change.turn * moment)) - passage.whole(powers);
+        let (inverse, _) = passage.shares([0, 1].map(|j| twists[j].dot(&momenta[j])));
+        for (momentum, out) in momenta.iter().zip(out) {
+            for k in 0..6 {
+                out[k] -= missed * inverse * momentum[k];
+            }
         }
     }
 
@@ -104,9 +118,7 @@ impl Element for Inertia {
 
     fn energy(&self, at: &Kinematics) -> Energy {
         let node = &at.nodes[self.node[0]];
-        let mass = self.mass[(0, 0)];
-        // First moment m c from the coupling block m c̃.
-        let moment = Vector3::new(self.mass[(5, 1)], self.mass[(3, 2)], self.mass[(4, 0)]);
+        let (mass, moment) = self.moments();
         let weight_moment = mass * node.frame.position + node.frame.rotation.apply(&moment);
         Energy {
             kinetic: 0.5 * node.twist.dot(&(self.mass * node.twist)),

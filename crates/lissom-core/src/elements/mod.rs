@@ -5,12 +5,12 @@
 
 pub mod beam;
 pub mod beam_line;
-mod beam_mean;
+mod beam_passage;
 pub mod coordinate_spring;
 pub mod force;
 pub mod inertia;
-pub mod interval;
 pub mod moment;
+pub mod passage;
 pub mod point_spring;
 pub mod quadrature;
 pub mod shape;
@@ -18,8 +18,8 @@ pub mod shape;
 use crate::joints::Quantity;
 use crate::registry::{Parameter, ParameterError, Parameters};
 use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
-use interval::Interval;
 use lissom_motion::Vector3;
+use passage::{Passage, STAGES};
 
 /// Most local unknowns an element may have: four nodes and two coordinates.
 pub const MOST_UNKNOWNS: usize = 26;
@@ -113,16 +113,13 @@ pub trait Element: Send + Sync + 'static {
     /// six per node in the node's body frame, then one per coordinate. Hot: called in every iteration.
     fn forces(&self, at: &Kinematics, out: &mut [f64]);
 
-    /// Adds the mean forces, without inertia, over an interval: their work over the increments is the change
-    /// of the elements' energy, plus what the interval dissipates. Default, for forces without energy: the
-    /// mean of both ends.
-    fn mean_forces(&self, interval: &Interval<'_>, out: &mut [f64]) {
-        let mut sum = [0.0; MOST_UNKNOWNS];
-        let size = out.len();
-        self.forces(interval.from, &mut sum[..size]);
-        self.forces(interval.to, &mut sum[..size]);
-        for (value, force) in out.iter_mut().zip(sum) {
-            *value += 0.5 * force;
+    /// Adds the forces at both stages of a passage, for schemes that integrate strains. Their work over it is the
+    /// change of the elements' energy, as far as the method's stages integrate squares exactly. Default, for
+    /// forces without energy or with strains that the stages integrate exactly: `forces` at each stage.
+    fn passage_forces(&self, passage: &Passage<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
+        let size = 6 * self.nodes().len() + self.coordinates().len();
+        for (at, out) in passage.stages.iter().zip(out) {
+            self.forces(at, &mut out[..size]);
         }
     }
 

@@ -4,11 +4,11 @@
 //! Δ = x_B - x_A,   ℓ = |Δ|,   u = Δ/ℓ,   F = k (ℓ - ℓ₀) + c ℓ̇
 //! ```
 
-use lissom_motion::{Matrix3, Vector3, rotation_tangent, skew};
+use lissom_motion::{Matrix3, Vector3, skew};
 use nalgebra::SMatrix;
 
-use super::interval::Interval;
-use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents, add_block};
+use super::passage::{Passage, STAGES, above_round_off};
+use super::{Attached, Attachment, Element, ElementKind, Energy, MOST_UNKNOWNS, Tangents, add_block};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 use crate::system::state::split;
 use crate::system::{Builder, Kinematics, NodeId, NodeMotion};
@@ -111,6 +111,18 @@ impl PointSpring {
     }
 }
 
+/// Adds the forces of a pull on the base's point, and against it on the tip's [N, inertial axes].
+fn add_pull(points: &[Point; 2], pull: &Vector3, out: &mut [f64]) {
+    for (i, sign) in [(0, -1.0), (1, 1.0)] {
+        let local = points[i].rotation.tr_mul(&(sign * pull));
+        let moment = points[i].offset.cross(&local);
+        for k in 0..3 {
+            out[6 * i + k] += local[k];
+            out[6 * i + 3 + k] += moment[k];
+        }
+    }
+}
+
 impl Element for PointSpring {
     fn nodes(&self) -> &[NodeId] {
         &self.nodes
@@ -119,38 +131,34 @@ impl Element for PointSpring {
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
         let points = self.points(at);
         let (direction, _, _, tension) = self.tension(&points);
-        for (i, sign) in [(0, -1.0), (1, 1.0)] {
-            let local = points[i].rotation.tr_mul(&(sign * tension * direction));
-            let moment = points[i].offset.cross(&local);
-            for k in 0..3 {
-                out[6 * i + k] += local[k];
-                out[6 * i + 3 + k] += moment[k];
-            }
-        }
+        add_pull(&points, &(tension * direction), out);
     }
 
-    /// Over H exp(τ ψ) a carried point X moves by R T(θ)ᵀ (u + θ × X), so with the mean span as direction the
-    /// change of length is exactly linear in the increments: ℓ_b - ℓ_a = (Δ_a + Δ_b)·(Δ_b - Δ_a)/(ℓ_a + ℓ_b).
-    fn mean_forces(&self, interval: &Interval<'_>, out: &mut [f64]) {
-        let [from, to] = [interval.from, interval.to].map(|at| {
-            let [a, b] = self.points(at);
-            b.position - a.position
-        });
-        let (before, after) = (from.norm(), to.norm());
-        let change = after - before;
-        let tension = self.stiffness * (0.5 * (before + after) - self.length + interval.dissipation * change)
-            + self.damping * interval.rate() * change;
-        let pull = tension / (before + after).max(f64::MIN_POSITIVE) * (from + to);
-        for (i, sign) in [(0, -1.0), (1, 1.0)] {
-            let node = self.nodes[i];
-            let theta = split(&interval.increments[node]).1;
-            let local = interval.from.nodes[node].frame.rotation.apply_inverse(&(sign * pull));
-            let local = rotation_tangent(&theta) * local;
-            let moment = self.points[i].cross(&local);
-            for k in 0..3 {
-                out[6 * i + k] += local[k];
-                out[6 * i + 3 + k] += moment[k];
-            }
+    /// The elongation is integrated; what that misses is put back along the relative velocities of the points.
+    fn passage_forces(&self, passage: &Passage<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
+        let [a, b] = self.points(passage.start);
+        let before = b.position - a.position;
+        let moved = |point: &Point, node: NodeId| {
+            let change = &passage.changes[node];
+            point.rotation * (change.shift + change.turn * point.offset)
+        };
+        let moves = [moved(&a, self.nodes[0]), moved(&b, self.nodes[1])];
+        let change = moves[1] - moves[0];
+        let length = before.norm();
+        let longer = change.dot(&(2.0 * before + change)) / (length + (before + change).norm());
+        let points = passage.stages.map(|at| self.points(at));
+        let speeds = [0, 1].map(|j| points[j][1].velocity - points[j][0].velocity);
+        let tensions = [0, 1].map(|j| self.tension(&points[j]));
+        let (inverse, shares) = passage.shares(speeds.map(|speed| speed.norm_squared()));
+        let missed = longer - passage.whole(tensions.map(|(_, _, rate, _)| rate));
+        let round_off = 16.0 * f64::EPSILON * (moves[0].norm() + moves[1].norm());
+        let missed = missed * above_round_off(missed.abs(), round_off);
+        let rates = [0, 1].map(|j| tensions[j].2 + shares[j] * missed);
+        let lengths = passage.at_stages(length, rates);
+        for j in 0..STAGES {
+            let tension = self.stiffness * (lengths[j] - self.length) + self.damping * rates[j];
+            let pull = tension * (tensions[j].0 + missed * inverse * speeds[j]);
+            add_pull(&points[j], &pull, &mut out[j]);
         }
     }
 

@@ -1,23 +1,24 @@
-//! Energy-decaying scheme: time-discontinuous, with a jump at the start of each step [Bauchau and Theron
-//! 1996; Bauchau and Bottasso 1999; Bauchau, Bottasso and Trainelli 2003].
+//! Energy-decaying scheme: a Runge-Kutta method that is algebraically stable [Burrage and Butcher 1979], applied
+//! to velocities and strains as variables of their own.
 //!
-//! Legend: i end of the last step, j after the jump, f end of this one; k jump i-j, g glide j-f; d increments
-//! and v rates (unit step), F mean forces, F* with the dissipative part α/2:
+//! Legend: A, b Runge-Kutta coefficients, α dissipation, ρ spectral radius at infinite frequency:
 //!
 //! ```text
-//! v_g = d_k + d_g,   d_k = -⅓ (v_g - v_k*),   v_k* = v_k + (α/2)(v_j - v_i)
-//! M (v_f - v_i) = -F_g,   M (v_j - v_i) = ⅓ (F_g - F_k*)
+//! A = [5/12 -1/12; 3/4 1/4] - (1 - α) [1/24 -1/24; -1/8 1/8],   b = (3/4, 1/4),   c = (1/3, 1)
+//! b_i a_ij + b_j a_ji - b_i b_j = α/16 [1 -1; -1 1] ≥ 0,        ρ = (1 - α)/(1 + α)
 //! ```
 //!
-//! so that the energy changes by -(α/2) [(v_j - v_i)ᵀ M (v_j - v_i) + F_d·d_k] ≤ 0 in a step. The proof, also
-//! for frames that turn and for constraints, stands in `docs/theory/energy-decaying.md`.
+//! α = 1 is Radau IIA's matrix, α = 0 a symplectic one. On linear problems the family is that of the
+//! time-discontinuous schemes [Bauchau and Theron 1996; Bauchau, Bottasso and Trainelli 2003]. The proof that the
+//! energy never grows stands in `docs/theory/energy-decaying.md`.
 
-use super::{Combination, Coupling, Increments, Scheme, SchemeError, SchemeKind, Stage, within};
+use super::radau_iia::collocation;
+use super::{Scheme, SchemeError, SchemeKind, Tableau, within};
 
 /// Registry entry.
 pub const KIND: SchemeKind = SchemeKind {
     name: "energy-decaying",
-    summary: "Energy decaying: second order, energy never increases, damping set by the spectral radius.",
+    summary: "Energy decaying: third order, energy never increases, damping set by the spectral radius.",
     build: |parameters| with_spectral_radius(parameters.spectral_radius.unwrap_or(0.0)),
 };
 
@@ -27,97 +28,75 @@ pub const KIND: SchemeKind = SchemeKind {
 /// If `rho` is outside 0 … 1.
 pub fn with_spectral_radius(rho: f64) -> Result<Scheme, SchemeError> {
     let rho = within("spectral_radius", rho, (0.0, 1.0))?;
-    let alpha = (1.0 - rho) / (1.0 + rho);
-    let end = Stage {
-        abscissa: 1.0,
-        rate: Combination::default(),
-        curvature: Combination::default(),
-        prediction: Combination { rate: 1.0, curvature: 0.5, ..Combination::default() },
-    };
-    Ok(Scheme {
-        name: format!("energy-decaying (spectral radius {rho})"),
-        stages: vec![end],
-        algorithmic: Combination::default(),
-        increments: Increments::FromStart,
-        coupling: Coupling::Jump(TimeDiscontinuous { alpha }),
-        memory_delay: 0.0,
-        dynamic: true,
-    })
+    let tableau = tableau((1.0 - rho) / (1.0 + rho));
+    let mut scheme = collocation(format!("energy-decaying (spectral radius {rho})"), tableau.inverse);
+    scheme.tableau = Some(tableau);
+    Ok(scheme)
 }
 
-/// The scheme's numbers.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TimeDiscontinuous {
-    /// Dissipation α, 0 … 1.
-    pub alpha: f64,
-}
-
-/// Derivatives of the rates after the jump and at the end, with respect to jump and glide.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct RateWeights {
-    /// ∂v_j/∂(d_k, d_g).
-    pub after: [f64; 2],
-    /// ∂v_f/∂(d_k, d_g).
-    pub end: [f64; 2],
-}
-
-impl TimeDiscontinuous {
-    /// Rates after the jump and at the end.
-    pub fn rates(&self, jump: f64, glide: f64, start: f64) -> (f64, f64) {
-        let after = (8.0 * jump + 2.0 * glide - (1.0 - self.alpha) * start) / (1.0 + self.alpha);
-        (after, 2.0 * (jump + glide) - after)
-    }
-
-    /// Derivatives of [`Self::rates`].
-    pub fn weights(&self) -> RateWeights {
-        let after = [8.0, 2.0].map(|weight| weight / (1.0 + self.alpha));
-        RateWeights { after, end: after.map(|weight| 2.0 - weight) }
-    }
+/// The coefficients for dissipation α. det A = (1 + α)/12.
+fn tableau(dissipation: f64) -> Tableau {
+    let q = 1.0 - dissipation;
+    let stages = [[5.0 / 12.0 - q / 24.0, -1.0 / 12.0 + q / 24.0], [0.75 + q / 8.0, 0.25 - q / 8.0]];
+    let factor = 12.0 / (1.0 + dissipation);
+    let inverse = [[1.5, 0.5], [-factor * stages[1][0], factor * stages[0][0]]];
+    let beyond = 0.5 * q / (1.0 + dissipation);
+    Tableau { stages, end: [0.75, 0.25], inverse, reached: [-3.0 * beyond, 1.0 + beyond], dissipation }
 }
 
 #[cfg(test)]
 mod tests {
+    use num_complex::Complex64;
+
     use super::*;
 
-    /// Linear oscillator with unit mass and stiffness k: amplification over a step.
-    fn amplification(alpha: f64, k: f64) -> f64 {
-        let scheme = TimeDiscontinuous { alpha };
-        let step = |u: f64, v: f64| {
-            // Residuals are linear in (d_k, d_g): solve 2 x 2 by evaluating them.
-            let residual = |x: f64, y: f64| {
-                let (vj, vf) = scheme.rates(x, y, v);
-                let (uj, uf) = (u + x, u + x + y);
-                let glide = k * 0.5 * (uj + uf);
-                let jump = k * (0.5 * (u + uj) + 0.5 * alpha * (uj - u));
-                [vj - v - (glide - jump) / 3.0, vf - v + glide]
-            };
-            let zero = residual(0.0, 0.0);
-            let [a, b] = [residual(1.0, 0.0), residual(0.0, 1.0)];
-            let m = [[a[0] - zero[0], b[0] - zero[0]], [a[1] - zero[1], b[1] - zero[1]]];
-            let det = m[0][0] * m[1][1] - m[0][1] * m[1][0];
-            let x = (-zero[0] * m[1][1] + zero[1] * m[0][1]) / det;
-            let y = (-zero[1] * m[0][0] + zero[0] * m[1][0]) / det;
-            let (_, vf) = scheme.rates(x, y, v);
-            (u + x + y, vf)
-        };
-        // Spectral radius by the power method on (u √k, v).
-        let (mut u, mut v) = (1.0 / k.sqrt(), 0.3);
-        let mut ratio = 0.0;
-        for _ in 0..200 {
-            let before = (k * u * u + v * v).sqrt();
-            (u, v) = step(u / before, v / before);
-            ratio = (k * u * u + v * v).sqrt();
+    #[test]
+    fn coefficients_are_consistent_and_algebraically_stable() {
+        for alpha in [0.0, 0.3, 1.0] {
+            let t = tableau(alpha);
+            let (a, b, c) = (t.stages, t.end, [1.0 / 3.0, 1.0]);
+            let mut third = 0.0;
+            for i in 0..2 {
+                assert!((a[i][0] + a[i][1] - c[i]).abs() < 1e-15);
+                let reached = b[0] * t.inverse[0][i] + b[1] * t.inverse[1][i];
+                assert!((t.reached[i] - reached).abs() < 1e-14, "{alpha}");
+                for j in 0..2 {
+                    let unit = a[i][0] * t.inverse[0][j] + a[i][1] * t.inverse[1][j];
+                    assert!((unit - f64::from(u8::from(i == j))).abs() < 1e-14);
+                    let m = b[i] * a[i][j] + b[j] * a[j][i] - b[i] * b[j];
+                    let expected = if i == j { alpha / 16.0 } else { -alpha / 16.0 };
+                    assert!((m - expected).abs() < 1e-15, "{alpha}: {m}");
+                    third += b[i] * a[i][j] * c[j];
+                }
+            }
+            assert!((third - 1.0 / 6.0).abs() < 1e-15, "third order");
         }
-        ratio
+    }
+
+    /// 1 + z bᵀ (1 - z A)⁻¹ 1.
+    fn amplification(alpha: f64, z: Complex64) -> Complex64 {
+        let t = tableau(alpha);
+        let m: [[Complex64; 2]; 2] = std::array::from_fn(|i| {
+            std::array::from_fn(|j| f64::from(u8::from(i == j)) - z * t.stages[i][j])
+        });
+        let determinant = m[0][0] * m[1][1] - m[0][1] * m[1][0];
+        let first = (m[1][1] - m[0][1]) / determinant;
+        let second = (m[0][0] - m[1][0]) / determinant;
+        1.0 + z * (t.end[0] * first + t.end[1] * second)
     }
 
     #[test]
     fn spectral_radius_is_one_when_preserving_and_vanishes_when_annihilating() {
-        for k in [1e-2, 1.0, 1e2, 1e6] {
-            assert!((amplification(0.0, k) - 1.0).abs() < 1e-9, "{k}");
+        for frequency in [0.1, 1.0, 10.0, 1e3] {
+            let z = Complex64::new(0.0, frequency);
+            assert!((amplification(0.0, z).norm() - 1.0).abs() < 1e-12, "{frequency}");
+            assert!(amplification(0.4, z).norm() < 1.0);
         }
-        assert!(amplification(1.0, 1e8) < 1e-3);
-        assert!((amplification(0.2, 1e10) - (1.0 - 0.2) / (1.0 + 0.2)).abs() < 1e-2);
-        assert!(amplification(1.0, 1e-2) > 0.999_9);
+        let stiff = Complex64::new(0.0, 1e6);
+        assert!(amplification(1.0, stiff).norm() < 1e-5);
+        for alpha in [0.2, 0.7] {
+            let expected = (1.0 - alpha) / (1.0 + alpha);
+            assert!((amplification(alpha, stiff).norm() - expected).abs() < 1e-5);
+        }
     }
 }

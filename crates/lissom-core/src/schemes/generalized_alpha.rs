@@ -71,6 +71,7 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
     Scheme {
         name,
         coupling: Coupling::Single(Weights { rate: rate.increments[0], curvature: curvature.increments[0] }),
+        tableau: None,
         stages: vec![Stage { abscissa: 1.0, rate, curvature, prediction }],
         algorithmic: memory,
         increments: Increments::FromStart,

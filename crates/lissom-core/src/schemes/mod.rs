@@ -89,8 +89,6 @@ pub struct Weights<T> {
 pub enum Coupling {
     /// One stage, one real system.
     Single(Weights<f64>),
-    /// A jump and a glide: one real system of twice the coordinates.
-    Jump(energy_decaying::TimeDiscontinuous),
     /// Two stages: one complex system of the size of one stage. With the residuals r of the stages, solve
     /// J w = Σ left_i r_i, then the corrections are Re(right_i w).
     Pair {
@@ -103,12 +101,35 @@ pub enum Coupling {
     },
 }
 
+/// Coefficients of a Runge-Kutta method that integrates velocities, strains and violations from their rates at
+/// the stages.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tableau {
+    /// A: weights of the rates at the stages, for the values at a stage.
+    pub stages: [[f64; MOST_STAGES]; MOST_STAGES],
+    /// b: the same for the end of the step.
+    pub end: [f64; MOST_STAGES],
+    /// A⁻¹: from changes at the stages to rates.
+    pub inverse: [[f64; MOST_STAGES]; MOST_STAGES],
+    /// bᵀA⁻¹: from changes at the stages to the change over the step.
+    pub reached: [f64; MOST_STAGES],
+    /// Dissipation α, 0 (none) … 1 (high frequencies vanish).
+    pub dissipation: f64,
+}
+
+impl Tableau {
+    /// Whether the last stage is the end of the step in every respect.
+    pub fn is_stiffly_accurate(&self) -> bool {
+        self.dissipation == 1.0
+    }
+}
+
 /// A time-integration scheme for unit steps.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scheme {
     /// Name, with its parameter.
     pub name: String,
-    /// The stages; the last is the end of the step.
+    /// The stages; without tableau, the last is the end of the step.
     pub stages: Vec<Stage>,
     /// The scheme's memory at the end of the step.
     pub algorithmic: Combination,
@@ -116,6 +137,9 @@ pub struct Scheme {
     pub increments: Increments,
     /// How the linear systems come apart.
     pub coupling: Coupling,
+    /// For schemes that integrate velocities, strains and violations; the others evaluate strains and
+    /// violations where a stage is.
+    pub tableau: Option<Tableau>,
     /// The memory starts as the acceleration this long after the start of the first step, in steps.
     pub memory_delay: f64,
     /// Whether inertia takes part.

@@ -24,8 +24,13 @@ pub const KIND: SchemeKind = SchemeKind {
 
 /// The scheme.
 pub fn two_stages() -> Scheme {
-    let rate = [[1.5, 0.5], [-4.5, 2.5]];
-    let curvature = [[0.0, 2.0], [-18.0, 4.0]];
+    collocation("radau-iia".to_owned(), [[1.5, 0.5], [-4.5, 2.5]])
+}
+
+/// A scheme of two stages at 1/3 and 1 from A⁻¹, whose eigenvalues are complex.
+pub(super) fn collocation(name: String, rate: [[f64; 2]; 2]) -> Scheme {
+    let curvature: [[f64; 2]; 2] =
+        std::array::from_fn(|i| std::array::from_fn(|j| rate[i][0] * rate[0][j] + rate[i][1] * rate[1][j]));
     let abscissae = [1.0 / 3.0, 1.0];
     let stage = |i: usize| Stage {
         abscissa: abscissae[i],
@@ -33,13 +38,15 @@ pub fn two_stages() -> Scheme {
         curvature: Combination { increments: curvature[i], ..Combination::default() },
         prediction: Combination { curvature: 0.5 * abscissae[i] * abscissae[i], ..Combination::default() },
     };
-    let mu = Complex64::new(2.0, std::f64::consts::SQRT_2);
-    // Columns of T are (1, 2 (μ - 3/2)): the first row of (A⁻¹ - μ) T = 0.
-    let second = 2.0 * (mu - 1.5);
+    let real = 0.5 * (rate[0][0] + rate[1][1]);
+    let determinant = rate[0][0] * rate[1][1] - rate[0][1] * rate[1][0];
+    let mu = Complex64::new(real, (determinant - real * real).sqrt());
+    // Columns of T are (1, t): the first row of (A⁻¹ - μ) T = 0.
+    let second = (mu - rate[0][0]) / rate[0][1];
     // T⁻¹ for T = [1 1; t t̄]: first row (t̄, -1) / (t̄ - t).
     let width = second.conj() - second;
     Scheme {
-        name: "radau-iia".to_owned(),
+        name,
         stages: vec![stage(0), stage(1)],
         algorithmic: Combination::default(),
         increments: Increments::Departure,
@@ -48,6 +55,7 @@ pub fn two_stages() -> Scheme {
             left: [second.conj() / width, -1.0 / width],
             right: [Complex64::new(2.0, 0.0), 2.0 * second],
         },
+        tableau: None,
         memory_delay: 0.0,
         dynamic: true,
     }

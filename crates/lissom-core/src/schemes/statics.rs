@@ -15,6 +15,7 @@ pub fn statics() -> Scheme {
         algorithmic: Combination::default(),
         increments: Increments::FromStart,
         coupling: Coupling::Single(Weights { rate: 0.0, curvature: 0.0 }),
+        tableau: None,
         memory_delay: 0.0,
         dynamic: false,
     }

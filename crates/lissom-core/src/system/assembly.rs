@@ -176,7 +176,7 @@ impl System {
         let increments = Increments { start: at, nodes: &still, coordinates: &unchanged };
         for joint in &self.joints {
             let configuration = joint.configuration(&increments);
-            let speeds = local_speeds(joint, at);
+            let speeds = joint.speeds(at);
             for equation in 0..joint.equations() {
                 let mut mu = Equations::default();
                 mu[equation] = 1.0;
@@ -197,17 +197,6 @@ impl System {
             out[drive.multiplier] = -drive.prescribed.value.first_derivative(at.time);
         }
     }
-}
-
-fn local_speeds(joint: &AttachedJoint, at: &Kinematics) -> nalgebra::SVector<f64, LOCAL> {
-    let mut speeds = nalgebra::SVector::<f64, LOCAL>::zeros();
-    for (side, frame) in joint.frames.iter().enumerate() {
-        speeds.fixed_rows_mut::<6>(6 * side).copy_from(&at.nodes[frame.node].twist);
-    }
-    for (k, &coordinate) in joint.coordinates.iter().enumerate() {
-        speeds[12 + k] = at.coordinates[coordinate].rate;
-    }
-    speeds
 }
 
 fn drive_violation(drive: &Drive, point: &Point<'_>) -> f64 {

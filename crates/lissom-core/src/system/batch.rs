@@ -8,7 +8,7 @@ use lissom_solver::Pattern;
 use super::assembly::Linearization;
 use super::layout::{LOCKED, Layout};
 use super::state::{Kinematics, NodeMotion};
-use crate::elements::interval::Interval;
+use crate::elements::passage::{Passage, STAGES};
 use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
 
 /// All elements of one kind.
@@ -38,7 +38,7 @@ pub(crate) trait AnyBatch: Send + Sync {
         scratch: &mut Tangents,
         out: &mut Linearization,
     );
-    fn mean_forces(&self, interval: &Interval<'_>, out: &mut [f64]);
+    fn passage_forces(&self, passage: &Passage<'_>, out: &mut [Vec<f64>]);
     fn energy(&self, at: &Kinematics) -> Energy;
     fn as_any_mut(&mut self) -> &mut dyn Any;
 }
@@ -117,12 +117,14 @@ impl<E: Element> AnyBatch for Batch<E> {
         }
     }
 
-    fn mean_forces(&self, interval: &Interval<'_>, out: &mut [f64]) {
+    fn passage_forces(&self, passage: &Passage<'_>, out: &mut [Vec<f64>]) {
         for (index, item) in self.items.iter().enumerate() {
             let rows = self.item_rows(index);
-            let mut local = [0.0; MOST_UNKNOWNS];
-            item.mean_forces(interval, &mut local[..rows.len()]);
-            scatter(rows, &local, out);
+            let mut local = [[0.0; MOST_UNKNOWNS]; STAGES];
+            item.passage_forces(passage, &mut local);
+            for (local, out) in local.iter().zip(out.iter_mut()) {
+                scatter(rows, local, out);
+            }
         }
     }
 

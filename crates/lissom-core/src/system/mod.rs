@@ -4,15 +4,16 @@ mod assembly;
 mod batch;
 mod builder;
 mod layout;
+mod passage;
 pub(crate) mod state;
 
 use std::sync::Arc;
 
 pub use assembly::{Augmentation, Linearization, Point};
 pub use batch::Chart;
-pub(crate) use batch::positions_of;
 pub use builder::{BuildError, Builder, Placement};
 pub use layout::{Freedoms, LOCKED, Layout};
+pub use passage::Course;
 pub use state::{CoordinateId, CoordinateMotion, Kinematics, MotionChange, NodeId, NodeMotion, State};
 
 use lissom_motion::Vector3;

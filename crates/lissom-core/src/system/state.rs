@@ -1,6 +1,8 @@
 //! Where everything is and how it moves, in SI. Knows neither topology nor time step.
 
-use lissom_motion::{Matrix3, Motion, Vector3, Vector6, rotation_exponential_minus_identity};
+use lissom_motion::{
+    Matrix3, Motion, Rotation, Vector3, Vector6, axial, rotation_exponential_minus_identity,
+};
 
 /// Index of a node.
 pub type NodeId = usize;
@@ -85,6 +87,30 @@ impl MotionChange {
             turn: self.turn + next.turn + self.turn * next.turn,
             shift: self.shift + next.shift + self.turn * next.shift,
         }
+    }
+
+    /// Ad(H⁻¹) V - V without cancellation: how the twist of a fixed observer changes when the frame moves by this.
+    #[must_use]
+    pub fn seen_differently(&self, twist: &Vector6) -> Vector6 {
+        let (v, w) = split(twist);
+        let carried = w.cross(&self.shift);
+        lissom_motion::screw(&(self.turn.tr_mul(&(v + carried)) + carried), &self.turn.tr_mul(&w))
+    }
+
+    /// H_base⁻¹ H for two changes (E, p).
+    #[must_use]
+    pub fn relative_to(&self, base: &Self) -> Self {
+        let back = base.turn.transpose();
+        let shift = self.shift - base.shift;
+        Self { turn: back + self.turn + back * self.turn, shift: shift + back * shift }
+    }
+
+    /// log H of a small change, without cancellation: relative error |θ|⁶/20.
+    pub fn small_logarithm(&self) -> Vector6 {
+        let sine = axial(&self.turn);
+        let square = sine.norm_squared();
+        let theta = sine * (1.0 + square * (1.0 / 6.0 + square * 0.075));
+        Motion::new(Rotation::exponential(&theta), self.shift).logarithm()
     }
 
     /// The same change of a frame carried at `offset`: O⁻¹ (E, p) O.

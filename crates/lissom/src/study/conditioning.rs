@@ -3,7 +3,6 @@
 
 use lissom_core::analysis::{ConditionMethod, Simulation};
 use lissom_core::scaling::{ScaleBy, ScalingChoice};
-use lissom_core::schemes::Coupling;
 use lissom_model::lower::{Lowered, lower};
 use lissom_model::output::LogFigure;
 
@@ -108,8 +107,8 @@ impl Request {
 /// row.
 ///
 /// # Errors
-/// If the model is wrong, with one of the values or without, has load steps or the energy-decaying scheme, whose
-/// tangent is another one, or if the study is interrupted.
+/// If the model is wrong, with one of the values or without, has load steps, or if the study is
+/// interrupted.
 pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table, StudyError> {
     let members = request.members();
     let mut rows = Vec::with_capacity(members.len());
@@ -118,9 +117,6 @@ pub fn study(model: &Model, request: &Request, watch: Watch<'_>) -> Result<Table
         let lowered = lower(&model.document(&request.of(step, value))?)?;
         if lowered.plan.is_static {
             return Err(StudyError::NotDynamic);
-        }
-        if let Coupling::Jump(_) = lowered.settings.scheme.coupling {
-            return Err(StudyError::Scheme(lowered.settings.scheme.name));
         }
         planned += steps_of(&lowered).0;
         rows.push((step.clone(), lowered.settings.step_size, value.cloned()));
@@ -163,7 +159,7 @@ fn measure(model: &Model, overrides: &[Override], effort: &Effort<'_>) -> Result
             equilibrated,
             ..choice
         }))
-        .ok_or_else(|| StudyError::Scheme(simulation.settings().scheme.name.clone()))?;
+        .ok_or(StudyError::NotDynamic)?;
     let structure = simulation.system().structure();
     let conditions: Vec<_> = tangents.iter().map(|tangent| tangent.condition(structure)).collect();
     Ok(Measured {

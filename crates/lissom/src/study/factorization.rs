@@ -23,13 +23,13 @@ pub struct Table {
 /// Tries every combination of scaling, augmented term and solver on the first step.
 ///
 /// # Errors
-/// If the model is wrong, has no consistent initial values, or a scheme whose equations the study does not know.
+/// If the model is wrong or has no consistent initial values.
 pub fn study(model: &Model, overrides: &[Override]) -> Result<Table, StudyError> {
     let Lowered { system, state, settings, .. } = lower(&model.document(overrides)?)?;
     let scheme = settings.scheme.name.clone();
     let step_size = settings.step_size;
     let simulation = Simulation::new(system, state, settings)?;
-    let cases = factorization_study(&simulation).ok_or_else(|| StudyError::Scheme(scheme.clone()))?;
+    let cases = factorization_study(&simulation);
     Ok(Table { unknowns: simulation.system().layout().size(), step_size, scheme, cases })
 }
 

@@ -32,11 +32,6 @@ pub enum StudyError {
     /// It needs time steps, and the analysis has load steps.
     #[error("this study needs time steps: the analysis of the model must be of kind `dynamics`")]
     NotDynamic,
-    /// Its scheme has equations of its own.
-    #[error(
-        "this study does not know the equations of the scheme `{0}`: choose another with analysis.scheme"
-    )]
-    Scheme(String),
     /// A run ended early.
     #[error(transparent)]
     Run(#[from] RunError),

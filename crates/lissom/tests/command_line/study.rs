@@ -148,7 +148,6 @@ fn every_run_tells_how_well_its_tangent_is_conditioned() {
     assert!(start < 1e3 && end < 1e3, "{start:e} {end:e}");
     let (start, end) = condition("pendulum", "none");
     assert!(start > 1e8 && end > 1e8, "{start:e} {end:e}");
-    // The energy-decaying scheme has a system of its own.
     let (start, end) = condition("energy", "physical");
     assert!(start > 1.0 && end > 1.0 && start < 1e12 && end < 1e12, "{start:e} {end:e}");
 }

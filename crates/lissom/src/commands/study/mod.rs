@@ -51,7 +51,6 @@ impl From<StudyError> for Failure {
             StudyError::Model(report) => report.into(),
             StudyError::Interrupted => Self::new(Exit::Interrupted, error),
             StudyError::NotDynamic
-            | StudyError::Scheme(_)
             | StudyError::SchemeWord { .. }
             | StudyError::Output { .. }
             | StudyError::Steps { .. }

@@ -1,0 +1,92 @@
+//! A joint over a passage: violations integrated from their rates, and forces that do no work.
+//!
+//! ```text
+//! c_i = γ_i c_start + Σ_j d_ij B̃_j V_j,      γ_i = Σ_j d_ij / Σ_j D_j,      forces at stage i: B̃_iᵀ μ_i
+//! ```
+//!
+//! c_i = 0 at both stages means B̃_j V_j = -c_start/h at each: no power, and no violation at the end. See
+//! `elements::passage` for B̃.
+
+use nalgebra::SVector;
+
+use super::attached::{AttachedJoint, Increments, LOCAL, LocalGradient};
+use super::{Equations, MOST_EQUATIONS, Quantity};
+use crate::elements::passage::{Passage, STAGES, above_round_off, weigh};
+
+/// Round-off of a change of violation, in units of what its terms cancel from.
+const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
+
+/// Velocities and violations of a joint at a stage.
+pub(crate) struct Visit {
+    /// B̃.
+    pub(crate) rows: LocalGradient,
+    /// Integrated violation.
+    pub(crate) violation: SVector<f64, MOST_EQUATIONS>,
+}
+
+impl AttachedJoint {
+    /// Gradients and integrated violations at the stages of `passage`. `increments` are those of the stages and
+    /// of the end, `before` is the violation at the start.
+    pub(crate) fn visits(
+        &self,
+        passage: &Passage<'_>,
+        increments: &[Increments<'_>; STAGES + 1],
+        before: &Equations,
+    ) -> [Visit; STAGES] {
+        let mut rows = [LocalGradient::zeros(); STAGES];
+        let mut rates = [SVector::<f64, MOST_EQUATIONS>::zeros(); STAGES];
+        let mut weights = [SVector::<f64, LOCAL>::zeros(); STAGES];
+        let mut squares = [0.0; STAGES];
+        let mut way = 0.0_f64;
+        for j in 0..STAGES {
+            let configuration = self.configuration(&increments[j]);
+            rows[j] = self.gradient_at(&configuration);
+            let speeds = self.speeds(passage.stages[j]);
+            rates[j] = rows[j] * speeds;
+            let terms = rows[j].abs() * speeds.abs();
+            way = way.max(passage.lasting[j].abs() * terms.max());
+            let variation = self.variation(&configuration.0);
+            let relative = variation * speeds.fixed_rows::<12>(0);
+            let weighted = weigh(&relative, passage.length);
+            weights[j].fixed_rows_mut::<12>(0).copy_from(&variation.tr_mul(&weighted));
+            squares[j] = relative.dot(&weighted);
+            for (k, coordinate) in self.joint().coordinates().iter().enumerate() {
+                let unit = match coordinate.quantity {
+                    Quantity::Length => 1.0,
+                    Quantity::Angle => passage.length,
+                };
+                weights[j][12 + k] = unit * unit * speeds[12 + k];
+                squares[j] += weights[j][12 + k] * speeds[12 + k];
+            }
+        }
+        let (relative, own) = self.configuration(&increments[STAGES]);
+        let change = self.joint().violation_change(&relative, &own);
+        let missed = SVector::<f64, MOST_EQUATIONS>::from_column_slice(&change) - passage.whole(rates);
+        let (inverse, mut shares) = passage.shares(squares);
+        let whole: f64 = passage.lasting.iter().sum();
+        if inverse == 0.0 {
+            shares = [1.0 / whole; STAGES];
+        }
+        // What is below round-off counts in the violations but would be noise in the forces.
+        let known = missed.map(|value| value * above_round_off(value.abs(), ROUND_OFF * way));
+        let before = SVector::<f64, MOST_EQUATIONS>::from_column_slice(before);
+        let violations = passage
+            .at_stages(SVector::zeros(), [0, 1].map(|j| rates[j] + shares[j] * missed + before / whole));
+        [0, 1].map(|j| Visit {
+            rows: rows[j] + inverse * known * weights[j].transpose(),
+            violation: violations[j],
+        })
+    }
+
+    /// Velocities of the local unknowns.
+    pub(crate) fn speeds(&self, at: &crate::system::Kinematics) -> SVector<f64, LOCAL> {
+        let mut speeds = SVector::<f64, LOCAL>::zeros();
+        for (side, frame) in self.frames.iter().enumerate() {
+            speeds.fixed_rows_mut::<6>(6 * side).copy_from(&at.nodes[frame.node].twist);
+        }
+        for (k, &coordinate) in self.coordinates.iter().enumerate() {
+            speeds[12 + k] = at.coordinates[coordinate].rate;
+        }
+        speeds
+    }
+}

@@ -1,0 +1,87 @@
+//! Residual of the whole system at both stages of a passage, for schemes that integrate strains and violations.
+//! Knows no scheme and no scaling.
+
+use nalgebra::SVector;
+
+use super::layout::LOCKED;
+use super::{Augmentation, Drive, System};
+use crate::elements::passage::{Passage, STAGES};
+use crate::joints::attached::{AttachedJoint, Increments};
+use crate::joints::{Equations, MOST_EQUATIONS};
+
+/// Where the residuals of a passage are evaluated.
+#[derive(Clone, Copy, Debug)]
+pub struct Course<'a> {
+    /// The motion.
+    pub passage: Passage<'a>,
+    /// What has changed since the start, at the stages and at the end.
+    pub increments: [Increments<'a>; STAGES + 1],
+    /// Multipliers by stage [N, N m].
+    pub multipliers: [&'a [f64]; STAGES],
+    /// Violations at the start.
+    pub violations: &'a [f64],
+    /// The augmented Lagrangian term.
+    pub augmentation: Augmentation,
+}
+
+impl System {
+    /// Residuals at the stages of `course`: left-hand sides of the equations of motion in the rows of the
+    /// coordinates, integrated violations in the rows of the multipliers.
+    pub fn course_residuals(&self, course: &Course<'_>, out: &mut [Vec<f64>]) {
+        for residual in out.iter_mut() {
+            residual.fill(0.0);
+        }
+        for batch in &self.batches {
+            batch.passage_forces(&course.passage, out);
+        }
+        for (joint, rows) in self.joints.iter().zip(&self.joint_rows) {
+            joint_residuals(joint, rows, course, out);
+        }
+        for (drive, rows) in self.drives.iter().zip(&self.joint_rows[self.joints.len()..]) {
+            let quantity = self.layout.quantities[self.layout.coordinate_count + drive.multiplier];
+            let weight = course.augmentation.weight * course.augmentation.relative(quantity);
+            for (stage, violation) in drive_violations(drive, course).into_iter().enumerate() {
+                out[stage][rows[1] as usize] = violation;
+                out[stage][rows[0] as usize] +=
+                    course.multipliers[stage][drive.multiplier] + weight * violation;
+            }
+        }
+    }
+}
+
+fn joint_residuals(joint: &AttachedJoint, rows: &[u32], course: &Course<'_>, out: &mut [Vec<f64>]) {
+    let own = joint.first_multiplier..joint.first_multiplier + joint.equations();
+    let mut before = Equations::default();
+    before[..joint.equations()].copy_from_slice(&course.violations[own.clone()]);
+    let visits = joint.visits(&course.passage, &course.increments, &before);
+    let unknowns = rows.len() - joint.equations();
+    for (stage, visit) in visits.iter().enumerate() {
+        let mut mu = SVector::<f64, MOST_EQUATIONS>::zeros();
+        for (k, multiplier) in course.multipliers[stage][own.clone()].iter().enumerate() {
+            let relative = course.augmentation.relative(joint.joint().equation_quantity(k));
+            mu[k] = multiplier + course.augmentation.weight * relative * visit.violation[k];
+        }
+        let forces = visit.rows.tr_mul(&mu);
+        for (&row, force) in rows[..unknowns].iter().zip(forces.iter()) {
+            if row != LOCKED {
+                out[stage][row as usize] += force;
+            }
+        }
+        for (&row, value) in rows[unknowns..].iter().zip(visit.violation.iter()) {
+            out[stage][row as usize] = *value;
+        }
+    }
+}
+
+/// c_i = γ_i (c_start - ρ) + Δφ_i - Σ_j d_ij ḟ_j with ρ = Δf - Σ_j D_j ḟ_j: the rate of φ follows that of f at
+/// both stages, but for the small ρ, which makes the violation vanish at the end.
+fn drive_violations(drive: &Drive, course: &Course<'_>) -> [f64; STAGES] {
+    let Passage { stages, end, .. } = course.passage;
+    let value = &drive.prescribed.value;
+    let rates = stages.map(|at| value.first_derivative(at.time));
+    let missed = -drive.prescribed.violation_change(0.0, end.time, end.elapsed) - course.passage.whole(rates);
+    let whole: f64 = course.passage.lasting.iter().sum();
+    let rate = (course.violations[drive.multiplier] - missed) / whole;
+    let behind = course.passage.at_stages(0.0, rates.map(|of| rate - of));
+    std::array::from_fn(|i| course.increments[i].coordinates[drive.prescribed.coordinate] + behind[i])
+}
