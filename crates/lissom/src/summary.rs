@@ -80,6 +80,8 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     tell("factorizations", json!(totals.factorizations));
     let fell_back = totals.fell_back_at.map(|row| simulation.system().layout().name_of(row));
     tell("fell_back_at", json!(fell_back));
+    let yielded = totals.yielded_at.map(|row| simulation.system().layout().name_of(row));
+    tell("yielded_at", json!(yielded));
     tell("factor_entries", json!(simulation.factor_entries()));
     tell("smallest_relative_pivot", json!(totals.smallest_relative_pivot));
     tell("wall_seconds", json!(report.wall.as_secs_f64()));
@@ -154,6 +156,7 @@ pub fn of_failed_start(summary: &mut Summary, error: &dyn std::error::Error) {
     // The names are there, so that scripts need not ask.
     for name in [
         "fell_back_at",
+        "yielded_at",
         "factor_entries",
         "smallest_relative_pivot",
         "wall_seconds",

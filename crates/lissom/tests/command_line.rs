@@ -298,14 +298,12 @@ fn check_counts_freedoms_and_names_redundant_constraints() {
     assert_eq!(run.errors.matches("redundant constraint").count(), 3, "{}", run.errors);
     assert!(run.errors.contains("of joint `again` follows from `pivot`"), "{}", run.errors);
     assert!(!folder.path().join("out").exists());
-    // To run it is a failed solution, told in the summary before any step.
-    let run = lissom(&["run", "twice.toml", "--quiet"], folder.path());
-    assert_eq!(run.code, 3);
-    assert!(run.errors.contains("joint `again`"), "{}", run.errors);
+    // It runs, with the least forces that hold it, and says so.
+    let run = lissom(&["run", "twice.toml", "--set", "analysis.end=0.01"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(run.output.contains("joint `again`"), "{}", run.output);
     let facts = summary(&folder.path().join("out/twice"));
-    assert_eq!((&facts["stopped"], &facts["steps"]), (&"failed".into(), &0.into()));
-    assert!(facts["error"].as_str().unwrap().contains("joint `again`"));
-    assert!(facts.get("max_carried_violation").is_some());
+    assert!(facts["yielded_at"].as_str().unwrap().contains("joint `again`"));
 }
 
 #[test]
@@ -329,6 +327,7 @@ fn samples_of_kinds_are_good_models() {
     const PARTS: &str = "lissom = 1\n\
         [bodies.my_body]\nmass = 1\ninertia = [1, 1, 1]\nposition = [1, 0, -1]\n\
         [joints.my_hinge]\nkind = \"revolute\"\nbase = \"ground\"\ntip = \"my_body\"\naxis = [1, 0, 0]\n\
+        [joints.my_slide]\nkind = \"prismatic\"\nbase = \"ground\"\ntip = \"my_body\"\naxis = [1, 0, 0]\n\
         [analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.1\n";
     let folder = Folder::new("samples");
     let run = lissom(&["kinds"], folder.path());

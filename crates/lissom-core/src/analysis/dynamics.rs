@@ -59,6 +59,8 @@ pub struct Totals {
     pub max_constraint_violation: f64,
     /// The unknown whose pivot vanished, so that the run went on with a pivoting solver.
     pub fell_back_at: Option<usize>,
+    /// The multiplier whose pivot vanished because its constraint repeats others, so that all of them yield a little.
+    pub yielded_at: Option<usize>,
 }
 
 /// Tolerance of schemes whose promise holds for the exact solution of their equations.
@@ -289,6 +291,7 @@ impl Simulation {
         totals.factorizations += report.factorizations;
         totals.stagnated_steps += usize::from(report.stagnated);
         totals.fell_back_at = self.work.fell_back.map(|(unknown, _)| unknown);
+        totals.yielded_at = self.work.yielding.as_ref().map(|(_, unknown)| *unknown);
         if let Some(factor) = self.work.report.as_ref() {
             totals.smallest_relative_pivot = totals.smallest_relative_pivot.min(factor.relative_pivot());
         }

@@ -4,6 +4,7 @@ use lissom_motion::Vector6;
 use lissom_solver::{FactorError, FactorReport};
 
 use super::approach::Approachable;
+use super::compliance::Compliance;
 use super::factorization::Factorization;
 use super::phase::{Phase, Stopwatch};
 use crate::elements::passage::Passage;
@@ -48,6 +49,8 @@ pub(crate) struct Workspace {
     pub(crate) fall_back: Option<&'static lissom_solver::SolverKind>,
     /// The unknown whose pivot vanished, and the pivot, once it was needed.
     pub(crate) fell_back: Option<(usize, f64)>,
+    /// Where constraints repeat each other: what lets them yield, and the multiplier whose pivot vanished.
+    pub(crate) yielding: Option<(Compliance, usize)>,
     pub(crate) linearization: Linearization,
     pub(crate) factorization: Factorization,
     /// Scaled size of one unit of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
@@ -88,6 +91,7 @@ impl Workspace {
             saved: Vec::new(),
             fall_back: None,
             fell_back: None,
+            yielding: None,
             linearization: Linearization::new(system),
             factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
             sizes,
@@ -215,6 +219,19 @@ impl StepEquations<'_> {
             self.system.residual(&self.point(stage), &mut residual);
             self.work.residuals[stage] = residual;
         }
+    }
+
+    /// Factors the tangent of the last linearisation.
+    fn factor(&mut self) -> Result<FactorReport, FactorError> {
+        let work = &mut *self.work;
+        work.factorization.factor(
+            &self.scaled,
+            &self.scheme.coupling,
+            &work.linearization,
+            &self.system.structure().pattern,
+            work.equilibration.as_mut(),
+            work.yielding.as_mut().map(|(compliance, _)| compliance),
+        )
     }
 
     /// Linearises at the last stage.
@@ -368,6 +385,12 @@ impl Equations for StepEquations<'_> {
         }
         self.watch.begin(Phase::Solve);
         let work = &mut *self.work;
+        if let Some((compliance, _)) = &work.yielding {
+            let factor = self.scaled.multiplier_factor();
+            for (residual, multipliers) in work.residuals.iter_mut().zip(&work.multipliers) {
+                compliance.relax(factor, multipliers, &mut residual[layout.multiplier_rows()]);
+            }
+        }
         let equilibrate = |residuals: &mut Vec<Vec<f64>>| {
             if let Some(equilibration) = &work.equilibration {
                 for residual in residuals.iter_mut() {
@@ -388,29 +411,25 @@ impl Equations for StepEquations<'_> {
         self.watch.begin(Phase::Linearisation);
         self.linearize();
         self.watch.begin(Phase::Factorisation);
-        let work = &mut *self.work;
-        let coupling = &self.scheme.coupling;
-        let pattern = &self.system.structure().pattern;
-        let balance = &mut work.equilibration;
-        let mut result = work.factorization.factor(
-            &self.scaled,
-            coupling,
-            &work.linearization,
-            balance.as_mut().map(|balance| (balance, &**pattern)),
-        );
-        if let Err(FactorError::ZeroPivot { unknown, pivot, .. }) = result
-            && let Some(kind) = work.fall_back.take()
+        let mut result = self.factor();
+        let layout = self.system.layout();
+        if let Err(FactorError::ZeroPivot { unknown, .. }) = result
+            && unknown >= layout.coordinate_count()
+            && self.work.yielding.is_none()
         {
-            work.fell_back = Some((unknown, pivot));
-            work.factorization = Factorization::new(kind, self.system.structure(), coupling);
-            result = work.factorization.factor(
-                &self.scaled,
-                coupling,
-                &work.linearization,
-                balance.as_mut().map(|balance| (balance, &**pattern)),
-            );
+            let pattern = &self.system.structure().pattern;
+            self.work.yielding = Some((Compliance::new(pattern, layout.coordinate_count()), unknown));
+            result = self.factor();
         }
-        work.report = Some(result?);
+        if let Err(FactorError::ZeroPivot { unknown, pivot, .. }) = result
+            && let Some(kind) = self.work.fall_back.take()
+        {
+            self.work.fell_back = Some((unknown, pivot));
+            self.work.factorization =
+                Factorization::new(kind, self.system.structure(), &self.scheme.coupling);
+            result = self.factor();
+        }
+        self.work.report = Some(result?);
         self.watch.begin(Phase::Rest);
         Ok(())
     }

@@ -5,6 +5,7 @@ use lissom_solver::{
 };
 use num_complex::Complex64;
 
+use super::compliance::Compliance;
 use crate::equilibration::Equilibration;
 use crate::scaling::Scaled;
 use crate::schemes::Coupling;
@@ -45,20 +46,28 @@ impl Factorization {
         scaled: &Scaled,
         coupling: &Coupling,
         linearization: &Linearization,
-        equilibration: Option<(&mut Equilibration, &Pattern)>,
+        pattern: &Pattern,
+        mut equilibration: Option<&mut Equilibration>,
+        compliance: Option<&mut Compliance>,
     ) -> Result<FactorReport, FactorError> {
         match (self, coupling) {
             (Self::Single { solver, values }, Coupling::Single(weights)) => {
                 scaled.tangent(linearization, *weights, values);
-                if let Some((equilibration, pattern)) = equilibration {
+                if let Some(equilibration) = &mut equilibration {
                     equilibration.apply(pattern, values);
+                }
+                if let Some(compliance) = compliance {
+                    compliance.enter(scaled.scale(), equilibration.as_deref(), values);
                 }
                 solver.factor(values)
             }
             (Self::Pair { solver, values, .. }, Coupling::Pair { weights, .. }) => {
                 scaled.complex_tangent(linearization, *weights, values);
-                if let Some((equilibration, pattern)) = equilibration {
+                if let Some(equilibration) = &mut equilibration {
                     equilibration.apply(pattern, values);
+                }
+                if let Some(compliance) = compliance {
+                    compliance.enter(scaled.scale(), equilibration.as_deref(), values);
                 }
                 solver.factor(values)
             }

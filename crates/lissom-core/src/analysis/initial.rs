@@ -10,6 +10,7 @@
 use lissom_motion::{Motion, Vector6};
 use lissom_solver::{FactorError, LinearSolver, SolverKind};
 
+use super::compliance::Compliance;
 use super::step_error::pivot_hint;
 use crate::joints::attached::Increments;
 use crate::scaling::Representative;
@@ -47,6 +48,8 @@ pub struct Initial {
     scale: f64,
     /// Length that stands for a radian [m].
     radian: f64,
+    /// Whether constraints yield because some repeat others, see `compliance`.
+    yields: bool,
     still: Vec<MotionChange>,
     unchanged: Vec<f64>,
 }
@@ -60,6 +63,7 @@ impl Initial {
             values: vec![0.0; system.structure().pattern.entries()],
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
             radian: representative.length,
+            yields: false,
             still: vec![MotionChange::none(); state.kinematics.nodes.len()],
             unchanged: vec![0.0; state.kinematics.coordinates.len()],
         }
@@ -70,12 +74,16 @@ impl Initial {
         let mut linearization = std::mem::replace(&mut self.linearization, Linearization::empty());
         system.linearize(&self.point(&state.kinematics, &zero), Chart::Body, &mut linearization);
         self.linearization = linearization;
-        let Linearization { mass, gram, constraint, .. } = &self.linearization;
-        for (i, value) in self.values.iter_mut().enumerate() {
-            *value = mass[i] + self.scale * (gram[i] + constraint[i]);
-        }
         let layout = system.layout();
-        self.solver.factor(&self.values).map(|_| ()).map_err(|error| match error {
+        let mut result = self.factor_values(system);
+        if let Err(FactorError::ZeroPivot { unknown, .. }) = result
+            && unknown >= layout.coordinate_count()
+            && !self.yields
+        {
+            self.yields = true;
+            result = self.factor_values(system);
+        }
+        result.map_err(|error| match error {
             FactorError::ZeroPivot { unknown, pivot, .. } => InitialError::ZeroPivot {
                 pivot,
                 unknown: layout.name_of(unknown),
@@ -85,6 +93,19 @@ impl Initial {
                 InitialError::NotFinite { unknown: layout.name_of(unknown) }
             }
         })
+    }
+
+    fn factor_values(&mut self, system: &System) -> Result<(), FactorError> {
+        let Linearization { mass, gram, constraint, .. } = &self.linearization;
+        for (i, value) in self.values.iter_mut().enumerate() {
+            *value = mass[i] + self.scale * (gram[i] + constraint[i]);
+        }
+        if self.yields {
+            let structure = system.structure();
+            let mut compliance = Compliance::new(&structure.pattern, system.layout().coordinate_count());
+            compliance.enter(self.scale, None, &mut self.values);
+        }
+        self.solver.factor(&self.values).map(|_| ())
     }
 
     fn augmentation(&self) -> Augmentation {
@@ -108,8 +129,9 @@ impl Initial {
         let count = layout.coordinate_count();
         let original = right.to_vec();
         let mut solution = vec![0.0; right.len()];
-        // Scaled rows s B, and the augmented term s Bᵀ W B x = s Bᵀ W c on both sides; refined once.
-        for _ in 0..2 {
+        // Scaled rows s B, and the augmented term s Bᵀ W B x = s Bᵀ W c on both sides; refined once. Refinement also
+        // takes back what constraints have yielded, while multipliers stay the least ones.
+        for _ in 0..if self.yields { 4 } else { 2 } {
             let mut rest = original.clone();
             self.subtract_product(system, &solution, &mut rest);
             let constraints: Vec<f64> = rest[count..].to_vec();

@@ -67,7 +67,7 @@ fn attachment(
             }
             Some(Attachment::OneNode { at: at("at", &on)?, on })
         }
-        ActsOn::JointCoordinate => joint_coordinate(reader, name, registry),
+        ActsOn::JointCoordinate(_) => joint_coordinate(reader, name, registry),
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::borrow::Cow;
 
+use lissom_core::joints::Quantity;
+
 use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
 use crate::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry, Registry};
 
@@ -276,13 +278,12 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
             required("on", Shape::Node, "", "the node it acts on"),
             optional("at", Shape::Place, "m", "location; default: the node's place"),
         ],
-        ActsOn::JointCoordinate => {
-            vec![required(
-                "joint",
-                Shape::Name("joints"),
-                "",
-                "the joint whose relative coordinate it acts on",
-            )]
+        ActsOn::JointCoordinate(quantity) => {
+            let words = match quantity {
+                Quantity::Angle => "the joint whose relative rotation it acts on",
+                Quantity::Length => "the joint whose relative displacement it acts on",
+            };
+            vec![required("joint", Shape::Name("joints"), "", words)]
         }
     }
 }

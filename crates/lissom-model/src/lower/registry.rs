@@ -55,7 +55,7 @@ fn joint(kind: &JointKind) -> KindEntry {
         Build::Relative(Frames::Axis | Frames::SpanWithAxis, _) => ActsOn::TwoNodes(FrameRule::Axis),
         Build::Relative(Frames::TwoAxes, _) => ActsOn::TwoNodes(FrameRule::TwoAxes),
         Build::Relative(Frames::Span, _) => ActsOn::TwoPlaces,
-        Build::Coordinate(..) => ActsOn::JointCoordinate,
+        Build::Coordinate(quantity, _) => ActsOn::JointCoordinate(quantity),
     };
     KindEntry {
         name: kind.name,
@@ -70,7 +70,7 @@ fn element(kind: &ElementKind) -> KindEntry {
     let acts_on = match kind.attachment {
         Attachment::OneNode => ActsOn::OneNode,
         Attachment::TwoNodes => ActsOn::TwoPlaces,
-        Attachment::Coordinate(_) => ActsOn::JointCoordinate,
+        Attachment::Coordinate(quantity) => ActsOn::JointCoordinate(quantity),
     };
     KindEntry {
         name: kind.name,

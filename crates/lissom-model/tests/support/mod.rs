@@ -1,5 +1,6 @@
 //! A stand-in for the simulator's tables of kinds.
 
+use lissom_core::joints::Quantity;
 use lissom_core::registry::{Parameter, ParameterType};
 use lissom_model::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry, Registry};
 
@@ -50,11 +51,16 @@ pub(crate) fn registry() -> Registry {
         kind("universal", "axis = [0, 0, 1]\nsecond_axis = [0, 1, 0]", TwoNodes(FrameRule::TwoAxes), &[]),
         kind("rigid_link", "base = \"a.end\"\ntip = \"b.start\"", TwoNodes(FrameRule::None), &[]),
         kind("swing_arm", "axis = [0, 0, 1]", TwoNodes(FrameRule::Axis), &[]),
-        kind("prescribed_rotation", "joint = \"hinge\"\nrotation = \"t\"", JointCoordinate, TURN),
+        kind(
+            "prescribed_rotation",
+            "joint = \"hinge\"\nrotation = \"t\"",
+            JointCoordinate(Quantity::Angle),
+            TURN,
+        ),
     ];
     let springs = vec![
         kind("point", "stiffness = 1.0", TwoPlaces, POINT),
-        kind("torsional", "joint = \"hinge\"\nstiffness = 1.0", JointCoordinate, TORSIONAL),
+        kind("torsional", "joint = \"hinge\"\nstiffness = 1.0", JointCoordinate(Quantity::Angle), TORSIONAL),
     ];
     let loads = vec![
         kind("force", "on = \"a.end\"\nvector = [0, 0, 1]", OneNode, LOAD),

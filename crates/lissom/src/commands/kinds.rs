@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use clap::Args;
+use lissom_core::joints::Quantity;
 use lissom_core::registry::{Parameter, ParameterType};
 use lissom_model::lower::registry::registry;
 use lissom_model::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry};
@@ -123,8 +124,11 @@ fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
         }
         ActsOn::TwoPlaces => ("base, tip, at_base, at_tip (default: the nodes' places)", PLACES),
         ActsOn::OneNode => ("on, at (default: the node's place)", "on = \"my_body\""),
-        ActsOn::JointCoordinate => {
+        ActsOn::JointCoordinate(Quantity::Angle) => {
             ("joint, the one whose relative rotation it acts on", "joint = \"my_hinge\"")
+        }
+        ActsOn::JointCoordinate(Quantity::Length) => {
+            ("joint, the one whose relative displacement it acts on", "joint = \"my_slide\"")
         }
     }
 }

@@ -179,6 +179,11 @@ fn told(heading: &str, session: &Session, report: &RunReport, folder: &Path) -> 
         let unknown = simulation.system().layout().name_of(row);
         line("solver", format!("a pivot vanished for the {unknown}: went on with the pivoting solver"));
     }
+    if let Some(row) = totals.yielded_at {
+        let unknown = simulation.system().layout().name_of(row);
+        let words = format!("repeat each other, seen at the {unknown}: least forces are given");
+        line("redundant", format!("constraints {words}"));
+    }
     let speed = if solving > 0.0 { totals.steps as f64 / solving } else { 0.0 };
     line(
         "time",
