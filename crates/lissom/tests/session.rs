@@ -130,3 +130,68 @@ fn telemetry_counts_every_iteration_and_stays_short() {
         assert!(least <= most);
     }
 }
+
+const HANGING: &str = r#"
+lissom = 1
+gravity = [9.81, 0, 0]
+[initial]
+equilibrium = true
+[bodies.weight]
+mass = 1
+inertia = [1, 1, 1]
+position = [1, 0, 0]
+[joints.slide]
+kind = "prismatic"
+base = "ground"
+tip = "weight"
+axis = [1, 0, 0]
+[springs.spring]
+kind = "axial"
+joint = "slide"
+stiffness = 100
+[outputs.slide]
+kind = "relative"
+of = "slide"
+[analysis]
+kind = "dynamics"
+end = 0.5
+step = 0.01
+"#;
+
+/// A weight on a spring, at rest where the spring bears it, stays there.
+#[test]
+fn a_start_from_equilibrium_stays_at_rest() {
+    let document = Model::from_text("hanging.toml", HANGING).document(&[]).unwrap();
+    let (record, report) = Session::new(&document).unwrap().record();
+    assert!(report.error().is_none());
+    let place = record.column("slide", "displacement").unwrap();
+    assert!(place.iter().all(|x| (x - 0.0981).abs() < 1e-12), "{place:?}");
+    // What nothing holds has no equilibrium.
+    let free = set("springs.spring.stiffness", 0.0);
+    let document = Model::from_text("hanging.toml", HANGING).document(&[free]).unwrap();
+    assert!(Session::new(&document).is_err());
+}
+
+/// A weight is driven along its slide; the drive bears its weight and accelerates it.
+#[test]
+fn a_displacement_is_prescribed() {
+    let driven = HANGING.replace(
+        "[springs.spring]\nkind = \"axial\"\njoint = \"slide\"\nstiffness = 100\n",
+        "[joints.drive]\nkind = \"prescribed_displacement\"\njoint = \"slide\"\ndisplacement = \"0.5*t^2\"\n\
+         [outputs.drive]\nkind = \"reaction\"\nof = \"drive\"\n",
+    );
+    let document = Model::from_text("driven.toml", &driven).document(&[]).unwrap();
+    let (record, report) = Session::new(&document).unwrap().record();
+    assert!(report.error().is_none());
+    let last = record.times.len() - 1;
+    assert!((record.column("slide", "displacement").unwrap()[last] - 0.125).abs() < 1e-12);
+    assert!((record.column("slide", "velocity").unwrap()[last] - 0.5).abs() < 1e-6);
+    let force = record.column("drive", "force").unwrap()[last];
+    assert!((force - (1.0 - 9.81)).abs() < 1e-6, "{force}");
+    // A rotation cannot be prescribed here.
+    let wrong = driven
+        .replace("prescribed_displacement", "prescribed_rotation")
+        .replace("displacement =", "rotation =");
+    let document = Model::from_text("wrong.toml", &wrong).document(&[]).unwrap();
+    assert!(Session::new(&document).is_err());
+}

@@ -2,11 +2,11 @@
 
 use lissom_solver::{FactorError, FactorReport, SolverKind};
 
-use super::approach;
 use super::equations::{StepEquations, Workspace};
 use super::initial::{Initial, InitialError};
 use super::phase::{Phase, Stopwatch, Unwatched};
 use super::step_error::{StepError, pivot_hint};
+use super::{approach, equilibrium};
 use crate::newton::{self, Failure, Limits, Memory};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Scheme, Tableau};
@@ -25,6 +25,8 @@ pub struct Settings {
     pub limits: Limits,
     /// Linear solver.
     pub solver: &'static SolverKind,
+    /// Whether a motion starts from the static equilibrium under the loads of the first instant.
+    pub from_equilibrium: bool,
 }
 
 /// What a step took.
@@ -91,7 +93,11 @@ impl Simulation {
     /// # Errors
     /// If consistent initial values do not exist.
     pub fn new(system: System, state: State, settings: Settings) -> Result<Self, InitialError> {
-        let mut state = state;
+        let (system, mut state) = if settings.from_equilibrium && settings.scheme.dynamic {
+            equilibrium::at_rest(system, state, &settings)?
+        } else {
+            (system, state)
+        };
         let representative = representative(&system, &state);
         let mut velocity_correction = 0.0;
         let pivoting = lissom_solver::kind("pivoting").unwrap_or(settings.solver);
@@ -130,6 +136,11 @@ impl Simulation {
             velocity_correction,
             is_last_step_known: false,
         })
+    }
+
+    /// System and state, given back.
+    pub(super) fn into_parts(self) -> (System, State) {
+        (self.system, self.state)
     }
 
     /// The system.

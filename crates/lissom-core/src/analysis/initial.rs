@@ -32,6 +32,9 @@ pub enum InitialError {
         /// What to try.
         hint: &'static str,
     },
+    /// The places of rest were not found.
+    #[error("initial equilibrium: {0}")]
+    NoEquilibrium(Box<super::StepError>),
     /// A number is not finite.
     #[error("initial accelerations are not finite, first for the {unknown}")]
     NotFinite {

@@ -5,6 +5,7 @@ mod compliance;
 pub mod conditioning;
 pub mod dynamics;
 mod equations;
+mod equilibrium;
 mod factorization;
 pub mod factorization_study;
 pub mod initial;

@@ -100,5 +100,10 @@ pub(super) fn initial(context: &Context<'_>) -> Option<InitialMotion> {
         None => Vector3::zeros(),
         Some(node) => context.place(node, &reader.words("about"))?.value,
     };
-    Some(InitialMotion { velocity: vector("velocity"), angular_velocity: vector("angular_velocity"), about })
+    Some(InitialMotion {
+        velocity: vector("velocity"),
+        angular_velocity: vector("angular_velocity"),
+        about,
+        equilibrium: reader.flag("equilibrium").is_some_and(|flag| flag.value),
+    })
 }

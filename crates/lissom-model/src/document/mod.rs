@@ -91,6 +91,11 @@ impl Document {
         Report::new(problems, &self.sources)
     }
 
+    /// Whether places at the start are those of static equilibrium.
+    pub fn starts_in_equilibrium(&self) -> bool {
+        self.initial.is_some_and(|initial| initial.equilibrium)
+    }
+
     /// The section called `name`.
     pub fn section(&self, name: &str) -> Option<&Section> {
         self.sections.iter().find(|section| section.name.value == name)
@@ -328,4 +333,6 @@ pub struct InitialMotion {
     pub angular_velocity: Vector3,
     /// A point of the motion [m].
     pub about: Vector3,
+    /// Whether the places at the start are those of static equilibrium.
+    pub equilibrium: bool,
 }

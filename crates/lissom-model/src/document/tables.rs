@@ -50,7 +50,12 @@ pub(crate) static TOP: [Top; 15] = [
     top("joints", Holds::Entries, false, "What holds nodes together."),
     top("springs", Holds::Entries, false, "What pulls nodes or joints back."),
     top("loads", Holds::Entries, false, "Forces and moments from outside."),
-    top("initial", Holds::Table, false, "A rigid motion of all parts at the start."),
+    top(
+        "initial",
+        Holds::Table,
+        false,
+        "How the parts are and move at the start: a rigid motion of all, static equilibrium.",
+    ),
     top("outputs", Holds::Entries, false, "What is recorded."),
 ];
 
@@ -293,6 +298,12 @@ fn initial() -> Vec<Key> {
         optional("velocity", Shape::Vector, "m/s", "velocity of the point `about`"),
         optional("angular_velocity", Shape::Vector, "rad/s", "global axes"),
         optional("about", Shape::Place, "m", "a point of the rigid motion; default the origin"),
+        optional(
+            "equilibrium",
+            Shape::Flag,
+            "",
+            "start from static equilibrium under the loads of the first instant, default false",
+        ),
     ]
 }
 

@@ -24,7 +24,7 @@ pub struct Plan {
 }
 
 /// Settings and plan of an analysis.
-pub(super) fn settings(analysis: &Analysis) -> Result<(Settings, Plan), Problem> {
+pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(Settings, Plan), Problem> {
     let duration = analysis.end - analysis.start;
     let (scheme, step_size, steps) = match &analysis.kind {
         AnalysisKind::Dynamics { step } => {
@@ -52,6 +52,7 @@ pub(super) fn settings(analysis: &Analysis) -> Result<(Settings, Plan), Problem>
         },
         limits: Limits { tolerance: analysis.tolerance, max_iterations: analysis.max_iterations },
         solver,
+        from_equilibrium,
     };
     let plan = Plan {
         start: analysis.start,

@@ -92,7 +92,7 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
     stop_at(document, &mut problems)?;
     connections::add(document, &mut builder, &mut names, &mut problems);
     stop_at(document, &mut problems)?;
-    let (settings, plan) = match analysis::settings(&document.analysis) {
+    let (settings, plan) = match analysis::settings(&document.analysis, document.starts_in_equilibrium()) {
         Ok(chosen) => chosen,
         Err(problem) => return Err(document.report(vec![problem])),
     };
