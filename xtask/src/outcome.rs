@@ -26,7 +26,14 @@ impl Verdict {
             (true, None) => Self::Pass,
             (true, Some(reason)) => Self::PassesThoughOpen(reason.to_owned()),
             (false, None) => Self::Fail(words.into()),
-            (false, Some(reason)) => Self::Open(reason.to_owned()),
+            (false, Some(reason)) => {
+                let words: String = words.into();
+                Self::Open(if words.is_empty() {
+                    reason.to_owned()
+                } else {
+                    format!("{reason} (now: {words})")
+                })
+            }
         }
     }
 

@@ -116,7 +116,7 @@ fn grid(document: &Document) -> String {
     words.push(match &document.analysis.kind {
         AnalysisKind::Dynamics { step } => {
             let scheme =
-                document.analysis.scheme.as_ref().map_or("radau-iia", |scheme| scheme.value.as_str());
+                document.analysis.scheme.as_ref().map_or("generalized-alpha", |scheme| scheme.value.as_str());
             format!("h = {} s ({scheme})", short(step.value))
         }
         AnalysisKind::Statics { steps } => format!("{steps} load steps"),
