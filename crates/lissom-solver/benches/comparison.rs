@@ -99,12 +99,12 @@ fn main() {
 }
 
 #[cfg(feature = "klu")]
+#[expect(clippy::unnecessary_wraps, reason = "the same signature with and without KLU")]
 fn klu_times(pattern: &Pattern, values: &[f64], b: &[f64]) -> Option<[f64; 2]> {
     Some(times(&mut contenders::klu::Klu::new(pattern, values), values, b))
 }
 
 #[cfg(not(feature = "klu"))]
-#[expect(clippy::unnecessary_wraps, reason = "the same signature with and without KLU")]
 fn klu_times(_: &Pattern, _: &[f64], _: &[f64]) -> Option<[f64; 2]> {
     None
 }
