@@ -189,6 +189,9 @@ impl Simulation {
             self.settings.step_size = step_size;
             self.scaled = Scaled::new(&self.settings.scaling, &self.representative, step_size);
             self.memory = Memory::default();
+            if let Engine::Collocation(work) = &mut self.engine {
+                work.forget_guesses();
+            }
         }
     }
 
@@ -255,6 +258,7 @@ impl Simulation {
     fn collocate(&mut self, watch: &mut dyn Stopwatch) -> Result<newton::Outcome, StepError> {
         let work = &mut *self.work;
         self.scaled.enter(self.system.layout(), &self.state, &mut work.unit);
+        work.extrapolates = self.settings.scheme.dynamic;
         let Settings { scaling, step_size, .. } = &self.settings;
         let rescale = |share: f64| Scaled::new(scaling, &self.representative, share * step_size);
         let mut equations = StepEquations {
@@ -277,6 +281,9 @@ impl Simulation {
             describe(&failure, &self.system, &self.state, &self.settings, &equations.worst_unknown())
         })?;
         equations.final_violations(&mut self.next.violations);
+        if self.settings.scheme.dynamic {
+            equations.learn();
+        }
 
         let last = self.settings.scheme.stages.len() - 1;
         let Some(end) = work.motions.last() else { unreachable!("every scheme has a stage") };

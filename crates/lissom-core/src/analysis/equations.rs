@@ -6,6 +6,7 @@ use lissom_solver::{FactorError, FactorReport};
 use super::approach::Approachable;
 use super::compliance::Compliance;
 use super::factorization::Factorization;
+use super::guess::Guess;
 use super::phase::{Phase, Stopwatch};
 use crate::elements::passage::Passage;
 use crate::equilibration::Equilibration;
@@ -24,9 +25,20 @@ pub(crate) const FAR: f64 = 1e-3;
 /// Multipliers are wanted to fewer digits than places, from which the motion goes on.
 const MULTIPLIER_WEIGHT: f64 = 1e-2;
 
+impl Workspace {
+    /// Makes the next first guess from the scheme alone.
+    pub(crate) fn forget_guesses(&mut self) {
+        self.guesses.iter_mut().for_each(Guess::forget);
+    }
+}
+
 /// Everything a step needs besides system and state, allocated once.
 pub(crate) struct Workspace {
     pub(crate) unit: UnitStart,
+    /// What first guesses of the increments have missed, and of the multipliers; stage after stage.
+    guesses: [Guess; 2],
+    /// Whether the next first guess is to make use of them.
+    pub(crate) extrapolates: bool,
     /// Departures from going straight on since the start of the step, by stage and coordinate row.
     pub(crate) increments: Vec<Vec<f64>>,
     /// The increments by node, for the tangent.
@@ -77,6 +89,8 @@ impl Workspace {
         let sizes = sizes(layout, representative);
         Self {
             unit: UnitStart::new(count),
+            guesses: [Guess::new(stages * count), Guess::new(stages * layout.multiplier_count)],
+            extrapolates: false,
             increments: vec![vec![0.0; count]; stages],
             node_increments: vec![Vector6::zeros(); state.kinematics.nodes.len()],
             multipliers: vec![state.multipliers.clone(); stages],
@@ -115,18 +129,40 @@ pub(crate) struct StepEquations<'a> {
 }
 
 impl StepEquations<'_> {
-    /// First guess from the scheme.
+    /// First guess from the scheme, improved by the memory of earlier ones if that is asked for.
     pub(crate) fn predict(&mut self) {
-        self.work.correction = f64::INFINITY;
+        let work = &mut *self.work;
+        work.correction = f64::INFINITY;
+        let extrapolates = std::mem::take(&mut work.extrapolates);
+        let [of_increments, of_multipliers] = &work.guesses;
         for (i, stage) in self.scheme.stages.iter().enumerate() {
-            let mut guess = std::mem::take(&mut self.work.increments[i]);
-            for (row, value) in guess.iter_mut().enumerate() {
-                *value = self.work.unit.combine(&stage.prediction, &[], row);
+            let (increments, multipliers) = (&mut work.increments[i], &mut work.multipliers[i]);
+            for (row, value) in increments.iter_mut().enumerate() {
+                *value = work.unit.combine(&stage.prediction, &[], row);
             }
-            self.work.increments[i] = guess;
-            self.work.multipliers[i].copy_from_slice(&self.start.multipliers);
+            multipliers.copy_from_slice(&self.start.multipliers);
+            if extrapolates {
+                of_increments.improve(i * increments.len(), increments);
+                of_multipliers.improve(i * multipliers.len(), multipliers);
+            }
         }
         self.update_motions();
+    }
+
+    /// Takes note of what the scheme's first guess has missed.
+    pub(crate) fn learn(&mut self) {
+        let Workspace { guesses, unit, increments, multipliers, sizes, .. } = &mut *self.work;
+        let [of_increments, of_multipliers] = guesses;
+        let count = sizes.len();
+        let missed = self.scheme.stages.iter().zip(&*increments).flat_map(|(stage, increments)| {
+            let predicted = |row| unit.combine(&stage.prediction, &[], row);
+            increments.iter().enumerate().map(move |(row, value)| value - predicted(row))
+        });
+        of_increments.learn(missed, |number| sizes[number % count]);
+        let missed = multipliers.iter().flat_map(|multipliers| {
+            multipliers.iter().zip(&self.start.multipliers).map(|(value, start)| value - start)
+        });
+        of_multipliers.learn(missed, |_| 1.0);
     }
 
     /// Motions at all stages from the increments.

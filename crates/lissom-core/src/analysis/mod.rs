@@ -8,6 +8,7 @@ mod equations;
 mod equilibrium;
 mod factorization;
 pub mod factorization_study;
+mod guess;
 pub mod initial;
 pub mod mobility;
 pub mod phase;
