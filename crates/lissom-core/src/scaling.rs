@@ -293,11 +293,13 @@ impl Scaled {
                 *to = *from;
                 continue;
             }
-            let mut psi = Vector6::zeros();
-            let mut rate = Vector6::zeros();
-            let mut curvature = Vector6::zeros();
-            for (k, &row) in rows.iter().enumerate() {
-                if row != crate::system::LOCKED {
+            let (mut psi, mut rate, mut curvature) = (Vector6::zeros(), Vector6::zeros(), Vector6::zeros());
+            if let Some(first) = consecutive(rows) {
+                psi.copy_from_slice(&own[first..first + 6]);
+                rate = unit.combine_six(&stage.rate, increments.all, first);
+                curvature = unit.combine_six(&stage.curvature, increments.all, first);
+            } else {
+                for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != crate::system::LOCKED) {
                     let row = row as usize;
                     psi[k] = own[row];
                     rate[k] = unit.combine(&stage.rate, increments.all, row);
@@ -307,19 +309,21 @@ impl Scaled {
             match kind {
                 Increments::FromStart => {
                     psi += straight * out.elapsed * from.twist;
-                    to.frame = from.frame * Motion::exponential(&psi);
-                    changes[node] = MotionChange::exponential(&psi);
+                    let motion = Motion::exponential(&psi);
+                    to.frame = from.frame * motion;
+                    changes[node] = MotionChange::of(&motion);
                     to.twist = straight * from.twist + rate / self.h;
                     to.acceleration = curvature / square;
                 }
                 Increments::Departure if scheme.tableau.is_some() => {
-                    let (motion, change) = (Motion::exponential(&psi), MotionChange::exponential(&psi));
+                    let motion = Motion::exponential(&psi);
+                    let change = MotionChange::of(&motion);
                     let gained = change.seen_differently(&from.twist) + tangent_times(&psi, &rate) / self.h;
                     to.twist = from.twist + gained;
                     to.acceleration = gained / self.h;
-                    let ahead = out.elapsed * from.twist;
-                    to.frame = from.frame * Motion::exponential(&ahead) * motion;
-                    changes[node] = MotionChange::exponential(&ahead).then(&change);
+                    let ahead = Motion::exponential(&(out.elapsed * from.twist));
+                    to.frame = from.frame * ahead * motion;
+                    changes[node] = MotionChange::of(&ahead).then(&change);
                 }
                 // V = Ad(exp(-ψ)) V₀ + W with W = T ψ', and V̇ = T ψ'' + Ṫ ψ' - ad_W Ad(exp(-ψ)) V₀.
                 Increments::Departure => {
@@ -330,9 +334,9 @@ impl Scaled {
                     to.acceleration =
                         (tangent_times(&psi, &curvature) + tangent_rate_times(&psi, &rate, &rate)) / square
                             - lie_bracket(&own, &carried);
-                    let ahead = out.elapsed * from.twist;
-                    to.frame = from.frame * Motion::exponential(&ahead) * motion;
-                    changes[node] = MotionChange::exponential(&ahead).then(&MotionChange::exponential(&psi));
+                    let ahead = Motion::exponential(&(out.elapsed * from.twist));
+                    to.frame = from.frame * ahead * motion;
+                    changes[node] = MotionChange::of(&ahead).then(&MotionChange::of(&motion));
                 }
             }
         }
@@ -423,6 +427,12 @@ impl Scaled {
     }
 }
 
+/// The first of six rows in a row: those of a node whose freedoms are all free.
+fn consecutive(rows: &[u32; 6]) -> Option<usize> {
+    let all = rows[5] != crate::system::LOCKED && rows[5] == rows[0].wrapping_add(5);
+    all.then_some(rows[0] as usize)
+}
+
 /// Motion at a stage, and what has changed since the start of the step.
 #[derive(Clone, Debug)]
 pub struct StageMotion {
@@ -469,6 +479,18 @@ impl UnitStart {
     /// Room for `count` rows.
     pub fn new(count: usize) -> Self {
         Self { rate: vec![0.0; count], curvature: vec![0.0; count], algorithmic: vec![0.0; count] }
+    }
+
+    /// A scheme's linear combination for the six rows from `first` on.
+    fn combine_six(&self, combination: &Combination, increments: &[Vec<f64>], first: usize) -> Vector6 {
+        let six = |values: &[f64]| Vector6::from_column_slice(&values[first..first + 6]);
+        let mut sum = combination.rate * six(&self.rate)
+            + combination.algorithmic * six(&self.algorithmic)
+            + combination.curvature * six(&self.curvature);
+        for (weight, increment) in combination.increments.iter().zip(increments) {
+            sum += *weight * six(increment);
+        }
+        sum
     }
 
     /// A scheme's linear combination of the increments and the start, for one row.

@@ -189,9 +189,7 @@ impl Simulation {
             self.settings.step_size = step_size;
             self.scaled = Scaled::new(&self.settings.scaling, &self.representative, step_size);
             self.memory = Memory::default();
-            if let Engine::Collocation(work) = &mut self.engine {
-                work.forget_guesses();
-            }
+            self.work.forget_guesses();
         }
     }
 

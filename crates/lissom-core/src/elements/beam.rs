@@ -191,7 +191,7 @@ impl<const N: usize> Beam<N> {
 impl<const N: usize> Beam<N> {
     /// Adds forces F_i on the section frames of all nodes but the reference, which takes what balances
     /// them: F_r = - Σ Ad(exp(-d_i))ᵀ F_i.
-    pub(super) fn add_relative_forces(&self, relative: &Relative<N>, forces: &Relative<N>, out: &mut [f64]) {
+    pub(super) fn add_relative_forces(&self, motions: &[Motion; N], forces: &Relative<N>, out: &mut [f64]) {
         let mut at_reference = Vector6::zeros();
         let mut add = |i: usize, force: &Vector6| {
             let force = self.offsets[i]
@@ -202,7 +202,7 @@ impl<const N: usize> Beam<N> {
             }
         };
         for i in (0..N).filter(|&i| i != Self::REFERENCE) {
-            at_reference -= Motion::exponential(&relative[i]).adjoint_inverse_transpose_times(&forces[i]);
+            at_reference -= motions[i].adjoint_inverse_transpose_times(&forces[i]);
             add(i, &forces[i]);
         }
         add(Self::REFERENCE, &at_reference);
@@ -220,15 +220,20 @@ pub(super) fn combine<const N: usize>(weights: &[f64; N], vectors: &Relative<N>)
     sum
 }
 
-fn relative_coordinates<const N: usize>(frames: &[Motion; N]) -> Relative<N> {
+/// Motions of the nodes relative to the reference node.
+pub(super) fn relative_motions<const N: usize>(frames: &[Motion; N]) -> [Motion; N] {
     let reference = frames[Beam::<N>::REFERENCE];
     std::array::from_fn(|i| {
-        if i == Beam::<N>::REFERENCE {
-            Vector6::zeros()
-        } else {
-            frames[i].relative_to(&reference).logarithm()
-        }
+        if i == Beam::<N>::REFERENCE { Motion::IDENTITY } else { frames[i].relative_to(&reference) }
     })
+}
+
+fn logarithms<const N: usize>(motions: &[Motion; N]) -> Relative<N> {
+    std::array::from_fn(|i| if i == Beam::<N>::REFERENCE { Vector6::zeros() } else { motions[i].logarithm() })
+}
+
+fn relative_coordinates<const N: usize>(frames: &[Motion; N]) -> Relative<N> {
+    logarithms(&relative_motions(frames))
 }
 
 impl<const N: usize> Station<N> {
@@ -260,7 +265,8 @@ impl<const N: usize> Element for Beam<N> {
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
-        let relative = self.relative(at);
+        let motions = relative_motions(&std::array::from_fn(|i| self.section_frame(at, i)));
+        let relative = logarithms(&motions);
         let rates = self.rates(at, &relative);
         let mut conjugate = [Vector6::zeros(); N];
         for station in &self.stations {
@@ -286,7 +292,7 @@ impl<const N: usize> Element for Beam<N> {
                 inverse_tangent_transpose_times(&relative[i], &conjugate[i])
             }
         });
-        self.add_relative_forces(&relative, &forces, out);
+        self.add_relative_forces(&motions, &forces, out);
     }
 
     fn passage_forces(&self, passage: &Passage<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {

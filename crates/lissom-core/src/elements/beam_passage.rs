@@ -94,7 +94,8 @@ impl<const N: usize> Beam<N> {
                         + visit.work * inverse * visit.weighted[i]
                 }
             });
-            self.add_relative_forces(&visit.relative, &forces, out);
+            let motions = visit.relative.map(|d| Motion::exponential(&d));
+            self.add_relative_forces(&motions, &forces, out);
         }
     }
 

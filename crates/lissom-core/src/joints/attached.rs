@@ -135,11 +135,7 @@ impl AttachedJoint {
 
     /// Forces on the local unknowns for the multipliers `mu`.
     pub fn forces(&self, (relative, own): &(Relative, Own), mu: &Equations) -> SVector<f64, LOCAL> {
-        let mut gradient = Gradient::zeros();
-        self.joint.gradient(relative, own, &mut gradient);
-        let mu = SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu);
-        let wrench = gradient.relative.tr_mul(&mu);
-        let moments = gradient.own.tr_mul(&mu);
+        let (wrench, moments) = self.joint.wrench(relative, own, mu);
         let on_base = -adjoint_inverse_transpose(relative, &wrench);
         let base = self.frames[0].offset.adjoint_inverse_transpose_times(&on_base);
         let tip = self.frames[1].offset.adjoint_inverse_transpose_times(&wrench);

@@ -1,11 +1,15 @@
 //! Clamp: two nodes, or a node and the ground, share place and rotation.
 
-use lissom_motion::Vector3;
+use lissom_motion::{Vector3, Vector6};
+use nalgebra::SVector;
 
 use super::primitives::{
     JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient,
+    coincident_wrench, wrench_with_moments,
 };
-use super::{Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, Own, Relative};
+use super::{
+    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own, Relative,
+};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -45,6 +49,16 @@ impl Joint for Clamp {
     fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
         JointRotation::none().matches_gradient(relative, 3, out);
+    }
+
+    fn wrench(
+        &self,
+        relative: &Relative,
+        _: &Own,
+        mu: &Equations,
+    ) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
+        let moments = JointRotation::none().matches_moments(relative, &Vector3::new(mu[3], mu[4], mu[5]));
+        wrench_with_moments(&coincident_wrench(relative, &Vector3::new(mu[0], mu[1], mu[2])), moments)
     }
 
     fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {

@@ -20,8 +20,8 @@ pub mod spherical;
 pub mod swing_arm;
 pub mod universal;
 
-use lissom_motion::{Matrix3, Motion, Vector3};
-use nalgebra::SMatrix;
+use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
+use nalgebra::{SMatrix, SVector};
 
 use crate::registry::{Function, Parameter, ParameterError, Parameters};
 
@@ -162,6 +162,20 @@ pub trait Joint: Send + Sync + std::fmt::Debug {
 
     /// ∂c/∂(η, φ); `out` is zero on entry.
     fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient);
+
+    /// (∂c/∂(η, φ))ᵀ μ: the wrench on the tip's joint frame, and the forces on the coordinates. Hot: worth saying
+    /// outright where the gradient is large.
+    fn wrench(
+        &self,
+        relative: &Relative,
+        own: &Own,
+        mu: &Equations,
+    ) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
+        let mut gradient = Gradient::zeros();
+        self.gradient(relative, own, &mut gradient);
+        let mu = SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu);
+        (gradient.relative.tr_mul(&mu), gradient.own.tr_mul(&mu))
+    }
 
     /// Derivative of the constraint forces at constant multipliers μ; `out` is zero on entry.
     fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature);

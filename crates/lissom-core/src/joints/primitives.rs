@@ -7,7 +7,8 @@
 //! ∂c/∂ρ = N = ½ (tr E I - Eᵀ),   m = Nᵀ μ = ½ (tr E μ - E μ),   ∂m/∂ρ = ½ E μ̃ - μ axial(E)ᵀ
 //! ```
 
-use lissom_motion::{Matrix3, Vector3, axial, skew};
+use lissom_motion::{Matrix3, Vector3, Vector6, axial, screw, skew};
+use nalgebra::SVector;
 
 use super::{Curvature, Equations, Gradient, MOST_COORDINATES, Own, Relative};
 
@@ -39,6 +40,11 @@ pub fn coincident_gradient(relative: &Relative, row: usize, out: &mut Gradient) 
     }
 }
 
+/// (∂c/∂η)ᵀ μ of [`coincident`]: the force μ at the base's point, which lies at -Rᵀ x from the tip's.
+pub fn coincident_wrench(relative: &Relative, mu: &Vector3) -> Vector6 {
+    screw(mu, &mu.cross(&relative.rotation.tr_mul(&relative.position)))
+}
+
 /// Curvature of [`coincident`]: the moment -(Rᵀ x)~ μ = μ̃ Rᵀ x.
 pub fn coincident_curvature(relative: &Relative, mu: &Vector3, out: &mut Curvature) {
     let mu = skew(mu);
@@ -61,6 +67,14 @@ pub fn on_third_axis(relative: &Relative, displacement: f64, row: usize, out: &m
 pub fn on_third_axis_change(relative: &Relative, change: f64, row: usize, out: &mut Equations) {
     coincident_change(relative, row, out);
     out[row + 2] -= change;
+}
+
+/// The wrench of a joint that holds a point, with the moments of what holds its axes.
+pub fn wrench_with_moments(
+    force: &Vector6,
+    (moment, own): (Vector3, SVector<f64, MOST_COORDINATES>),
+) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
+    (force + screw(&Vector3::zeros(), &moment), own)
 }
 
 /// A joint's own rotation Q(φ) and its derivatives.
@@ -145,6 +159,18 @@ impl JointRotation {
             let column = -n * e.tr_mul(&self.axes[k]);
             out.own.fixed_view_mut::<3, 1>(row, k).copy_from(&column);
         }
+    }
+
+    /// (∂c/∂(η, φ))ᵀ μ of [`Self::matches`]: the moment m, and -Sᵀ E m on the coordinates.
+    pub fn matches_moments(
+        &self,
+        relative: &Relative,
+        mu: &Vector3,
+    ) -> (Vector3, SVector<f64, MOST_COORDINATES>) {
+        let e = self.error(relative);
+        let m = 0.5 * (e.trace() * mu - e * mu);
+        let turned = e * m;
+        (m, SVector::from_fn(|k, _| if k < self.count { -self.axes[k].dot(&turned) } else { 0.0 }))
     }
 
     /// Curvature of [`Self::matches`].

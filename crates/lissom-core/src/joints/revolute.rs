@@ -1,11 +1,13 @@
 //! Revolute joint: two nodes share a point and an axis; the relative rotation about the axis is an
 //! algebraic coordinate, so that springs, drives and outputs can use it.
 
-use lissom_motion::{Motion, Vector3};
+use lissom_motion::{Motion, Vector3, Vector6};
+use nalgebra::SVector;
 
 use super::clamp::EQUATIONS;
 use super::primitives::{
-    JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient, elementary,
+    JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient,
+    coincident_wrench, elementary, wrench_with_moments,
 };
 use super::{
     Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own,
@@ -67,6 +69,17 @@ impl Joint for Revolute {
     fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
         JointRotation::about_third_axis(own).matches_gradient(relative, 3, out);
+    }
+
+    fn wrench(
+        &self,
+        relative: &Relative,
+        own: &Own,
+        mu: &Equations,
+    ) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
+        let moments = JointRotation::about_third_axis(own)
+            .matches_moments(relative, &Vector3::new(mu[3], mu[4], mu[5]));
+        wrench_with_moments(&coincident_wrench(relative, &Vector3::new(mu[0], mu[1], mu[2])), moments)
     }
 
     fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {

@@ -1,11 +1,15 @@
 //! Spherical joint: two nodes share a point and turn freely about it.
 
-use lissom_motion::Vector3;
+use lissom_motion::{Vector3, Vector6};
+use nalgebra::SVector;
 
 use super::primitives::{
     POINT_EQUATIONS, coincident, coincident_change, coincident_curvature, coincident_gradient,
+    coincident_wrench,
 };
-use super::{Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, Own, Relative};
+use super::{
+    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own, Relative,
+};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -39,6 +43,15 @@ impl Joint for Spherical {
 
     fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
+    }
+
+    fn wrench(
+        &self,
+        relative: &Relative,
+        _: &Own,
+        mu: &Equations,
+    ) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
+        (coincident_wrench(relative, &Vector3::new(mu[0], mu[1], mu[2])), SVector::zeros())
     }
 
     fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {

@@ -1,8 +1,6 @@
 //! Where everything is and how it moves, in SI. Knows neither topology nor time step.
 
-use lissom_motion::{
-    Matrix3, Motion, Rotation, Vector3, Vector6, axial, rotation_exponential_minus_identity,
-};
+use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6, axial, skew};
 
 /// Index of a node.
 pub type NodeId = usize;
@@ -73,11 +71,16 @@ impl MotionChange {
 
     /// exp ψ.
     pub fn exponential(psi: &Vector6) -> Self {
-        let theta = split(psi).1;
-        Self {
-            turn: rotation_exponential_minus_identity(&theta),
-            shift: Motion::displacement_of_point(psi, &Vector3::zeros()),
-        }
+        Self::of(&Motion::exponential(psi))
+    }
+
+    /// A motion as a change. With the unit quaternion (w, v), E - I = 2 (w ṽ + ṽ²): no cancellation.
+    pub fn of(motion: &Motion) -> Self {
+        let [w, x, y, z] = motion.rotation.quaternion();
+        let v = Vector3::new(x, y, z);
+        let turn = skew(&(2.0 * w * v)) + 2.0 * v * v.transpose()
+            - Matrix3::from_diagonal_element(2.0 * v.norm_squared());
+        Self { turn, shift: motion.position }
     }
 
     /// This change, then `next` seen from the changed frame: (E₁ E₂ - I, p₁ + E₁ p₂).

@@ -1,6 +1,6 @@
 //! Checks across tables: where nodes are, what hangs on what, and functions that fail during the analysis.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use lissom_motion::Vector3;
 
@@ -69,22 +69,33 @@ fn complete(context: &Context<'_>, document: &Document) {
 /// Groups of parts that hang together; the ground is a part.
 #[derive(Default)]
 struct Groups<'d> {
-    parent: BTreeMap<&'d str, &'d str>,
+    numbers: HashMap<&'d str, usize>,
+    parents: Vec<usize>,
 }
 
 impl<'d> Groups<'d> {
-    fn root(&self, mut part: &'d str) -> &'d str {
-        while let Some(parent) = self.parent.get(part) {
-            part = parent;
+    fn number(&mut self, part: &'d str) -> usize {
+        let next = self.parents.len();
+        let number = *self.numbers.entry(part).or_insert(next);
+        if number == next {
+            self.parents.push(next);
         }
-        part
+        number
+    }
+
+    /// The number that stands for a part's group. Halves the way there for those who come later.
+    fn root(&mut self, part: &'d str) -> usize {
+        let mut number = self.number(part);
+        while self.parents[number] != number {
+            self.parents[number] = self.parents[self.parents[number]];
+            number = self.parents[number];
+        }
+        number
     }
 
     fn join(&mut self, a: &'d str, b: &'d str) {
         let (a, b) = (self.root(a), self.root(b));
-        if a != b {
-            self.parent.insert(a, b);
-        }
+        self.parents[a] = b;
     }
 }
 
@@ -126,17 +137,18 @@ fn free_parts(context: &Context<'_>, document: &Document) {
     if parts.len() != named || !read("joints", &document.joints) || !read("springs", &document.springs) {
         return;
     }
-    let mut sizes: BTreeMap<&str, usize> = BTreeMap::new();
+    let mut sizes: HashMap<usize, usize> = HashMap::new();
     for part in &parts {
         *sizes.entry(groups.root(&part.value)).or_default() += 1;
     }
+    let ground = groups.root(GROUND);
     for part in &parts {
         let root = groups.root(&part.value);
-        let free = root != groups.root(GROUND);
+        let free = root != ground;
         if free && statics {
             let message = format!("`{}` is not connected to the ground: it has no equilibrium", part.value);
             context.fail::<()>(part.span, message, "add a joint or spring that leads to \"ground\"");
-        } else if free && sizes.get(root) == Some(&1) && parts.len() > 1 {
+        } else if free && sizes.get(&root) == Some(&1) && parts.len() > 1 {
             let problem =
                 Problem::warning(part.span, format!("`{}` is not connected to anything", part.value));
             context.tell(
