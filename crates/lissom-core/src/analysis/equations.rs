@@ -22,6 +22,9 @@ const LARGEST_ROTATION: f64 = 1.0;
 /// Iterates whose last correction is larger than this are far from equilibrium [-].
 pub(crate) const FAR: f64 = 1e-3;
 
+/// Roundings that add up in a force.
+const ROUNDINGS: f64 = 16.0;
+
 /// Multipliers are wanted to fewer digits than places, from which the motion goes on.
 const MULTIPLIER_WEIGHT: f64 = 1e-2;
 
@@ -61,6 +64,8 @@ pub(crate) struct Workspace {
     pub(crate) fall_back: Option<&'static lissom_solver::SolverKind>,
     /// The unknown whose pivot vanished, and the pivot, once it was needed.
     pub(crate) fell_back: Option<(usize, f64)>,
+    /// Forces below this are round-off of the stiffest elements' strains [N].
+    pub(crate) force_round_off: f64,
     /// Where constraints repeat each other: what lets them yield, and the multiplier whose pivot vanished.
     pub(crate) yielding: Option<(Compliance, usize)>,
     pub(crate) linearization: Linearization,
@@ -105,6 +110,7 @@ impl Workspace {
             saved: Vec::new(),
             fall_back: None,
             fell_back: None,
+            force_round_off: 0.0,
             yielding: None,
             linearization: Linearization::new(system),
             factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
@@ -257,6 +263,19 @@ impl StepEquations<'_> {
         }
     }
 
+    /// Round-off of forces: strains come from places, which are rounded, times the largest stiffness.
+    fn force_round_off(&self) -> f64 {
+        let layout = self.system.layout();
+        let pattern = &self.system.structure().pattern;
+        let stiffness = (0..layout.coordinate_count())
+            .filter(|&row| layout.quantities()[row] == Quantity::Length)
+            .filter_map(|row| pattern.position(row, row))
+            .fold(0.0_f64, |most, position| most.max(self.work.linearization.stiffness[position].abs()));
+        let nodes = &self.start.kinematics.nodes;
+        let far = nodes.iter().fold(0.0_f64, |most, node| most.max(node.frame.position.amax()));
+        ROUNDINGS * f64::EPSILON * far * stiffness
+    }
+
     /// Factors the tangent of the last linearisation.
     fn factor(&mut self) -> Result<FactorReport, FactorError> {
         let work = &mut *self.work;
@@ -336,7 +355,9 @@ impl StepEquations<'_> {
             }
         }
         let Correction { size, reference } = places;
-        let multipliers = if largest > 0.0 { MULTIPLIER_WEIGHT * change / largest * reference } else { 0.0 };
+        // Where nothing bears a load yet, as before the first wave arrives, multipliers are nothing but round-off.
+        let is_known = largest > 0.0 && change > self.work.force_round_off;
+        let multipliers = if is_known { MULTIPLIER_WEIGHT * change / largest * reference } else { 0.0 };
         Correction { size: size.max(multipliers), reference }
     }
 
@@ -446,6 +467,7 @@ impl Equations for StepEquations<'_> {
     fn renew_tangent(&mut self) -> Result<(), FactorError> {
         self.watch.begin(Phase::Linearisation);
         self.linearize();
+        self.work.force_round_off = self.force_round_off();
         self.watch.begin(Phase::Factorisation);
         let mut result = self.factor();
         let layout = self.system.layout();
