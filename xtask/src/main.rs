@@ -2,6 +2,7 @@
 
 mod bench;
 mod blade;
+mod book;
 mod case;
 mod compare;
 mod curves;
@@ -37,6 +38,21 @@ enum Chore {
     Scenes(ScenesArguments),
     /// Run scenes without outputs and print where their time goes
     Bench(BenchArguments),
+    /// Make the tables and figures of the book in docs/ anew
+    Figures(FiguresArguments),
+}
+
+/// What is made.
+#[derive(clap::Args)]
+struct FiguresArguments {
+    /// Figures to make, by the names in the chapters' markers; all if none is given
+    names: Vec<String>,
+    /// Also make those that take minutes
+    #[arg(long)]
+    long: bool,
+    /// Make nothing; tell links that point nowhere, markers that nothing fills, and an old copy of the report
+    #[arg(long)]
+    check: bool,
 }
 
 /// What is written.
@@ -108,6 +124,7 @@ fn main() -> ExitCode {
             bench::write(&verify::root(), arguments.large).map(|()| true).map_err(|error| error.to_string())
         }
         Chore::Bench(arguments) => bench::bench(&arguments).map(|()| true).map_err(|error| error.to_string()),
+        Chore::Figures(arguments) => book::figures(&arguments).map_err(|error| error.to_string()),
     };
     match outcome {
         Ok(true) => ExitCode::SUCCESS,

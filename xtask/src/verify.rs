@@ -11,7 +11,7 @@ use crate::VerifyArguments;
 use crate::case::{Case, CaseError};
 use crate::outcome::{Outcome, Row, Verdict};
 use crate::runs::Runs;
-use crate::{compare, curves, invariants, readme, refine, report};
+use crate::{book, compare, curves, invariants, readme, refine, report};
 
 /// A verification that cannot be carried out.
 #[derive(Debug, thiserror::Error)]
@@ -19,6 +19,9 @@ pub(crate) enum VerifyError {
     /// A case is wrong.
     #[error(transparent)]
     Case(#[from] CaseError),
+    /// The book has no room for the report.
+    #[error(transparent)]
+    Book(#[from] book::BookError),
     /// There is no such case.
     #[error("there is no case `{0}` in verification/")]
     Unknown(String),
@@ -59,6 +62,9 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<bool, VerifyError> {
     let elapsed = began.elapsed();
     let whole = arguments.names.is_empty() && !arguments.quick;
     report::write(&root, &cases, &outcomes, elapsed, whole)?;
+    if whole {
+        book::verification::renew(&root)?;
+    }
     if arguments.readme {
         readme::rewrite(&root.join("README.md"), &report::summary(&cases, &outcomes))?;
     }

@@ -1,0 +1,135 @@
+//! What may be wrong with the book without anyone noticing: links that point nowhere, markers that nothing fills,
+//! generators without a place. Reads files, runs nothing.
+
+use std::path::{Component, Path, PathBuf};
+
+use super::generators::GENERATORS;
+use super::{BookError, regions, verification};
+
+/// All that is wrong.
+pub(super) fn complaints(root: &Path) -> Result<Vec<String>, BookError> {
+    let mut all = structure(root)?;
+    if !verification::is_fresh(root)? {
+        all.push(
+            "docs/verification.md differs from verification/REPORT.md: `cargo xtask figures` copies it"
+                .to_owned(),
+        );
+    }
+    Ok(all)
+}
+
+/// What is wrong with links and markers.
+fn structure(root: &Path) -> Result<Vec<String>, BookError> {
+    let docs = root.join("docs");
+    let mut complaints = Vec::new();
+    let mut filled: Vec<String> = Vec::new();
+    for chapter in regions::chapters(&docs)? {
+        let text = std::fs::read_to_string(&chapter).map_err(BookError::file(&chapter))?;
+        let shown = chapter.strip_prefix(root).unwrap_or(&chapter).display();
+        for target in links(&text) {
+            if let Some(wrong) = wrong_link(&docs, &chapter, &target) {
+                complaints.push(format!("{shown}: the link `{target}` {wrong}"));
+            }
+        }
+        match regions::names(&text) {
+            Ok(names) => filled.extend(names.into_iter().map(str::to_owned)),
+            Err(wrong) => complaints.push(format!("{shown}: {wrong}")),
+        }
+    }
+    for name in &filled {
+        if !GENERATORS.iter().any(|generator| generator.name == name) {
+            complaints.push(format!("nothing makes the figure `{name}`"));
+        }
+    }
+    for generator in GENERATORS {
+        match filled.iter().filter(|name| *name == generator.name).count() {
+            1 => {}
+            count => complaints.push(format!("{count} chapters have the marker of `{}`", generator.name)),
+        }
+    }
+    Ok(complaints)
+}
+
+/// What is wrong with a link, if anything.
+fn wrong_link(docs: &Path, chapter: &Path, target: &str) -> Option<&'static str> {
+    let path = target.split('#').next().unwrap_or_default();
+    if path.is_empty() || path.contains("://") || path.starts_with("mailto:") {
+        return None;
+    }
+    let mut place = chapter.parent().unwrap_or(docs).to_owned();
+    for part in Path::new(path).components() {
+        match part {
+            Component::ParentDir => {
+                place.pop();
+            }
+            Component::CurDir => {}
+            other => place.push(other),
+        }
+    }
+    if !place.starts_with(docs) {
+        Some("leaves docs/, where the book cannot follow")
+    } else if place.is_file() {
+        None
+    } else {
+        Some("points nowhere")
+    }
+}
+
+/// Targets of the links of a chapter, code left out.
+fn links(text: &str) -> Vec<String> {
+    let mut targets = Vec::new();
+    let mut fenced = false;
+    for line in text.lines() {
+        if line.trim_start().starts_with("```") {
+            fenced = !fenced;
+        }
+        if fenced {
+            continue;
+        }
+        // Every second piece is code.
+        let prose: String = line.split('`').step_by(2).collect::<Vec<_>>().join("`");
+        let mut rest = prose.as_str();
+        while let Some((_, after)) = rest.split_once("](") {
+            let Some((target, next)) = after.split_once(')') else { break };
+            targets.push(target.split_whitespace().next().unwrap_or_default().to_owned());
+            rest = next;
+        }
+    }
+    targets
+}
+
+/// Where the drawings of a text are, by their links.
+pub(super) fn drawings(text: &str) -> Vec<PathBuf> {
+    let is_drawing = |target: &String| Path::new(target).extension().is_some_and(|ending| ending == "svg");
+    links(text).into_iter().filter(is_drawing).map(PathBuf::from).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::verify::root;
+
+    #[test]
+    fn the_book_holds_together() {
+        let complaints = structure(&root()).unwrap();
+        assert!(complaints.is_empty(), "{complaints:#?}");
+    }
+
+    #[test]
+    fn links_are_found_and_code_is_not() {
+        let text = "a [b](c.md#d) `[x](y)` ![e `f`](g.svg)\n```\n[h](i)\n```\n[j](http://k)\n";
+        assert_eq!(links(text), ["c.md#d", "g.svg", "http://k"]);
+        assert_eq!(drawings(text), [PathBuf::from("g.svg")]);
+    }
+
+    #[test]
+    fn wrong_links_are_told() {
+        let docs = root().join("docs");
+        let chapter = docs.join("theory/energy-decaying.md");
+        let wrong = |target| wrong_link(&docs, &chapter, target).is_some();
+        assert!(wrong("nowhere.md") && wrong("../../README.md") && wrong("../theory"));
+        assert!(
+            !wrong("#here") && !wrong("https://example.org/a.md") && !wrong("../theory/energy-decaying.md#x")
+        );
+    }
+}

@@ -1,0 +1,104 @@
+//! What scaling, augmented term and pivoting do to the first tangent of the tip crank.
+
+use lissom::core::analysis::factorization_study::{Case, Factored};
+use lissom::study::factorization::{Table, scaling_name, study};
+
+use super::fragment::{Fragment, overrides, study_command};
+use super::numbers::{one, two};
+use super::{BookError, Studio};
+
+const EXAMPLE: &str = "tip-crank";
+
+/// Every combination at the step of the model.
+pub(super) fn tip_crank(studio: &Studio) -> Result<Fragment, BookError> {
+    let mut fragment = Fragment::default();
+    fragment.commands(&[study_command("factorization", EXAMPLE, &[], &[])]);
+    let table = study(&studio.example(EXAMPLE)?, &[])?;
+    let heading = [
+        "scaling",
+        "augmented",
+        "solver",
+        "smallest / largest pivot",
+        "growth",
+        "error of coordinates",
+        "error of multipliers",
+        "last update",
+        "residual [N]",
+        "violation [m]",
+    ];
+    let rows: Vec<_> = table.cases.iter().map(line).collect();
+    fragment.table(&heading, &rows);
+    Ok(fragment)
+}
+
+fn line(case: &Case) -> Vec<String> {
+    let augmented = if case.augmented { "yes" } else { "no" };
+    let mut cells = vec![scaling_name(case).to_owned(), augmented.to_owned(), case.solver.to_owned()];
+    match &case.outcome {
+        Err(stopped) => {
+            cells.push(format!("stops at the {}", stopped.unknown));
+            cells.resize(10, String::new());
+        }
+        Ok(factored) => {
+            let growth = factored.report.growth;
+            cells.push(one(factored.report.relative_pivot()));
+            cells.push(if growth.is_nan() { String::new() } else { two(growth) });
+            cells.extend([factored.coordinate_error, factored.multiplier_error].map(|e| error(factored, e)));
+            let newton = &factored.newton;
+            cells.extend([newton.update, newton.residual, newton.violation].map(one));
+        }
+    }
+    cells
+}
+
+/// An error, with a mark where it is not known for sure.
+fn error(factored: &Factored, value: f64) -> String {
+    format!("{}{}", if factored.errors_known { "" } else { "~" }, one(value))
+}
+
+/// The sparse solver without pivoting at several steps: what is lost without scaling.
+pub(super) fn steps(studio: &Studio) -> Result<Fragment, BookError> {
+    let model = studio.example(EXAMPLE)?;
+    let (mut commands, mut rows) = (Vec::new(), Vec::new());
+    for step in ["1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7"] {
+        let set = overrides(&[("analysis.step", step), ("analysis.end", "0.01")]);
+        commands.push(study_command("factorization", EXAMPLE, &[], &set));
+        let table = study(&model, &set)?;
+        let mut line = vec![step.to_owned()];
+        for scaling in ["none", "physical", "equilibrated"] {
+            let [pivot, coordinates, multipliers, update] = sparse(&table, scaling);
+            line.extend([pivot, format!("{coordinates}, {multipliers}"), update]);
+        }
+        rows.push(line);
+    }
+    let mut fragment = Fragment::default();
+    fragment.commands(&commands);
+    let heading = [
+        "h [s]",
+        "none: pivots",
+        "errors",
+        "update",
+        "s of (2.6): pivots",
+        "errors",
+        "update",
+        "equilibrated: pivots",
+        "errors",
+        "update",
+    ];
+    fragment.table(&heading, &rows);
+    Ok(fragment)
+}
+
+/// Pivot ratio, errors of coordinates and multipliers and last update of the augmented, sparse combination.
+fn sparse(table: &Table, scaling: &str) -> [String; 4] {
+    let wanted = |case: &&Case| case.augmented && case.solver == "sparse" && scaling_name(case) == scaling;
+    match table.cases.iter().find(wanted).map(|case| &case.outcome) {
+        Some(Ok(factored)) => [
+            one(factored.report.relative_pivot()),
+            error(factored, factored.coordinate_error),
+            error(factored, factored.multiplier_error),
+            one(factored.newton.update),
+        ],
+        Some(Err(_)) | None => std::array::from_fn(|_| "none".to_owned()),
+    }
+}

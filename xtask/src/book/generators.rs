@@ -1,0 +1,36 @@
+//! The table of what `cargo xtask figures` makes: a name, as in a chapter's marker, and what makes the text.
+
+use super::fragment::Fragment;
+use super::{BookError, Studio, conditioning, convergence, factorization, roundoff, simulation};
+
+/// Makes what stands between the markers of one name.
+pub(super) struct Generator {
+    /// As in the marker.
+    pub(super) name: &'static str,
+    /// Whether it takes minutes, so that it has to be asked for.
+    pub(super) is_long: bool,
+    /// Makes it.
+    pub(super) make: fn(&Studio) -> Result<Fragment, BookError>,
+}
+
+const fn quick(name: &'static str, make: fn(&Studio) -> Result<Fragment, BookError>) -> Generator {
+    Generator { name, is_long: false, make }
+}
+
+/// All of them.
+pub(super) const GENERATORS: &[Generator] = &[
+    quick("tip-crank", simulation::tip_crank),
+    quick("conditioning-steps", conditioning::steps),
+    quick("conditioning-mass", conditioning::mass),
+    quick("conditioning-contradiction", conditioning::contradiction),
+    quick("conditioning-tip-crank", conditioning::tip_crank),
+    quick("conditioning-limits", conditioning::limits),
+    quick("factorization-tip-crank", factorization::tip_crank),
+    quick("factorization-steps", factorization::steps),
+    quick("roundoff-pendulum", roundoff::pendulum),
+    quick("roundoff-energy", roundoff::energy),
+    quick("convergence-tip-crank", convergence::tip_crank),
+    quick("convergence-components", convergence::components),
+    quick("convergence-smooth-start", convergence::smooth_start),
+    Generator { name: "convergence-tip-crank-long", is_long: true, make: convergence::tip_crank_long },
+];
