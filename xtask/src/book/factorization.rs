@@ -89,16 +89,56 @@ pub(super) fn steps(studio: &Studio) -> Result<Fragment, BookError> {
     Ok(fragment)
 }
 
+/// Where Newton's method ends in one step of any size, on three models.
+pub(super) fn any_step(studio: &Studio) -> Result<Fragment, BookError> {
+    let steps = ["1e-2", "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9"];
+    let examples = ["pendulum", "top", EXAMPLE];
+    let mut commands = Vec::new();
+    let mut rows: Vec<Vec<String>> = steps.map(|step| vec![step.to_owned()]).to_vec();
+    for example in examples {
+        let model = studio.example(example)?;
+        for (step, row) in steps.iter().zip(&mut rows) {
+            let set = overrides(&[("analysis.step", step), ("analysis.end", "0.01")]);
+            if step == &steps[0] {
+                commands.push(study_command("factorization", example, &[], &set));
+            }
+            row.extend(attained(&study(&model, &set)?));
+        }
+    }
+    let mut fragment = Fragment::default();
+    fragment.commands(&commands);
+    let mut heading = vec!["h [s]".to_owned()];
+    for example in examples {
+        heading.extend([format!("{example}: residual [N]"), "violation [m]".to_owned()]);
+    }
+    let heading: Vec<&str> = heading.iter().map(String::as_str).collect();
+    fragment.table(&heading, &rows);
+    Ok(fragment)
+}
+
+/// Residual and violation of the combination that runs use.
+fn attained(table: &Table) -> [String; 2] {
+    match combination(table, "equilibrated") {
+        Some(factored) => [one(factored.newton.residual), one(factored.newton.violation)],
+        None => std::array::from_fn(|_| "none".to_owned()),
+    }
+}
+
 /// Pivot ratio, errors of coordinates and multipliers and last update of the augmented, sparse combination.
 fn sparse(table: &Table, scaling: &str) -> [String; 4] {
+    let Some(factored) = combination(table, scaling) else {
+        return std::array::from_fn(|_| "none".to_owned());
+    };
+    [
+        one(factored.report.relative_pivot()),
+        error(factored, factored.coordinate_error),
+        error(factored, factored.multiplier_error),
+        one(factored.newton.update),
+    ]
+}
+
+/// What the augmented, sparse combination with a scaling came to, if it has factors.
+fn combination<'a>(table: &'a Table, scaling: &str) -> Option<&'a Factored> {
     let wanted = |case: &&Case| case.augmented && case.solver == "sparse" && scaling_name(case) == scaling;
-    match table.cases.iter().find(wanted).map(|case| &case.outcome) {
-        Some(Ok(factored)) => [
-            one(factored.report.relative_pivot()),
-            error(factored, factored.coordinate_error),
-            error(factored, factored.multiplier_error),
-            one(factored.newton.update),
-        ],
-        Some(Err(_)) | None => std::array::from_fn(|_| "none".to_owned()),
-    }
+    table.cases.iter().find(wanted).and_then(|case| case.outcome.as_ref().ok())
 }

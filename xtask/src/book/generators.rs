@@ -27,6 +27,7 @@ pub(super) const GENERATORS: &[Generator] = &[
     quick("conditioning-limits", conditioning::limits),
     quick("factorization-tip-crank", factorization::tip_crank),
     quick("factorization-steps", factorization::steps),
+    quick("any-step", factorization::any_step),
     quick("roundoff-pendulum", roundoff::pendulum),
     quick("roundoff-energy", roundoff::energy),
     quick("convergence-tip-crank", convergence::tip_crank),
