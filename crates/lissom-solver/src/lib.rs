@@ -46,7 +46,7 @@ mod structure;
 pub use condition::condition_estimate;
 pub use dense::Dense;
 pub use extended::Extended;
-pub use multifrontal::Multifrontal;
+pub use multifrontal::{Multifrontal, Symmetric};
 pub use ordering::{minimum_degree_order, profile_order};
 pub use pattern::Pattern;
 #[cfg(feature = "pivoting")]

@@ -6,7 +6,7 @@ pub(crate) mod lu;
 #[cfg(feature = "klu")]
 pub(crate) mod klu;
 
-use lissom_solver::{LinearSolver, Structure, kind};
+use lissom_solver::{LinearSolver, Multifrontal, Structure, Symmetric};
 
 /// Refactors and solves.
 pub(crate) trait Contender {
@@ -16,13 +16,18 @@ pub(crate) trait Contender {
     fn solve(&mut self, vector: &mut [f64]);
 }
 
-/// The solver of this crate.
+/// The solvers of this crate.
 pub(crate) struct Ours(Box<dyn LinearSolver<f64>>);
 
 impl Ours {
-    /// Symbolic analysis.
-    pub(crate) fn new(structure: &Structure) -> Self {
-        Self((kind("sparse").expect("the default solver").real)(structure))
+    /// LU.
+    pub(crate) fn lu(structure: &Structure) -> Self {
+        Self(Box::new(Multifrontal::new(structure)))
+    }
+
+    /// LDLᵀ.
+    pub(crate) fn ldlt(structure: &Structure) -> Self {
+        Self(Box::new(Symmetric::new(structure)))
     }
 }
 

@@ -124,7 +124,7 @@ impl<S: Scalar> Numeric<S> {
 
 /// Adds the part of a contribution in the given runs of rows and columns.
 #[inline(always)]
-fn add_columns<S: Scalar>(
+pub(super) fn add_columns<S: Scalar>(
     target: &mut [S],
     stride: usize,
     contribution: &[S],

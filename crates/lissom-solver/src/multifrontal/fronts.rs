@@ -28,6 +28,8 @@ pub(super) struct Front {
     pub(super) first: usize,
     pub(super) pivots: usize,
     pub(super) boundary: usize,
+    /// Panels stored: the lower alone for symmetric matrices, or both.
+    pub(super) panels: usize,
     /// Where its pieces begin among the factors.
     pub(super) factors: usize,
     /// Its boundary in [`Symbolic::boundaries`].
@@ -55,7 +57,7 @@ impl Front {
         self.pivots * self.panel_stride()
     }
     pub(super) fn factor_range(&self) -> Range<usize> {
-        self.factors..self.factors + self.square_length() + 2 * self.panel_length()
+        self.factors..self.factors + self.square_length() + self.panels * self.panel_length()
     }
     pub(super) fn contribution_range(&self) -> Range<usize> {
         self.contribution..self.contribution + self.boundary * self.panel_stride()
@@ -103,7 +105,8 @@ pub(super) struct Symbolic {
 }
 
 impl Symbolic {
-    pub(super) fn new(structure: &Structure) -> Symbolic {
+    /// For LU, with two panels to a front, or for LDLᵀ, with one.
+    pub(super) fn new(structure: &Structure, panels: usize) -> Symbolic {
         let graph = GroupGraph::new(structure);
         let order = minimum_degree_order(structure);
         let tree = EliminationTree::new(&graph, &order);
@@ -144,18 +147,19 @@ impl Symbolic {
                 symbolic.boundaries.extend(first..first + tree.weights[place as usize]);
             }
             symbolic.boundaries[rows..].sort_unstable();
-            symbolic.add_front(firsts[index]..firsts[index + 1], rows, &node.children);
+            symbolic.add_front((firsts[index]..firsts[index + 1], panels), rows, &node.children);
         }
         symbolic.place_contributions(&nodes.iter().map(|node| &node.children[..]).collect::<Vec<_>>());
         symbolic.map_entries(structure);
         symbolic
     }
 
-    fn add_front(&mut self, steps: Range<usize>, rows: usize, children: &[usize]) {
+    fn add_front(&mut self, (steps, panels): (Range<usize>, usize), rows: usize, children: &[usize]) {
         let mut front = Front {
             first: steps.start,
             pivots: steps.len(),
             boundary: self.boundaries.len() - rows,
+            panels,
             factors: self.factor_length,
             rows: rows..self.boundaries.len(),
             entries: 0..0,
@@ -168,7 +172,9 @@ impl Symbolic {
         }
         front.children.end = self.children.len();
         self.factor_length = front.factor_range().end;
-        self.factor_entries += front.pivots * (front.pivots + 2 * front.boundary);
+        let square =
+            if panels == 1 { front.pivots * (front.pivots + 1) / 2 } else { front.pivots * front.pivots };
+        self.factor_entries += square + panels * front.pivots * front.boundary;
         self.largest_pivots = self.largest_pivots.max(front.pivots);
         self.largest_boundary = self.largest_boundary.max(front.boundary);
         self.fronts.push(front);
@@ -272,6 +278,9 @@ impl Symbolic {
                     }
                     let target = square + local[other] as usize + pivot * front.panel_stride();
                     entries.push((target as u32, source));
+                    if front.panels == 1 {
+                        continue;
+                    }
                     let mirror = pattern.position(column, row).expect("the pattern is symmetric");
                     entries.push(((target + panel) as u32, mirror as u32));
                 }

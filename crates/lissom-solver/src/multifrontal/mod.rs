@@ -11,9 +11,12 @@ mod fronts;
 mod kernels;
 mod square;
 mod supernodes;
+mod symmetric;
 mod triangular;
 
 use std::sync::Arc;
+
+pub use symmetric::Symmetric;
 
 use factorisation::Numeric;
 use fronts::Symbolic;
@@ -44,7 +47,7 @@ impl<S: Scalar> Multifrontal<S> {
     /// # Panics
     /// If [`Structure::check`] refuses the structure.
     pub fn new(structure: &Structure) -> Self {
-        let symbolic = Symbolic::new(structure);
+        let symbolic = Symbolic::new(structure, 2);
         let pattern = Arc::clone(&structure.pattern);
         let on_diagonal = |&unknown: &u32| {
             let unknown = unknown as usize;

@@ -11,8 +11,8 @@ const COLUMNS: usize = 4;
 
 /// Room for the pivots and for the boundary of any one front, padded.
 pub(super) struct FrontVectors<S> {
-    pivots: Vec<S>,
-    boundary: Vec<S>,
+    pub(super) pivots: Vec<S>,
+    pub(super) boundary: Vec<S>,
 }
 
 impl<S: Scalar> FrontVectors<S> {
@@ -64,7 +64,7 @@ pub(super) fn solve<S: Scalar, const FUSED: bool>(
 
 /// `x = L11⁻¹ x` for a padded vector, four columns at a time.
 #[inline(always)]
-fn solve_lower<S: Scalar, const FUSED: bool>(x: &mut [S], square: &[S], pivots: usize) {
+pub(super) fn solve_lower<S: Scalar, const FUSED: bool>(x: &mut [S], square: &[S], pivots: usize) {
     let stride = x.len();
     let whole = pivots / COLUMNS * COLUMNS;
     for first in (0..whole).step_by(COLUMNS) {
@@ -90,7 +90,7 @@ fn solve_lower<S: Scalar, const FUSED: bool>(x: &mut [S], square: &[S], pivots: 
 
 /// `x = U11⁻¹ x` for a padded vector, four columns at a time. The diagonal holds reciprocals.
 #[inline(always)]
-fn solve_upper<S: Scalar, const FUSED: bool>(x: &mut [S], square: &[S], pivots: usize) {
+pub(super) fn solve_upper<S: Scalar, const FUSED: bool>(x: &mut [S], square: &[S], pivots: usize) {
     let stride = x.len();
     let whole = pivots / COLUMNS * COLUMNS;
     for step in (whole..pivots).rev() {
@@ -161,7 +161,7 @@ fn pieces<'a, S>(front: &Front, factors: &'a [S]) -> (&'a [S], &'a [S], &'a [S])
 }
 
 #[inline(always)]
-fn gather<S: Scalar>(symbolic: &Symbolic, front: &Front, x: &[S], front_vector: &mut [S]) {
+pub(super) fn gather<S: Scalar>(symbolic: &Symbolic, front: &Front, x: &[S], front_vector: &mut [S]) {
     let rows = &symbolic.boundaries[front.rows.clone()];
     let (known, padding) = front_vector[..front.panel_stride()].split_at_mut(rows.len());
     for (value, &row) in known.iter_mut().zip(rows) {
@@ -172,7 +172,7 @@ fn gather<S: Scalar>(symbolic: &Symbolic, front: &Front, x: &[S], front_vector: 
 
 /// `sums += P x`, with the columns of the panel in fours.
 #[inline(always)]
-fn add_columns<S: Scalar, const FUSED: bool>(sums: &mut [S], panel: &[S], x: &[S]) {
+pub(super) fn add_columns<S: Scalar, const FUSED: bool>(sums: &mut [S], panel: &[S], x: &[S]) {
     let stride = sums.len();
     if stride == 0 {
         return;
@@ -214,7 +214,7 @@ fn add_four<S: Scalar, const FUSED: bool>(
 
 /// `x -= Pᵀ v`, with the columns of the panel in fours.
 #[inline(always)]
-fn subtract_dots<S: Scalar, const FUSED: bool>(x: &mut [S], panel: &[S], vector: &[S]) {
+pub(super) fn subtract_dots<S: Scalar, const FUSED: bool>(x: &mut [S], panel: &[S], vector: &[S]) {
     let stride = vector.len();
     if stride == 0 {
         return;
