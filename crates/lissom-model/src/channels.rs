@@ -45,6 +45,7 @@ enum Source {
     Drive(usize),
     Coordinates(Vec<CoordinateId>),
     Energy,
+    Momentum,
 }
 
 impl Place {
@@ -113,6 +114,10 @@ impl Channel {
                     out.extend([motion.value, motion.rate]);
                 }
             }
+            Source::Momentum => {
+                let (linear, angular) = system.momentum(at);
+                out.extend(linear.iter().chain(angular.iter()));
+            }
             Source::Energy => {
                 let energy = system.energy(at);
                 out.extend([energy.kinetic, energy.strain, energy.potential, energy.total()]);
@@ -172,6 +177,7 @@ fn channel(
     names: &Resolver<'_>,
 ) -> Result<Channel, Problem> {
     let source = match &output.source {
+        OutputSource::Model if output.kind == OutputKind::Momentum => Source::Momentum,
         OutputSource::Model => Source::Energy,
         OutputSource::Joint(name) => joint_source(output, name, system, names)?,
         OutputSource::Node { node, point } => {
@@ -282,6 +288,9 @@ fn components(kind: OutputKind, source: &Source, system: &System) -> (Vec<String
         }
         (OutputKind::Relative, Source::Coordinates(coordinates)) => relative(coordinates, system),
         (OutputKind::Relative, _) => (Vec::new(), Vec::new()),
+        (OutputKind::Momentum, _) => {
+            words(&["p1", "p2", "p3", "l1", "l2", "l3"], &["N s", "N s", "N s", "N m s", "N m s", "N m s"])
+        }
         (OutputKind::Energy, _) => words(&["kinetic", "strain", "potential", "total"], &["J"; 4]),
     }
 }

@@ -33,11 +33,13 @@ pub enum OutputKind {
     Relative,
     /// Energies of the whole model [J].
     Energy,
+    /// Momentum and angular momentum of the whole model about the origin [N s, N m s], global axes.
+    Momentum,
 }
 
 impl OutputKind {
     /// All of them, in the order of the manual.
-    pub const ALL: [Self; 11] = [
+    pub const ALL: [Self; 12] = [
         Self::Position,
         Self::Displacement,
         Self::Rotation,
@@ -49,6 +51,7 @@ impl OutputKind {
         Self::Reaction,
         Self::Relative,
         Self::Energy,
+        Self::Momentum,
     ];
 
     /// Word in the model file.
@@ -65,6 +68,7 @@ impl OutputKind {
             Self::Reaction => "reaction",
             Self::Relative => "relative",
             Self::Energy => "energy",
+            Self::Momentum => "momentum",
         }
     }
 
@@ -82,12 +86,18 @@ impl OutputKind {
             Self::Reaction => "Force and moment of a joint on its tip.",
             Self::Relative => "Relative coordinate of a joint.",
             Self::Energy => "Kinetic, strain, gravity and total energy of the model.",
+            Self::Momentum => "Momentum and angular momentum of the model about the origin, global axes.",
         }
     }
 
     /// Whether it belongs to any node.
     pub(crate) fn is_of_node(self) -> bool {
-        !(self.is_of_beam() || self.is_of_joint() || self == Self::Energy)
+        !(self.is_of_beam() || self.is_of_joint() || self.is_of_model())
+    }
+
+    /// Whether it belongs to the whole model.
+    pub(crate) fn is_of_model(self) -> bool {
+        matches!(self, Self::Energy | Self::Momentum)
     }
 
     /// Whether it belongs to a place on a beam.
@@ -138,7 +148,7 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
         let kind = OutputKind::ALL.into_iter().find(|kind| kind.name() == word)?;
         let source = if kind.is_of_joint() {
             OutputSource::Joint(reader.name_in("of")?)
-        } else if kind == OutputKind::Energy {
+        } else if kind.is_of_model() {
             OutputSource::Model
         } else {
             let node = context.node(reader.node("of")?, &reader.words("of"))?;
