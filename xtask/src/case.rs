@@ -49,6 +49,10 @@ pub(crate) struct Case {
     pub(crate) quick: bool,
     /// A file below the folder of references without which the case is skipped.
     pub(crate) needs: Option<String>,
+    /// How good the reference is, relative to the scale of its comparisons.
+    pub(crate) uncertainty: Option<f64>,
+    /// What others take for it, in a sentence with the source of the figure.
+    pub(crate) times: Option<String>,
     /// Why the whole case cannot be run yet.
     pub(crate) open: Option<String>,
     /// What was learnt: differences to a reference, and who is right.
@@ -116,6 +120,8 @@ pub(crate) enum Measure {
     Value,
     /// Largest value from `from` on.
     Maximum,
+    /// Largest less smallest value from `from` on.
+    Range,
     /// Mean of largest and smallest value from `from` on.
     Middle,
     /// Circular frequency [rad/s] from the crossings of the middle, from `from` on.
@@ -167,6 +173,8 @@ pub(crate) struct Quantity {
     pub(crate) open: Option<String>,
     /// Whom it is compared with, if not with the source.
     pub(crate) against: Option<String>,
+    /// How good the reference is, over `scale`; the case's where it is not given.
+    pub(crate) uncertainty: Option<f64>,
 }
 
 /// Curves to compare, drawn over each other.
@@ -201,6 +209,8 @@ pub(crate) struct Curve {
     pub(crate) open: Option<String>,
     /// Whom it is compared with, if not with the source.
     pub(crate) against: Option<String>,
+    /// How good the reference is, over `scale`; the case's where it is not given.
+    pub(crate) uncertainty: Option<f64>,
 }
 
 /// A family of meshes or steps of one run, each half as fine as the next unless `ratio` says otherwise.
@@ -242,13 +252,15 @@ pub(crate) enum Change {
     Turned,
     /// Millimetres and tonnes instead of metres and kilograms.
     Units,
+    /// Four runs at the same time, in a thread each: not a bit may change.
+    Threads,
 }
 
-/// A change to an example of the project that must not change its results.
+/// A change to a model that must not change its results.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct Invariant {
-    /// File in the folder of examples, without its ending.
+    /// File in the folder of examples, without its ending, or the name of a case, as in `case/heavy-top`.
     pub(crate) example: String,
     /// What is changed.
     pub(crate) change: Change,
@@ -256,6 +268,8 @@ pub(crate) struct Invariant {
     pub(crate) end: f64,
     /// Allowed relative difference.
     pub(crate) tolerance: f64,
+    /// Why it is not zero.
+    pub(crate) because: Option<String>,
     /// Why it may fail for now.
     pub(crate) open: Option<String>,
 }
@@ -312,6 +326,7 @@ impl Case {
                     .wrong(format!("curve `{}`: values, labels and columns differ in number", curve.name)));
             }
         }
+        self.check_tolerances()?;
         for refinement in &self.refinement {
             if refinement.levels.len() < 3 && refinement.reference.is_empty() || refinement.levels.len() < 2 {
                 return Err(self.wrong(format!("refinement `{}` has too few levels", refinement.name)));
@@ -321,5 +336,57 @@ impl Case {
             }
         }
         Ok(())
+    }
+
+    /// Every comparison says how good its reference is, and every tolerance wider than that says why.
+    fn check_tolerances(&self) -> Result<(), CaseError> {
+        let quantities = self
+            .quantity
+            .iter()
+            .filter(|quantity| quantity.measure != Measure::Completes)
+            .map(|row| (&row.name, row.tolerance, row.uncertainty, &row.because));
+        let curves =
+            self.curve.iter().filter(|curve| curve.file.is_some()).map(|row| {
+                (&row.name, row.tolerance.unwrap_or(f64::INFINITY), row.uncertainty, &row.because)
+            });
+        let invariants =
+            self.invariant.iter().map(|row| (&row.example, row.tolerance, Some(0.0), &row.because));
+        for (name, tolerance, uncertainty, because) in quantities.chain(curves).chain(invariants) {
+            let Some(uncertainty) = uncertainty.or(self.uncertainty) else {
+                return Err(self.wrong(format!("`{name}` does not say how good its reference is")));
+            };
+            let words = because.as_deref().map_or(0, |words| words.split_whitespace().count());
+            if tolerance > uncertainty && words < FEWEST_WORDS {
+                return Err(self.wrong(format!(
+                    "`{name}` allows {tolerance:e}, more than its reference's {uncertainty:e}, and does not say why"
+                )));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Fewer words than this are no reason.
+const FEWEST_WORDS: usize = 4;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn case(row: &str) -> Result<(), CaseError> {
+        let text = format!(
+            "title = \"t\"\ngroup = \"rigid\"\nsource = \"s\"\nuncertainty = 1e-9\n[[quantity]]\nname = \"x\"\n{row}"
+        );
+        let case: Case = toml::from_str(&text).unwrap();
+        case.check_tolerances()
+    }
+
+    #[test]
+    fn wide_tolerances_need_a_reason() {
+        assert!(case("tolerance = 1e-9").is_ok());
+        assert!(case("tolerance = 1e-8").is_err());
+        assert!(case("tolerance = 1e-8\nbecause = \"as above\"").is_err());
+        assert!(case("tolerance = 1e-8\nbecause = \"the error of this step\"").is_ok());
+        assert!(case("tolerance = 1e-8\nuncertainty = 1e-7").is_ok());
     }
 }

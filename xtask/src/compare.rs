@@ -17,6 +17,7 @@ pub(crate) fn quantity(case: &Case, quantity: &Quantity, runs: &Runs) -> Row {
         ours: String::new(),
         difference: None,
         tolerance: short(quantity.tolerance),
+        uncertainty: quantity.uncertainty.or(case.uncertainty).map(short).unwrap_or_default(),
         grid: String::new(),
         wall: None,
         verdict: Verdict::Pass,
@@ -137,6 +138,7 @@ fn measure(
     let middle = 0.5 * (low + high);
     match quantity.measure {
         Measure::Maximum => Ok(high),
+        Measure::Range => Ok(high - low),
         Measure::Middle => Ok(middle),
         Measure::Frequency => {
             frequency(times, values, middle).ok_or_else(|| "it does not oscillate".to_owned())

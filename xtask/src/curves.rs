@@ -23,6 +23,7 @@ pub(crate) fn curve(case: &Case, curve: &Curve, runs: &Runs) -> (Option<Row>, Ve
         ours: String::new(),
         difference: None,
         tolerance: curve.tolerance.map(short).unwrap_or_default(),
+        uncertainty: curve.uncertainty.or(case.uncertainty).map(short).unwrap_or_default(),
         grid: String::new(),
         wall: None,
         verdict: Verdict::Pass,

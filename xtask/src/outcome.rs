@@ -63,6 +63,8 @@ pub(crate) struct Row {
     pub(crate) difference: Option<f64>,
     /// Allowed relative difference.
     pub(crate) tolerance: String,
+    /// How good the reference is, relative to the same scale.
+    pub(crate) uncertainty: String,
     /// Mesh and step.
     pub(crate) grid: String,
     /// Time taken by the run.

@@ -15,6 +15,7 @@ pub(crate) fn refinement(case: &Case, refinement: &Refinement, runs: &Runs) -> R
         ours: String::new(),
         difference: None,
         tolerance: String::new(),
+        uncertainty: String::new(),
         grid: String::new(),
         wall: None,
         verdict: Verdict::Pass,

@@ -104,8 +104,8 @@ fn text(cases: &[Case], outcomes: &[Outcome], elapsed: Duration) -> String {
     );
     text.push_str(
         "Digits: −log₁₀ of the difference over the reference (over the largest reference of a curve or of a group \
-         of values). Order: observed between successive levels of a refinement. Tolerances are relative to the same \
-         scale.\n\n",
+         of values). Good to: how uncertain the reference is. Order: observed between successive levels of a refinement. Both, and tolerances, are relative to the \
+         same scale; a tolerance wider than the reference is good to says why.\n\n",
     );
     text.push_str(&summary(cases, outcomes));
     text.push_str(&not_verified(cases, outcomes));
@@ -145,15 +145,16 @@ fn section(text: &mut String, case: &Case, outcome: &Outcome) {
         "\n### {}\n\nSource: {}. Reproduce: `cargo xtask verify {}`\n",
         case.title, case.source, case.name
     );
-    text.push_str("| quantity | against | reference | Lissom | digits | tolerance | mesh and step | time [s] | state |\n");
-    text.push_str("|---|---|---|---|---|---|---|---|---|\n");
+    text.push_str("| quantity | against | reference | good to | Lissom | digits | tolerance | mesh and step | time [s] | state |\n");
+    text.push_str("|---|---|---|---|---|---|---|---|---|---|\n");
     for row in &outcome.rows {
         let _ = writeln!(
             text,
-            "| {} | {} | {} | {} | {} | {} | {} | {} | {} |",
+            "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {} |",
             row.quantity,
             if row.against == case.source { "source" } else { &row.against },
             row.reference,
+            row.uncertainty,
             row.ours,
             row.digits().map_or(String::new(), |digits| format!("{digits:.1}")),
             row.tolerance,
@@ -162,7 +163,7 @@ fn section(text: &mut String, case: &Case, outcome: &Outcome) {
             row.verdict.word()
         );
     }
-    for words in case.findings.iter().chain(&outcome.because) {
+    for words in case.findings.iter().chain(&outcome.because).chain(&case.times) {
         let _ = writeln!(text, "\n- {words}");
     }
     for figure in &outcome.figures {

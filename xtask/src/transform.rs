@@ -76,7 +76,9 @@ pub(crate) fn turned(model: &Table) -> Table {
 fn turn_entry(table: &str, entry: &mut Value) {
     let Value::Table(keys) = entry else { return };
     turn_keys(keys, &DIRECTED);
-    if table == "bodies" && !keys.contains_key("axes") {
+    if let Some(Value::Array(axes)) = keys.get_mut("axes") {
+        axes.iter_mut().for_each(turn);
+    } else if table == "bodies" {
         let column = |k: usize| Value::Array((0..3).map(|i| Value::Float(TURN[i][k])).collect());
         keys.insert("axes".to_owned(), Value::Array(vec![column(0), column(1)]));
     }
@@ -192,7 +194,7 @@ fn scale(value: &mut Value, factor: f64) {
 
 /// What a value of `unit` is multiplied by when lengths are in millimetres.
 pub(crate) fn unit_factor(unit: &str) -> f64 {
-    if matches!(unit, "m" | "m/s" | "m/s²" | "N m" | "J") { 1e3 } else { 1.0 }
+    if matches!(unit, "m" | "m/s" | "m/s²" | "N m" | "N m s" | "J") { 1e3 } else { 1.0 }
 }
 
 #[cfg(test)]

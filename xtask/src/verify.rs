@@ -134,6 +134,7 @@ fn without_numbers(case: &Case, verdict: Verdict) -> Row {
         ours: String::new(),
         difference: None,
         tolerance: String::new(),
+        uncertainty: String::new(),
         grid: String::new(),
         wall: None,
         verdict,
@@ -170,7 +171,9 @@ fn run(root: &Path, index: usize, case: &Case, references: Option<&Path>) -> Out
     }
     let began = Instant::now();
     for invariant in &case.invariant {
-        outcome.rows.push(invariants::invariant(root, invariant));
+        let row = invariants::invariant(root, invariant);
+        outcome.because.extend(invariant.because.iter().map(|words| format!("{}: {words}", row.quantity)));
+        outcome.rows.push(row);
     }
     outcome.wall = runs.wall() + if case.invariant.is_empty() { Duration::ZERO } else { began.elapsed() };
     outcome
