@@ -5,7 +5,9 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use lissom::{Model, RunReport, Seconds, Session};
+use lissom::{Model, Override, RunReport, Seconds, Session};
+use lissom_model::document::AnalysisKind;
+use lissom_model::output::LogFigure;
 
 use crate::BenchArguments;
 use crate::peers;
@@ -71,20 +73,20 @@ fn find(name: &str) -> Result<Scene, BenchError> {
 
 /// Runs scenes and prints the table.
 pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), BenchError> {
+    if arguments.errors {
+        return errors(arguments);
+    }
+    if let Some(folder) = &arguments.scale {
+        return scale(folder);
+    }
     let named: Vec<&str> = arguments.names.iter().map(String::as_str).collect();
     let names = if named.is_empty() { scenes::KEPT.to_vec() } else { named };
     let mut table = String::from(HEADING);
     print!("{HEADING}");
     for name in names {
         let scene = find(name)?;
-        let mut best: Option<Measured> = None;
-        for _ in 0..arguments.repeat.max(1) {
-            let measured = run(&scene, &arguments.overrides())?;
-            if best.as_ref().is_none_or(|best| measured.steps < best.steps) {
-                best = Some(measured);
-            }
-        }
-        let line = best.as_ref().map_or_else(String::new, line);
+        let measured = fastest(&scene, &arguments.overrides(), arguments.repeat)?;
+        let line = line(&measured);
         print!("{line}");
         table.push_str(&line);
     }
@@ -98,8 +100,19 @@ const HEADING: &str = "| scene | unknowns | steps | iterations per step | tangen
 evaluation | linearisation | factorisation | solve | rest | output | start [s] | bytes per body | \
 fastest peer [µs] | ratio |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 
-fn run(scene: &Scene, overrides: &[lissom::Override]) -> Result<Measured, BenchError> {
-    let fail = |message: String| BenchError::Failed { name: scene.name.clone(), message };
+fn fastest(scene: &Scene, overrides: &[Override], repeat: usize) -> Result<Measured, BenchError> {
+    let mut best = run(scene, overrides)?;
+    for _ in 1..repeat {
+        let measured = run(scene, overrides)?;
+        if measured.steps < best.steps {
+            best = Measured { bytes: best.bytes, ..measured };
+        }
+    }
+    Ok(best)
+}
+
+fn run(scene: &Scene, overrides: &[Override]) -> Result<Measured, BenchError> {
+    let fail = |message: String| failed(&scene.name, message);
     let before = resident();
     let model = Model::from_text(&scene.name, &scene.text);
     let document = model.document(overrides).map_err(|report| fail(report.render(false)))?;
@@ -172,6 +185,96 @@ fn line(measured: &Measured) -> String {
         peer.as_ref().map_or("–".to_owned(), |peer| format!("{:.1}", peer.microseconds / per_step)),
     );
     text
+}
+
+/// Chains and beams from ten bodies or elements on: time and memory for each of them, in a table and a drawing.
+fn scale(folder: &Path) -> Result<(), BenchError> {
+    let file = |path: PathBuf| move |error| BenchError::File { path, error };
+    println!(
+        "| scene | bodies | unknowns | iterations per step | µs per step | µs per step and body | \
+         ns per iteration and body | kB per body | start [s] |\n|---|---|---|---|---|---|---|---|---|"
+    );
+    let mut curves = Vec::new();
+    for (family, label, sizes) in [
+        ("chain-s", "rigid bodies, spherical joints", &[10, 100, 1000, 10_000, 100_000][..]),
+        ("soft-beam-cubic", "cubic beam elements", &[10, 100, 1000, 10_000]),
+    ] {
+        let mut points = Vec::new();
+        for &size in sizes {
+            let repeat = if size < 1000 { 5 } else { 1 };
+            let measured = fastest(&find(&format!("{family}-{size}"))?, &[], repeat)?;
+            let totals = &measured.report.totals;
+            let each = 1e6 * measured.steps / (totals.steps * size) as f64;
+            let iterations = totals.newton_iterations as f64 / totals.steps as f64;
+            println!(
+                "| `{}` | {size} | {} | {iterations:.2} | {} | {each:.3} | {} | {} | {:.3} |",
+                measured.name,
+                measured.unknowns,
+                digits(each * size as f64),
+                digits(1e3 * each / iterations),
+                // Below a thousand, pages of memory are too coarse a measure.
+                measured
+                    .bytes
+                    .filter(|_| size >= 1000)
+                    .map_or("–".to_owned(), |bytes| digits(1e-3 * bytes as f64 / size as f64)),
+                measured.report.seconds.start,
+            );
+            points.push((size as f64, each));
+        }
+        curves.push((label.to_owned(), points));
+    }
+    let figure = LogFigure {
+        name: "scale".to_owned(),
+        title: "Time per step for each body or element".to_owned(),
+        x_label: "bodies or elements".to_owned(),
+        y_label: "time per step and body [µs]".to_owned(),
+        curves,
+    };
+    let svg = figure
+        .svg()
+        .map_err(|error| BenchError::Failed { name: figure.name.clone(), message: error.to_string() })?;
+    let path = folder.join("scale.svg");
+    std::fs::write(&path, svg).map_err(file(path))
+}
+
+/// Places at the end, compared with those of far smaller steps and of iterations to the last digit.
+fn errors(arguments: &BenchArguments) -> Result<(), BenchError> {
+    println!("| scene | error of the step [m] | of that, by the iterations [m] |\n|---|---|---|");
+    for name in &arguments.names {
+        let scene = find(name)?;
+        let fine = |text: &str| ("analysis.tolerance".to_owned(), text.to_owned());
+        let model = Model::from_text(&scene.name, &scene.text);
+        let document = model.document(&[]).map_err(|report| failed(name, report.render(false)))?;
+        let AnalysisKind::Dynamics { step } = document.analysis.kind else { continue };
+        let short = ("analysis.step".to_owned(), format!("{:e}", step.value / REFINED));
+        let end = |overrides: &[Override]| last_place(&model, overrides);
+        let (given, exact, reference) = (end(&[])?, end(&[fine("1e-11")])?, end(&[short, fine("1e-10")])?);
+        let distance =
+            |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
+        println!("| `{name}` | {:.1e} | {:.1e} |", distance(&given, &reference), distance(&given, &exact));
+    }
+    Ok(())
+}
+
+/// How much smaller the steps of a reference are.
+const REFINED: f64 = 16.0;
+
+/// The first output at the end.
+fn last_place(model: &Model, overrides: &[Override]) -> Result<Vec<f64>, BenchError> {
+    let document = model.document(overrides).map_err(|report| failed(model.name(), report.render(false)))?;
+    let mut session = Session::new(&document).map_err(|error| failed(model.name(), error.to_string()))?;
+    let report = session.run(&mut [], &mut |_| ControlFlow::Continue(()));
+    if let Some(error) = report.error() {
+        return Err(failed(model.name(), error.to_string()));
+    }
+    let mut values = Vec::new();
+    session.values(&mut values);
+    values.truncate(3);
+    Ok(values)
+}
+
+fn failed(name: &str, message: String) -> BenchError {
+    BenchError::Failed { name: name.to_owned(), message }
 }
 
 /// Three digits.

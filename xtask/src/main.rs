@@ -5,6 +5,7 @@ mod blade;
 mod book;
 mod case;
 mod compare;
+mod count;
 mod curves;
 mod formula;
 mod invariants;
@@ -36,6 +37,14 @@ enum Chore {
     Verify(VerifyArguments),
     /// Write the scenes that speed is measured on to benches/scenes/
     Scenes(ScenesArguments),
+    /// Count instructions of the inner loops and compare them with those kept
+    Count(CountArguments),
+    /// Take the steps that are counted
+    #[command(hide = true)]
+    Steps {
+        /// The scene
+        name: String,
+    },
     /// Run scenes without outputs and print where their time goes
     Bench(BenchArguments),
     /// Make the tables and figures of the book in docs/ anew
@@ -66,6 +75,14 @@ struct ScenesArguments {
     list: bool,
 }
 
+/// What is done with the counts.
+#[derive(clap::Args)]
+struct CountArguments {
+    /// Keep these counts
+    #[arg(long)]
+    update: bool,
+}
+
 /// What is measured.
 #[derive(clap::Args)]
 struct BenchArguments {
@@ -77,6 +94,12 @@ struct BenchArguments {
     /// Values to change, as in `--set analysis.scheme=radau-iia`
     #[arg(long)]
     set: Vec<String>,
+    /// Compare the places at the end with those of finer runs instead
+    #[arg(long)]
+    errors: bool,
+    /// Measure chains and beams of all sizes instead, and draw `scale.svg` into this folder
+    #[arg(long, value_name = "DIR")]
+    scale: Option<PathBuf>,
     /// File for the table
     #[arg(long)]
     out: Option<PathBuf>,
@@ -123,6 +146,10 @@ fn main() -> ExitCode {
         Chore::Scenes(arguments) => {
             bench::write(&verify::root(), arguments.large).map(|()| true).map_err(|error| error.to_string())
         }
+        Chore::Count(arguments) => {
+            count::count(&verify::root(), arguments.update).map_err(|error| error.to_string())
+        }
+        Chore::Steps { name } => count::steps(&name).map(|()| true).map_err(|error| error.to_string()),
         Chore::Bench(arguments) => bench::bench(&arguments).map(|()| true).map_err(|error| error.to_string()),
         Chore::Figures(arguments) => book::figures(&arguments).map_err(|error| error.to_string()),
     };

@@ -35,12 +35,13 @@ const FIGURES: &[(&str, f64, &str)] = &[
 /// The figure for a scene, if there is one. A cubic element spans as many nodes as three of two nodes.
 pub(crate) fn fastest(scene: &str) -> Option<Peer> {
     let twin = scene.rsplit_once("-cubic-").map(|(family, size)| {
-        let nodes = match size {
+        let elements = match size {
             "3" => "8",
             "21" => "64",
-            _ => "512",
+            "171" => "512",
+            _ => "none",
         };
-        format!("{family}-{nodes}")
+        format!("{family}-{elements}")
     });
     let name = twin.as_deref().unwrap_or(scene);
     let found = FIGURES.iter().find(|(known, ..)| *known == name)?;

@@ -1,0 +1,195 @@
+//! `cargo xtask count`: instructions of the inner loops, counted by valgrind's callgrind and compared with those
+//! kept in benches/instructions.toml. A slow-down is seen without timing noise. Knows no mechanics.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use lissom::Model;
+use lissom::core::analysis::Simulation;
+use lissom_model::lower::lower;
+use serde::{Deserialize, Serialize};
+
+use crate::scenes;
+
+/// Scenes whose steps are counted, each with other kernels in front.
+const COUNTED: &[&str] =
+    &["planar-pendulum", "chain-s-10", "chain-r-10", "soft-beam-8", "soft-beam-cubic-3", "andrews"];
+/// Steps before the count begins, and steps counted.
+const STEPS: [usize; 2] = [20, 50];
+/// Counts may differ by this share.
+const TOLERANCE: f64 = 0.02;
+
+/// A count that cannot be made.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum CountError {
+    /// There is no such scene.
+    #[error("there is no scene `{0}`")]
+    Unknown(String),
+    /// A scene is wrong or has no solution.
+    #[error("{0}")]
+    Failed(String),
+    /// A program cannot be run, or says something else than expected.
+    #[error("{program}: {message}")]
+    Program {
+        /// The program.
+        program: &'static str,
+        /// What went wrong.
+        message: String,
+    },
+    /// A file cannot be read or written.
+    #[error("{path}: {message}")]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        message: String,
+    },
+}
+
+/// What is kept.
+#[derive(Debug, Default, Serialize, Deserialize, PartialEq, Eq)]
+struct Kept {
+    /// The compiler the counts were made with.
+    compiler: String,
+    /// Instructions by scene.
+    instructions: BTreeMap<String, u64>,
+}
+
+/// Counts all; whether none has grown or shrunk by more than allowed.
+pub(crate) fn count(root: &Path, update: bool) -> Result<bool, CountError> {
+    let version = |program: &'static str| {
+        let output = Command::new(program).arg("--version").output().ok()?;
+        Some(String::from_utf8_lossy(&output.stdout).trim().to_owned())
+    };
+    if version("valgrind").is_none() {
+        println!("valgrind is not installed: no instructions are counted");
+        return Ok(true);
+    }
+    let compiler = version("rustc").unwrap_or_default();
+    let mut instructions = BTreeMap::new();
+    for &name in COUNTED {
+        instructions.insert(name.to_owned(), instructions_of(name)?);
+    }
+    let path = root.join("benches/instructions.toml");
+    let fail =
+        |error: &dyn std::error::Error| CountError::File { path: path.clone(), message: error.to_string() };
+    let found = Kept { compiler, instructions };
+    if update {
+        let text = toml::to_string(&found).map_err(|error| fail(&error))?;
+        let heading =
+            "# Instructions of 50 steps of each scene; `cargo xtask count --update` writes this file.\n";
+        std::fs::write(&path, format!("{heading}{text}")).map_err(|error| fail(&error))?;
+        return Ok(true);
+    }
+    let text = std::fs::read_to_string(&path).map_err(|error| fail(&error))?;
+    let kept: Kept = toml::from_str(&text).map_err(|error| fail(&error))?;
+    let same = compare(&kept, &found);
+    if kept.compiler != found.compiler {
+        println!("counted with {}, kept with {}: nothing is concluded", found.compiler, kept.compiler);
+        return Ok(true);
+    }
+    Ok(same)
+}
+
+/// Prints the table; whether all counts are as kept.
+fn compare(kept: &Kept, found: &Kept) -> bool {
+    let mut same = true;
+    println!("| scene | instructions | kept | change |\n|---|---|---|---|");
+    for (name, &now) in &found.instructions {
+        let Some(&before) = kept.instructions.get(name) else {
+            println!("| `{name}` | {now} | – | new |");
+            same = false;
+            continue;
+        };
+        let change = now as f64 / before as f64 - 1.0;
+        let mark = if change.abs() > TOLERANCE { " (!)" } else { "" };
+        println!("| `{name}` | {now} | {before} | {:+.2} %{mark} |", 100.0 * change);
+        same &= change.abs() <= TOLERANCE;
+    }
+    if !same {
+        println!(
+            "counts differ by more than {:.0} %: if that is meant, run `cargo xtask count --update`",
+            100.0 * TOLERANCE
+        );
+    }
+    same
+}
+
+/// Instructions of the steps of a scene, from a run of this program under callgrind.
+fn instructions_of(name: &str) -> Result<u64, CountError> {
+    let fail = |message: String| CountError::Program { program: "valgrind", message };
+    let program = std::env::current_exe().map_err(|error| fail(error.to_string()))?;
+    let output = Command::new("valgrind")
+        .args(["--tool=callgrind", "--callgrind-out-file=/dev/null", "--toggle-collect=*counted_steps*"])
+        .arg(program)
+        .args(["steps", name])
+        .output()
+        .map_err(|error| fail(error.to_string()))?;
+    let told = String::from_utf8_lossy(&output.stderr);
+    if !output.status.success() {
+        return Err(fail(told.into_owned()));
+    }
+    collected(&told).ok_or_else(|| fail(format!("no count in: {told}")))
+}
+
+/// The number in callgrind's line `Collected : 123`.
+fn collected(told: &str) -> Option<u64> {
+    let line = told.lines().find(|line| line.contains("Collected"))?;
+    line.rsplit(':').next()?.trim().parse().ok()
+}
+
+/// Runs the steps that are counted.
+pub(crate) fn steps(name: &str) -> Result<(), CountError> {
+    let scene = scenes::scene(name).ok_or_else(|| CountError::Unknown(name.to_owned()))?;
+    let model = Model::from_text(&scene.name, &scene.text);
+    let failed = |report: lissom::Report| CountError::Failed(report.render(false));
+    let lowered = lower(&model.document(&[]).map_err(failed)?).map_err(failed)?;
+    let simulation = Simulation::new(lowered.system, lowered.state, lowered.settings);
+    let mut simulation = simulation.map_err(|error| CountError::Failed(error.to_string()))?;
+    let [before, counted] = STEPS;
+    for _ in 0..before {
+        simulation.step().map_err(|error| CountError::Failed(error.to_string()))?;
+    }
+    counted_steps(&mut simulation, counted)
+}
+
+/// What callgrind counts, found by its name.
+#[inline(never)]
+fn counted_steps(simulation: &mut Simulation, count: usize) -> Result<(), CountError> {
+    for _ in 0..count {
+        simulation.step().map_err(|error| CountError::Failed(error.to_string()))?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_count_is_read_from_what_callgrind_tells() {
+        let told = "==12== Callgrind\n==12== Events    : Ir\n==12== Collected : 4711\n==12== \n";
+        assert_eq!(collected(told), Some(4711));
+        assert_eq!(collected("nothing"), None);
+    }
+
+    #[test]
+    fn a_count_that_has_grown_is_seen() {
+        let kept = |count| Kept {
+            compiler: String::new(),
+            instructions: BTreeMap::from([("scene".to_owned(), count)]),
+        };
+        assert!(compare(&kept(1000), &kept(1019)));
+        assert!(!compare(&kept(1000), &kept(1021)));
+        assert!(!compare(&kept(1000), &kept(979)));
+        assert!(!compare(&Kept::default(), &kept(1)));
+    }
+
+    #[test]
+    fn every_counted_scene_takes_its_steps() {
+        for name in COUNTED {
+            steps(name).unwrap_or_else(|error| panic!("{name}: {error}"));
+        }
+    }
+}
