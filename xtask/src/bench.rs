@@ -41,7 +41,6 @@ pub(crate) enum BenchError {
 struct Measured {
     name: String,
     unknowns: usize,
-    bodies: usize,
     report: RunReport,
     /// Processor time of the steps [s].
     steps: f64,
@@ -97,8 +96,8 @@ pub(crate) fn bench(arguments: &BenchArguments) -> Result<(), BenchError> {
 }
 
 const HEADING: &str = "| scene | unknowns | steps | iterations per step | tangents | µs per step | \
-evaluation | linearisation | factorisation | solve | rest | output | start [s] | bytes per body | \
-fastest peer [µs] | ratio |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
+evaluation | linearisation | factorisation | solve | rest | output | start [s] | \
+fastest peer [µs] | ratio |\n|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|\n";
 
 fn fastest(scene: &Scene, overrides: &[Override], repeat: usize) -> Result<Measured, BenchError> {
     let mut best = run(scene, overrides)?;
@@ -132,7 +131,6 @@ fn run(scene: &Scene, overrides: &[Override]) -> Result<Measured, BenchError> {
     Ok(Measured {
         name: scene.name.clone(),
         unknowns: system.layout().size(),
-        bodies: system.layout().node_count() - 1,
         steps: share * report.solving.as_secs_f64(),
         report,
         bytes,
@@ -152,8 +150,21 @@ fn resident() -> Option<u64> {
     Some(4096 * pages)
 }
 
+/// Prints the bytes that a scene takes, ready to run. In a process of its own no memory is used again.
+pub(crate) fn print_bytes(name: &str) -> Result<(), BenchError> {
+    let measured = run(&find(name)?, &[("analysis.end".to_owned(), "1e-3".to_owned())])?;
+    println!("{}", measured.bytes.unwrap_or(0));
+    Ok(())
+}
+
+fn bytes_apart(name: &str) -> Option<u64> {
+    let program = std::env::current_exe().ok()?;
+    let output = std::process::Command::new(program).args(["bytes", name]).output().ok()?;
+    String::from_utf8_lossy(&output.stdout).trim().parse().ok().filter(|bytes| *bytes > 0)
+}
+
 fn line(measured: &Measured) -> String {
-    let Measured { name, unknowns, bodies, report, steps, bytes } = measured;
+    let Measured { name, unknowns, report, steps, .. } = measured;
     let totals = &report.totals;
     let count = totals.steps.max(1) as f64;
     let per_step = 1e6 * steps / count;
@@ -165,7 +176,7 @@ fn line(measured: &Measured) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "| `{name}` | {unknowns} | {} | {:.2} | {} | {} | {} | {} | {} | {} | {} | {} | {start:.3} | {} | {} | {} |",
+        "| `{name}` | {unknowns} | {} | {:.2} | {} | {} | {} | {} | {} | {} | {} | {} | {start:.3} | {} | {} |",
         totals.steps,
         totals.newton_iterations as f64 / count,
         totals.factorizations,
@@ -176,7 +187,6 @@ fn line(measured: &Measured) -> String {
         share(solve),
         share(rest),
         share(output),
-        bytes.map_or("–".to_owned(), |bytes| (bytes / *bodies as u64).to_string()),
         peer.as_ref().map_or("–".to_owned(), |peer| format!(
             "{} ({})",
             digits(peer.microseconds),
@@ -213,9 +223,9 @@ fn scale(folder: &Path) -> Result<(), BenchError> {
                 digits(each * size as f64),
                 digits(1e3 * each / iterations),
                 // Below a thousand, pages of memory are too coarse a measure.
-                measured
-                    .bytes
+                Some(&measured.name)
                     .filter(|_| size >= 1000)
+                    .and_then(|name| bytes_apart(name))
                     .map_or("–".to_owned(), |bytes| digits(1e-3 * bytes as f64 / size as f64)),
                 measured.report.seconds.start,
             );

@@ -45,6 +45,12 @@ enum Chore {
         /// The scene
         name: String,
     },
+    /// Print the bytes that a scene takes
+    #[command(hide = true)]
+    Bytes {
+        /// The scene
+        name: String,
+    },
     /// Run scenes without outputs and print where their time goes
     Bench(BenchArguments),
     /// Make the tables and figures of the book in docs/ anew
@@ -149,6 +155,7 @@ fn main() -> ExitCode {
         Chore::Count(arguments) => {
             count::count(&verify::root(), arguments.update).map_err(|error| error.to_string())
         }
+        Chore::Bytes { name } => bench::print_bytes(&name).map(|()| true).map_err(|error| error.to_string()),
         Chore::Steps { name } => count::steps(&name).map(|()| true).map_err(|error| error.to_string()),
         Chore::Bench(arguments) => bench::bench(&arguments).map(|()| true).map_err(|error| error.to_string()),
         Chore::Figures(arguments) => book::figures(&arguments).map_err(|error| error.to_string()),

@@ -9,6 +9,20 @@ use crate::scalar::{Scalar, array, array_mut};
 /// Columns of a panel that are read side by side.
 const COLUMNS: usize = 4;
 
+/// Factors of fewer bytes than this stay in the processor's own cache.
+const NEAR: usize = 1 << 20;
+/// Fronts between the one at work and the one whose factors are called for.
+const AHEAD: usize = 3;
+
+/// Reads one number of every cache line, so that the lines are there when they are needed: nothing waits for these
+/// reads, while the numbers of a front wait for one another.
+#[inline(always)]
+fn fetch<S: Scalar>(factors: &[S]) {
+    for line in factors.chunks(64 / size_of::<S>()) {
+        std::hint::black_box(line[0]);
+    }
+}
+
 /// Room for the pivots and for the boundary of any one front, padded.
 pub(super) struct FrontVectors<S> {
     pub(super) pivots: Vec<S>,
@@ -32,7 +46,13 @@ pub(super) fn solve<S: Scalar, const FUSED: bool>(
     x: &mut [S],
     vectors: &mut FrontVectors<S>,
 ) {
-    for front in &symbolic.fronts {
+    let far = factors.len() * size_of::<S>() > NEAR;
+    for (index, front) in symbolic.fronts.iter().enumerate() {
+        if far && let Some(next) = symbolic.fronts.get(index + AHEAD) {
+            let (square, lower, _) = pieces(next, factors);
+            fetch(square);
+            fetch(lower);
+        }
         let (square, lower, _) = pieces(front, factors);
         let pivots = &mut vectors.pivots[..front.square_stride()];
         let place = &mut x[front.first..front.first + front.pivots];
@@ -46,7 +66,12 @@ pub(super) fn solve<S: Scalar, const FUSED: bool>(
             x[row as usize] -= sum;
         }
     }
-    for front in symbolic.fronts.iter().rev() {
+    for (index, front) in symbolic.fronts.iter().enumerate().rev() {
+        if far && let Some(next) = index.checked_sub(AHEAD) {
+            let (square, _, upper) = pieces(&symbolic.fronts[next], factors);
+            fetch(square);
+            fetch(upper);
+        }
         let (square, _, upper) = pieces(front, factors);
         gather(symbolic, front, x, &mut vectors.boundary);
         let pivots = &mut vectors.pivots[..front.square_stride()];
