@@ -46,7 +46,7 @@ pub(super) fn solve<S: Scalar, const FUSED: bool>(
     x: &mut [S],
     vectors: &mut FrontVectors<S>,
 ) {
-    let far = factors.len() * size_of::<S>() > NEAR;
+    let far = size_of_val(factors) > NEAR;
     for (index, front) in symbolic.fronts.iter().enumerate() {
         if far && let Some(next) = symbolic.fronts.get(index + AHEAD) {
             let (square, lower, _) = pieces(next, factors);
