@@ -129,6 +129,8 @@ const STALLED_FRACTION: f64 = 1e-6;
 
 /// Corrections below this are round-off even where the solution is wanted exactly [-].
 const EXACT_ROUND_OFF: f64 = 1e-13;
+/// And larger ones than this are slow convergence [-].
+const EXACT_STALLED: f64 = 1e-11;
 /// Then smaller round-off than this is remembered [-].
 const EXACT_REMEMBERED: f64 = 1e-15;
 /// Where the solution is wanted exactly, so many new tangents are made for corrections that stall.
@@ -172,6 +174,10 @@ pub fn solve<E: Equations>(
                 halvings = 0;
                 memory.forget_tangent();
                 previous = Some(correction.size);
+            }
+            Verdict::Stalled if equations.is_wanted_exactly() && correction.size > EXACT_STALLED => {
+                memory.forget_tangent();
+                break;
             }
             Verdict::Stalled => {
                 if equations.is_wanted_exactly() {

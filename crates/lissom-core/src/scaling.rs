@@ -191,6 +191,16 @@ impl Scaled {
         unit(quantity, self.radian)
     }
 
+    /// Factor of the forces in the equations of motion.
+    pub(crate) fn dynamic_factor(&self) -> f64 {
+        self.dynamic
+    }
+
+    /// Factor p s of the augmented Lagrangian term.
+    pub(crate) fn augmented_factor(&self) -> f64 {
+        self.augmented
+    }
+
     /// From a scaled multiplier to λ [N, N m].
     pub fn multiplier_factor(&self) -> f64 {
         self.s / self.dynamic

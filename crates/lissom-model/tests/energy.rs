@@ -25,8 +25,7 @@ const SCALE: f64 = 1.0;
 
 #[test]
 fn energy_never_increases_for_any_step() {
-    // With longer steps Newton's iterations reach no solution after half a second.
-    for (step, end) in [("1e-4", "0.1"), ("1e-3", "2.0"), ("1e-2", "2.0"), ("3e-2", "0.5")] {
+    for (step, end) in [("1e-4", "0.1"), ("1e-3", "2.0"), ("1e-2", "2.0"), ("3e-2", "2.0"), ("0.1", "2.0")] {
         let (mut simulation, steps) = start(&[("analysis.step", step), ("analysis.end", end)]);
         let first = total(&simulation);
         let mut before = first;

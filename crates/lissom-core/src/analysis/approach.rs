@@ -16,6 +16,11 @@ pub(crate) trait Approachable: Equations {
     /// Makes these the equations of `share` of the step.
     fn set_share(&mut self, share: f64);
 
+    /// Goes over to a tangent that knows more, and says whether there is one.
+    fn couple(&mut self) -> bool {
+        false
+    }
+
     /// Keeps the present increments and multipliers as a solution.
     fn save(&mut self);
 
@@ -39,6 +44,15 @@ pub(crate) fn solve<E: Approachable>(
         Err(failure) => failure,
     };
     let mut total = Outcome::default();
+    if equations.couple() {
+        *memory = Memory::default();
+        equations.restart();
+        match newton::solve(equations, limits, memory) {
+            Ok(outcome) => return Ok(outcome),
+            Err(failure @ Failure::Factor(_)) => return Err(failure),
+            Err(_) => {}
+        }
+    }
     let mut solved = 0.0;
     let mut share = FIRST_SHARE;
     for _ in 0..MOST_ATTEMPTS {

@@ -9,7 +9,7 @@ use super::step_error::{StepError, pivot_hint};
 use super::{approach, equilibrium};
 use crate::newton::{self, Failure, Limits, Memory};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
-use crate::schemes::{Scheme, Tableau};
+use crate::schemes::{Coupling, Scheme, Tableau};
 use crate::system::{Augmentation, Chart, Kinematics, Linearization, MotionChange, Point, State, System};
 
 /// What a simulation is told besides system and state.
@@ -64,6 +64,9 @@ pub struct Totals {
     /// The multiplier whose pivot vanished because its constraint repeats others, so that all of them yield a little.
     pub yielded_at: Option<usize>,
 }
+
+/// A step without solution is halved at most so often.
+const MOST_DIVISIONS: usize = 5;
 
 /// Tolerance of schemes whose promise holds for the exact solution of their equations.
 const EXACT: f64 = 1e-12;
@@ -216,7 +219,7 @@ impl Simulation {
     /// Estimates the condition number of the tangent factored last, in the 1-norm, if it is still in use.
     pub(super) fn factored_condition(&mut self) -> Option<f64> {
         let pattern = &self.system.structure().pattern;
-        let value = self.memory.has_tangent.then(|| self.work.factorization.condition_estimate(pattern));
+        let value = self.memory.has_tangent.then(|| self.work.condition_estimate(pattern));
         value.map(|value| value.max(1.0))
     }
 
@@ -240,9 +243,7 @@ impl Simulation {
     pub fn step_watched(&mut self, watch: &mut dyn Stopwatch) -> Result<StepReport, StepError> {
         watch.begin(Phase::Rest);
         self.is_last_step_known = false;
-        let outcome = self.collocate(watch)?;
-        std::mem::swap(&mut self.state, &mut self.next);
-        self.is_last_step_known = true;
+        let outcome = self.advance(watch, MOST_DIVISIONS)?;
         let report = StepReport {
             iterations: outcome.iterations,
             factorizations: outcome.factorizations,
@@ -251,6 +252,42 @@ impl Simulation {
         };
         self.count(&report);
         Ok(report)
+    }
+
+    /// Takes a step, or both halves of one whose equations have no solution within reach. What a step of one of the
+    /// schemes without memory promises holds for its halves, and so for the whole.
+    fn advance(&mut self, watch: &mut dyn Stopwatch, divisions: usize) -> Result<newton::Outcome, StepError> {
+        let error = match self.collocate(watch) {
+            Ok(outcome) => {
+                std::mem::swap(&mut self.state, &mut self.next);
+                self.is_last_step_known = divisions == MOST_DIVISIONS;
+                return Ok(outcome);
+            }
+            Err(error) => error,
+        };
+        let has_memory = !matches!(self.settings.scheme.coupling, Coupling::Pair { .. });
+        let is_hopeless = !matches!(error, StepError::NotConverged { .. } | StepError::NotFinite { .. });
+        if has_memory || is_hopeless || divisions == 0 {
+            return Err(error);
+        }
+        self.totals.rejected_steps += 1;
+        let (start, whole) = (self.state.clone(), self.settings.step_size);
+        self.set_step_size(0.5 * whole);
+        let halves = self.advance(watch, divisions - 1).and_then(|first| {
+            let second = self.advance(watch, divisions - 1)?;
+            Ok(newton::Outcome {
+                iterations: first.iterations + second.iterations,
+                factorizations: first.factorizations + second.factorizations,
+                stagnated: first.stagnated || second.stagnated,
+                ..second
+            })
+        });
+        self.set_step_size(whole);
+        if halves.is_err() {
+            self.state = start;
+        }
+        // The first failure tells more than those of its parts.
+        halves.map_err(|_| error)
     }
 
     fn collocate(&mut self, watch: &mut dyn Stopwatch) -> Result<newton::Outcome, StepError> {
@@ -296,6 +333,9 @@ impl Simulation {
             projection
                 .apply(&self.system, &mut self.next)
                 .map_err(|error| StepError::Velocities { time: self.next.kinematics.time, error })?;
+        }
+        if work.end_step() {
+            self.memory = Memory::default();
         }
         Ok(outcome)
     }

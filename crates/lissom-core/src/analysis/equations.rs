@@ -5,16 +5,16 @@ use lissom_solver::{FactorError, FactorReport};
 
 use super::approach::Approachable;
 use super::compliance::Compliance;
+use super::coupled::{Coupled, FIRST_COUPLED};
 use super::factorization::Factorization;
 use super::guess::Guess;
 use super::phase::{Phase, Stopwatch};
-use crate::elements::passage::Passage;
 use crate::equilibration::Equilibration;
 use crate::joints::{Quantity, attached};
 use crate::newton::{Correction, Equations, Failure};
 use crate::scaling::{Representative, Scaled, StageIncrements, StageMotion, UnitStart};
-use crate::schemes::{Increments, Scheme, Tableau};
-use crate::system::{Chart, Course, Kinematics, LOCKED, Layout, Linearization, Point, State, System};
+use crate::schemes::{Coupling, Increments, Scheme};
+use crate::system::{Chart, Kinematics, LOCKED, Layout, Linearization, Point, State, System};
 
 /// Corrections of rotations larger than this are cut short [rad].
 const LARGEST_ROTATION: f64 = 1.0;
@@ -68,6 +68,13 @@ pub(crate) struct Workspace {
     pub(crate) force_round_off: f64,
     /// Where constraints repeat each other: what lets them yield, and the multiplier whose pivot vanished.
     pub(crate) yielding: Option<(Compliance, usize)>,
+    /// The tangent of both stages, once it was needed.
+    pub(super) coupled: Option<Box<Coupled>>,
+    /// For how many more steps it is used, and for how many it will be when it is needed again.
+    pub(super) coupled_steps: usize,
+    pub(super) coupled_next: usize,
+    /// The solver that factors.
+    pub(super) solver: &'static lissom_solver::SolverKind,
     pub(crate) linearization: Linearization,
     pub(crate) factorization: Factorization,
     /// Scaled size of one unit of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
@@ -75,7 +82,7 @@ pub(crate) struct Workspace {
     /// Of the tangent, if it is wanted.
     pub(crate) equilibration: Option<Equilibration>,
     /// Representative length [m].
-    length: f64,
+    pub(super) length: f64,
     pub(crate) report: Option<FactorReport>,
 }
 
@@ -85,7 +92,7 @@ impl Workspace {
         state: &State,
         scheme: &Scheme,
         representative: &Representative,
-        solver: &lissom_solver::SolverKind,
+        solver: &'static lissom_solver::SolverKind,
         equilibrated: bool,
     ) -> Self {
         let layout = system.layout();
@@ -112,6 +119,10 @@ impl Workspace {
             fell_back: None,
             force_round_off: 0.0,
             yielding: None,
+            coupled: None,
+            coupled_steps: 0,
+            coupled_next: FIRST_COUPLED,
+            solver,
             linearization: Linearization::new(system),
             factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
             sizes,
@@ -199,7 +210,7 @@ impl StepEquations<'_> {
         self.watch.begin(Phase::Rest);
     }
 
-    fn point(&self, stage: usize) -> Point<'_> {
+    pub(super) fn point(&self, stage: usize) -> Point<'_> {
         let work = &*self.work;
         let motion = &work.motions[stage];
         Point {
@@ -221,29 +232,6 @@ impl StepEquations<'_> {
             point.increments = joint_changes(&self.start.kinematics, end);
         }
         self.system.stage_violations(&point, out);
-    }
-
-    /// The step as those see it whose strains and violations are integrated.
-    fn course(&self, tableau: &Tableau) -> Option<Course<'_>> {
-        let work = &*self.work;
-        let [first, second, end] = &work.motions[..] else { return None };
-        let (durations, lasting) = self.scaled.durations(tableau);
-        let start = &self.start.kinematics;
-        Some(Course {
-            passage: Passage {
-                start,
-                stages: [&first.at, &second.at],
-                end: &end.at,
-                changes: &end.changes,
-                durations,
-                lasting,
-                length: work.length,
-            },
-            increments: [first, second, end].map(|motion| joint_changes(start, motion)),
-            multipliers: [&work.multipliers[0], &work.multipliers[1]],
-            violations: &self.start.violations,
-            augmentation: self.scaled.augmentation(),
-        })
     }
 
     /// Residuals of all stages, in SI.
@@ -302,12 +290,17 @@ impl StepEquations<'_> {
             Increments::Departure => Chart::Departures(&self.start.kinematics.nodes),
         };
         let mut point = self.point(last);
-        if self.work.correction > FAR {
+        if self.is_far() {
             point.stressed = &self.start.kinematics;
         }
         self.system.linearize(&point, chart, &mut linearization);
         self.work.node_increments = increments;
         self.work.linearization = linearization;
+    }
+
+    /// Whether the iterate is far from equilibrium.
+    pub(super) fn is_far(&self) -> bool {
+        self.work.correction > FAR
     }
 
     /// Increments of the nodes since the start of the step, straight motion included.
@@ -448,6 +441,15 @@ impl Equations for StepEquations<'_> {
                 compliance.relax(factor, multipliers, &mut residual[layout.multiplier_rows()]);
             }
         }
+        if work.coupled_steps > 0
+            && let Some(coupled) = &mut work.coupled
+        {
+            coupled.solve(&mut work.residuals);
+            self.watch.begin(Phase::Rest);
+            let correction = self.add_corrections();
+            self.update_motions();
+            return correction;
+        }
         let equilibrate = |residuals: &mut Vec<Vec<f64>>| {
             if let Some(equilibration) = &work.equilibration {
                 for residual in residuals.iter_mut() {
@@ -465,6 +467,13 @@ impl Equations for StepEquations<'_> {
     }
 
     fn renew_tangent(&mut self) -> Result<(), FactorError> {
+        if self.work.coupled_steps > 0
+            && let Some(mut coupled) = self.work.coupled.take()
+        {
+            let result = self.renew_coupled_tangent(&mut coupled);
+            self.work.coupled = Some(coupled);
+            return result;
+        }
         self.watch.begin(Phase::Linearisation);
         self.linearize();
         self.work.force_round_off = self.force_round_off();
@@ -524,6 +533,10 @@ impl Approachable for StepEquations<'_> {
         self.scaled.enter(self.system.layout(), self.start, &mut self.work.unit);
     }
 
+    fn couple(&mut self) -> bool {
+        matches!(self.scheme.coupling, Coupling::Pair { .. }) && self.work.begin_coupling(self.system)
+    }
+
     fn save(&mut self) {
         self.work.saved.clone_from(&self.work.increments);
     }
@@ -551,6 +564,6 @@ pub(crate) fn sizes(layout: &Layout, representative: &Representative) -> Vec<f64
 }
 
 /// What joints see of a stage.
-fn joint_changes<'a>(start: &'a Kinematics, motion: &'a StageMotion) -> attached::Increments<'a> {
+pub(super) fn joint_changes<'a>(start: &'a Kinematics, motion: &'a StageMotion) -> attached::Increments<'a> {
     attached::Increments { start, nodes: &motion.changes, coordinates: &motion.coordinate_changes }
 }

@@ -3,6 +3,8 @@
 mod approach;
 mod compliance;
 pub mod conditioning;
+mod coupled;
+mod coupled_joints;
 pub mod dynamics;
 mod equations;
 mod equilibrium;

@@ -6,9 +6,11 @@ use lissom_motion::{
     tangent_derivative_transpose_times, tangent_rate_times, tangent_times, tangent_transpose_times,
 };
 
-use super::MOST_UNKNOWNS;
+use super::beam::linearize::Linearization;
 use super::beam::{Beam, Relative, Station, combine};
 use super::passage::{Passage, STAGES, above_round_off, weigh};
+use super::{MOST_UNKNOWNS, Tangents};
+use crate::system::Kinematics;
 
 /// Changes of relative coordinates below this [rad, element lengths] lose digits in a difference; for these the
 /// formulas for small changes are good to round-off.
@@ -18,12 +20,12 @@ const SMALL: f64 = 1e-3;
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 /// A beam element at a stage.
-struct Visit<const N: usize> {
+pub(super) struct Visit<const N: usize> {
     relative: Relative<N>,
     /// W σ.
-    weighted: Relative<N>,
+    pub(super) weighted: Relative<N>,
     /// σ·W σ.
-    square: f64,
+    pub(super) square: f64,
     /// ḋ.
     rates: Relative<N>,
     /// Forces conjugate to d.
@@ -32,24 +34,93 @@ struct Visit<const N: usize> {
     work: f64,
 }
 
+/// Strains of a station at the stages, with what damping adds, and what their rates have missed.
+pub(super) struct Strains {
+    pub(super) stressing: [Vector6; STAGES],
+    pub(super) missed: Vector6,
+}
+
 impl<const N: usize> Beam<N> {
     /// Adds the forces at the stages of `passage`.
     pub(super) fn add_passage_forces(&self, passage: &Passage<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
-        let length = self.length();
-        let [from, to] = [passage.start, passage.end].map(|at| self.relative(at));
-        let mut visits = passage.stages.map(|at| {
-            let relative = self.relative(at);
-            let seen = self.relative_twists(at, &relative);
-            let weighted = seen.map(|twist| weigh(&twist, length));
-            Visit {
-                relative,
-                square: seen.iter().zip(&weighted).map(|(twist, weight)| twist.dot(weight)).sum(),
-                weighted,
-                rates: std::array::from_fn(|i| inverse_tangent_times(&relative[i], &seen[i])),
-                conjugate: [Vector6::zeros(); N],
-                work: 0.0,
+        let mut visits = passage.stages.map(|at| self.visit(at));
+        let inverse = self.integrate(passage, &mut visits, |visits, station, strains| {
+            for (visit, strain) in visits.iter_mut().zip(&strains.stressing) {
+                let stress = station.weight * (station.law.stiffness * strain);
+                visit.work += stress.dot(&strains.missed);
+                let d = combine(&station.shape, &visit.relative);
+                let d_slope = combine(&station.slope, &visit.relative);
+                let along = tangent_transpose_times(&d, &stress);
+                let across = tangent_derivative_transpose_times(&d, &d_slope, &stress);
+                for i in 0..N {
+                    visit.conjugate[i] += station.slope[i] * along + station.shape[i] * across;
+                }
             }
         });
+        for (visit, out) in visits.iter().zip(out) {
+            let forces: Relative<N> = std::array::from_fn(|i| {
+                if i == Self::REFERENCE {
+                    Vector6::zeros()
+                } else {
+                    inverse_tangent_transpose_times(&visit.relative[i], &visit.conjugate[i])
+                        + visit.work * inverse * visit.weighted[i]
+                }
+            });
+            let motions = visit.relative.map(|d| Motion::exponential(&d));
+            self.add_relative_forces(&motions, &forces, out);
+        }
+    }
+
+    /// Adds the derivatives of the forces at a stage, but those of the remainders.
+    pub(super) fn linearize_passage(
+        &self,
+        passage: &Passage<'_>,
+        stage: usize,
+        stressed: Option<&Kinematics>,
+        out: &mut Tangents,
+    ) {
+        let mut stresses = [Vector6::zeros(); N];
+        let mut index = 0;
+        let relative = stressed.map(|at| self.relative(at));
+        let mut visits = passage.stages.map(|at| self.visit(at));
+        self.integrate(passage, &mut visits, |_, station, strains| {
+            let strain = match &relative {
+                Some(relative) => {
+                    station.strain(&combine(&station.shape, relative), &combine(&station.slope, relative))
+                }
+                None => strains.stressing[stage],
+            };
+            stresses[index] = station.weight * (station.law.stiffness * strain);
+            index += 1;
+        });
+        let linearization = Linearization::of_stage(self, passage.stages[stage], |k| stresses[k]);
+        linearization.assemble(self, out);
+    }
+
+    pub(super) fn visit(&self, at: &Kinematics) -> Visit<N> {
+        let length = self.length();
+        let relative = self.relative(at);
+        let seen = self.relative_twists(at, &relative);
+        let weighted = seen.map(|twist| weigh(&twist, length));
+        Visit {
+            relative,
+            square: seen.iter().zip(&weighted).map(|(twist, weight)| twist.dot(weight)).sum(),
+            weighted,
+            rates: std::array::from_fn(|i| inverse_tangent_times(&relative[i], &seen[i])),
+            conjugate: [Vector6::zeros(); N],
+            work: 0.0,
+        }
+    }
+
+    /// Integrates the strains of every station and hands them to `each`. Gives 1/Q.
+    pub(super) fn integrate(
+        &self,
+        passage: &Passage<'_>,
+        visits: &mut [Visit<N>; STAGES],
+        mut each: impl FnMut(&mut [Visit<N>; STAGES], &Station<N>, &Strains),
+    ) -> f64 {
+        let length = self.length();
+        let [from, to] = [passage.start, passage.end].map(|at| self.relative(at));
         let (inverse, shares) = passage.shares([visits[0].square, visits[1].square]);
         let moved = self.coordinate_changes(passage, &from, &to);
         let round_off = 4.0 * f64::EPSILON * self.way(passage) / length;
@@ -73,30 +144,10 @@ impl<const N: usize> Beam<N> {
                 *rate += share * missed;
             }
             let strains = passage.at_stages(begin, rates);
-            for ((visit, strain), rate) in visits.iter_mut().zip(strains).zip(rates) {
-                let stress = station.weight * (station.law.stiffness * (strain + station.law.damping * rate));
-                visit.work += stress.dot(&missed);
-                let d = combine(&station.shape, &visit.relative);
-                let d_slope = combine(&station.slope, &visit.relative);
-                let along = tangent_transpose_times(&d, &stress);
-                let across = tangent_derivative_transpose_times(&d, &d_slope, &stress);
-                for i in 0..N {
-                    visit.conjugate[i] += station.slope[i] * along + station.shape[i] * across;
-                }
-            }
+            let stressing = std::array::from_fn(|i| strains[i] + station.law.damping * rates[i]);
+            each(visits, station, &Strains { stressing, missed });
         }
-        for (visit, out) in visits.iter().zip(out) {
-            let forces: Relative<N> = std::array::from_fn(|i| {
-                if i == Self::REFERENCE {
-                    Vector6::zeros()
-                } else {
-                    inverse_tangent_transpose_times(&visit.relative[i], &visit.conjugate[i])
-                        + visit.work * inverse * visit.weighted[i]
-                }
-            });
-            let motions = visit.relative.map(|d| Motion::exponential(&d));
-            self.add_relative_forces(&motions, &forces, out);
-        }
+        inverse
     }
 
     /// Changes of the relative coordinates over a passage without cancellation, or none where they are so large

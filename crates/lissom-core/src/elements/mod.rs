@@ -4,6 +4,7 @@
 //! derivatives. It knows no time step, no scheme and no scaling.
 
 pub mod beam;
+mod beam_integrated;
 pub mod beam_line;
 mod beam_passage;
 pub mod coordinate_spring;
@@ -19,7 +20,7 @@ use crate::joints::Quantity;
 use crate::registry::{Parameter, ParameterError, Parameters};
 use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
 use lissom_motion::Vector3;
-use passage::{Passage, STAGES};
+use passage::{Passage, STAGES, Variation};
 
 /// Most local unknowns an element may have: four nodes and two coordinates.
 pub const MOST_UNKNOWNS: usize = 26;
@@ -130,6 +131,31 @@ pub trait Element: Send + Sync + 'static {
     /// those of an iterate are no guide, see `Point::stressed`.
     fn linearize_stressed(&self, at: &Kinematics, _stressed: &Kinematics, out: &mut Tangents) {
         self.linearize(at, out);
+    }
+
+    /// Adds the derivatives of the forces at a stage of `passage` by places, twists and accelerations, integrated
+    /// strains being constant, with the stresses of another configuration in the geometric stiffness if there is
+    /// one. Default, for strains that the stages integrate exactly. Rare.
+    fn linearize_stage(
+        &self,
+        passage: &Passage<'_>,
+        stage: usize,
+        stressed: Option<&Kinematics>,
+        out: &mut Tangents,
+    ) {
+        let at = passage.stages[stage];
+        self.linearize_stressed(at, stressed.unwrap_or(at), out);
+    }
+
+    /// Adds the derivatives of the forces by integrated strains: `out[i][k]`, row-major over the local unknowns,
+    /// those at stage i by the unknowns of stage k, for nodes that vary as `variations` tell, by node. Default:
+    /// none.
+    fn linearize_integrated(
+        &self,
+        _passage: &Passage<'_>,
+        _variations: &[[Variation; STAGES]],
+        _out: &mut [[Vec<f64>; STAGES]; STAGES],
+    ) {
     }
 
     /// Kinetic, elastic and potential energy.

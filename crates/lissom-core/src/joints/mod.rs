@@ -8,7 +8,7 @@ pub mod attached;
 pub mod clamp;
 pub mod cylindrical;
 pub mod distance;
-mod passage;
+pub(crate) mod passage;
 pub mod prescribed;
 pub mod prescribed_displacement;
 pub mod prescribed_rotation;

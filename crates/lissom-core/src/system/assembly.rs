@@ -73,7 +73,7 @@ pub struct Linearization {
     pub gram: Vec<f64>,
     /// B and Bᵀ in the multipliers' rows and columns.
     pub constraint: Vec<f64>,
-    scratch: Tangents,
+    pub(super) scratch: Tangents,
 }
 
 impl Linearization {
@@ -102,7 +102,7 @@ impl Linearization {
         }
     }
 
-    fn clear(&mut self) {
+    pub(super) fn clear(&mut self) {
         for values in
             [&mut self.stiffness, &mut self.damping, &mut self.mass, &mut self.gram, &mut self.constraint]
         {
@@ -157,6 +157,11 @@ impl System {
             batch.linearize((point.at, point.stressed), chart, &mut scratch, out);
         }
         out.scratch = scratch;
+        self.linearize_constraints(point, chart, out);
+    }
+
+    /// Adds what constraints do.
+    pub(super) fn linearize_constraints(&self, point: &Point<'_>, chart: Chart<'_>, out: &mut Linearization) {
         for ((joint, rows), positions) in self.joints.iter().zip(&self.joint_rows).zip(&self.joint_positions)
         {
             let free = Local { equations: joint.equations(), size: rows.len() };

@@ -8,8 +8,11 @@ use lissom_solver::Pattern;
 use super::assembly::Linearization;
 use super::layout::{LOCKED, Layout};
 use super::state::{Kinematics, NodeMotion};
-use crate::elements::passage::{Passage, STAGES};
+use crate::elements::passage::{Passage, STAGES, Variation};
 use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
+
+/// Most nodes of an element.
+const MOST_NODES: usize = 4;
 
 /// All elements of one kind.
 pub(crate) struct Batch<E> {
@@ -39,6 +42,21 @@ pub(crate) trait AnyBatch: Send + Sync {
         out: &mut Linearization,
     );
     fn passage_forces(&self, passage: &Passage<'_>, out: &mut [Vec<f64>]);
+    fn linearize_stage(
+        &self,
+        passage: &Passage<'_>,
+        stage: usize,
+        stressed: Option<&Kinematics>,
+        scratch: &mut Tangents,
+        out: &mut Linearization,
+    );
+    fn linearize_integrated(
+        &self,
+        passage: &Passage<'_>,
+        variations: &[[Variation; STAGES]],
+        scratch: &mut [[Vec<f64>; STAGES]; STAGES],
+        add: &mut dyn FnMut(usize, usize, usize, f64),
+    );
     fn energy(&self, at: &Kinematics) -> Energy;
     fn as_any_mut(&mut self) -> &mut dyn Any;
 }
@@ -68,6 +86,16 @@ impl<E: Element> Batch<E> {
 
     pub(crate) fn push(&mut self, item: E) {
         self.items.push(item);
+    }
+
+    fn scatter_tangents(&self, item: usize, local: &Tangents, out: &mut Linearization) {
+        let positions = &self.positions[self.position_starts[item]..self.position_starts[item + 1]];
+        for (entry, &position) in positions.iter().enumerate().filter(|&(_, &position)| position != LOCKED) {
+            let position = position as usize;
+            out.stiffness[position] += local.stiffness[entry];
+            out.damping[position] += local.damping[entry];
+            out.mass[position] += local.mass[entry];
+        }
     }
 
     fn item_rows(&self, item: usize) -> &[u32] {
@@ -128,6 +156,51 @@ impl<E: Element> AnyBatch for Batch<E> {
         }
     }
 
+    fn linearize_stage(
+        &self,
+        passage: &Passage<'_>,
+        stage: usize,
+        stressed: Option<&Kinematics>,
+        scratch: &mut Tangents,
+        out: &mut Linearization,
+    ) {
+        for (index, item) in self.items.iter().enumerate() {
+            scratch.clear(self.item_rows(index).len());
+            item.linearize_stage(passage, stage, stressed, scratch);
+            self.scatter_tangents(index, scratch, out);
+        }
+    }
+
+    fn linearize_integrated(
+        &self,
+        passage: &Passage<'_>,
+        variations: &[[Variation; STAGES]],
+        scratch: &mut [[Vec<f64>; STAGES]; STAGES],
+        add: &mut dyn FnMut(usize, usize, usize, f64),
+    ) {
+        let none = [[Variation::none(); STAGES]; MOST_NODES];
+        for (index, item) in self.items.iter().enumerate() {
+            let size = self.item_rows(index).len();
+            for values in scratch.iter_mut().flatten() {
+                values.clear();
+                values.resize(size * size, 0.0);
+            }
+            let mut own = none;
+            for (own, &node) in own.iter_mut().zip(item.nodes()) {
+                *own = variations[node];
+            }
+            item.linearize_integrated(passage, &own[..item.nodes().len()], scratch);
+            let positions = &self.positions[self.position_starts[index]..self.position_starts[index + 1]];
+            for (stage, row) in scratch.iter().enumerate() {
+                for (other, values) in row.iter().enumerate() {
+                    for (&position, &value) in positions.iter().zip(values).filter(|&(&p, _)| p != LOCKED) {
+                        add(position as usize, stage, other, value);
+                    }
+                }
+            }
+        }
+    }
+
     fn linearize(
         &self,
         (at, stressed): (&Kinematics, &Kinematics),
@@ -153,15 +226,7 @@ impl<E: Element> AnyBatch for Batch<E> {
                     }
                 }
             }
-            let positions = &self.positions[self.position_starts[index]..self.position_starts[index + 1]];
-            for (entry, &position) in positions.iter().enumerate() {
-                if position != LOCKED {
-                    let position = position as usize;
-                    out.stiffness[position] += scratch.stiffness[entry];
-                    out.damping[position] += scratch.damping[entry];
-                    out.mass[position] += scratch.mass[entry];
-                }
-            }
+            self.scatter_tangents(index, scratch, out);
         }
     }
 

@@ -1,0 +1,162 @@
+//! Integrated violations in the tangent of both stages: with ċ_j = B_j V_j and the share σ_j of what is missed,
+//!
+//! ```text
+//! ∂c_i/∂D_k = Σ_j d_ij [N_jk + σ_j (∂c_end/∂D_k - Σ_l D_l N_lk)],   N_jk = B_j ∂V_j/∂D_k + V_jᵀ ∂B_jᵀ/∂h ∂h_j/∂D_k
+//! ```
+//!
+//! The share itself is taken as constant.
+
+use nalgebra::SMatrix;
+
+use super::coupled::{Coupled, STAGES};
+use crate::joints::attached::{AttachedJoint, Increments, LOCAL, LocalGradient};
+use crate::joints::passage::Visit;
+use crate::joints::{Equations, MOST_EQUATIONS};
+use crate::scaling::Scaled;
+use crate::schemes::Tableau;
+use crate::system::{Course, LOCKED, System};
+
+impl Coupled {
+    /// Adds the rows and columns of all constraints.
+    pub(super) fn add_constraints(
+        &mut self,
+        system: &System,
+        course: &Course<'_>,
+        tableau: &Tableau,
+        scaled: &Scaled,
+    ) {
+        let (joints, drives) = system.joint_positions.split_at(system.joints().len());
+        for (joint, positions) in system.joints().iter().zip(joints) {
+            let mut before = Equations::default();
+            let own = joint.first_multiplier..joint.first_multiplier + joint.equations();
+            before[..joint.equations()].copy_from_slice(&course.violations[own]);
+            let visits = joint.visits(&course.passage, &course.increments, &before);
+            let derivatives = self.violation_derivatives(joint, course, &visits, tableau);
+            self.add_joint(joint, positions, course, &visits, &derivatives, scaled);
+        }
+        for (drive, positions) in system.drives().iter().zip(drives) {
+            let row = system.layout().coordinate_count() + drive.multiplier;
+            let weight = course.augmentation.relative(system.layout().quantities()[row]);
+            for stage in 0..STAGES {
+                self.add(positions[0], stage, stage, scaled.augmented_factor() * weight);
+                self.add(positions[1], stage, stage, scaled.scale());
+                self.add(positions[2], stage, stage, scaled.scale());
+            }
+        }
+    }
+
+    /// Columns of both frames and of the own coordinates times what `part` takes of the nodes' transports.
+    fn through(
+        &self,
+        joint: &AttachedJoint,
+        rows: &LocalGradient,
+        part: impl Fn(&super::coupled::Transport) -> lissom_motion::Matrix6,
+        stage: usize,
+    ) -> LocalGradient {
+        let mut result = LocalGradient::zeros();
+        for (side, frame) in joint.frames.iter().enumerate() {
+            let columns = rows.fixed_columns::<6>(6 * side) * part(&self.transports[frame.node][stage]);
+            result.fixed_columns_mut::<6>(6 * side).copy_from(&columns);
+        }
+        let plain = part(&self.transports[self.transports.len() - 1][stage])[(0, 0)];
+        for k in 12..LOCAL {
+            result.set_column(k, &(plain * rows.column(k)));
+        }
+        result
+    }
+
+    /// ∂c_i/∂D_k.
+    fn violation_derivatives(
+        &self,
+        joint: &AttachedJoint,
+        course: &Course<'_>,
+        visits: &[Visit; STAGES],
+        tableau: &Tableau,
+    ) -> [[LocalGradient; STAGES]; STAGES] {
+        let passage = &course.passage;
+        let rates: [[LocalGradient; STAGES]; STAGES] = std::array::from_fn(|j| {
+            let bending = bending(joint, &course.increments[j], passage.stages[j]);
+            std::array::from_fn(|k| {
+                let mut rate = self.through(joint, &visits[j].plain, |node| node.rate[k], j);
+                if j == k {
+                    rate += self.through(joint, &bending, |node| node.place, j);
+                }
+                rate
+            })
+        });
+        let end = joint.gradient_at(&joint.configuration(&course.increments[STAGES]));
+        let at_end = self.through(joint, &end, |node| node.place, STAGES - 1);
+        std::array::from_fn(|i| {
+            let durations = passage.durations[i];
+            let share = durations[0] * visits[0].share + durations[1] * visits[1].share;
+            std::array::from_fn(|k| {
+                let by_rates = [rates[0][k], rates[1][k]];
+                let missed = tableau.reached[k] * at_end - passage.whole(by_rates);
+                by_rates[0] * durations[0] + by_rates[1] * durations[1] + share * missed
+            })
+        })
+    }
+
+    fn add_joint(
+        &mut self,
+        joint: &AttachedJoint,
+        positions: &[u32],
+        course: &Course<'_>,
+        visits: &[Visit; STAGES],
+        derivatives: &[[LocalGradient; STAGES]; STAGES],
+        scaled: &Scaled,
+    ) {
+        let unknowns = 12 + joint.coordinates.len();
+        let size = unknowns + joint.equations();
+        for stage in 0..STAGES {
+            let rows = &visits[stage].rows;
+            let mut weighted = *rows;
+            for k in 0..joint.equations() {
+                let relative = course.augmentation.relative(joint.joint().equation_quantity(k));
+                weighted.row_mut(k).scale_mut(scaled.augmented_factor() * relative);
+            }
+            for (other, derivative) in derivatives[stage].iter().enumerate() {
+                let augmented: SMatrix<f64, LOCAL, LOCAL> = weighted.tr_mul(derivative);
+                for i in 0..unknowns {
+                    for j in 0..unknowns {
+                        self.add(positions[i * size + j], stage, other, augmented[(i, j)]);
+                    }
+                    for e in 0..joint.equations() {
+                        let position = positions[(unknowns + e) * size + i];
+                        self.add(position, stage, other, scaled.scale() * derivative[(e, i)]);
+                    }
+                }
+            }
+            for i in 0..unknowns {
+                for e in 0..joint.equations() {
+                    let position = positions[i * size + unknowns + e];
+                    self.add(position, stage, stage, scaled.scale() * rows[(e, i)]);
+                }
+            }
+        }
+    }
+
+    fn add(&mut self, position: u32, stage: usize, other: usize, value: f64) {
+        if position != LOCKED {
+            self.values[self.places[position as usize][stage][other]] += value;
+        }
+    }
+}
+
+/// Vᵀ ∂Bᵀ/∂h: how the rates of the violations change with the place at constant velocities.
+fn bending(
+    joint: &AttachedJoint,
+    increments: &Increments<'_>,
+    at: &crate::system::Kinematics,
+) -> LocalGradient {
+    let configuration = joint.configuration(increments);
+    let speeds = joint.speeds(at);
+    let mut rows = LocalGradient::zeros();
+    for equation in 0..joint.equations().min(MOST_EQUATIONS) {
+        let mut mu = Equations::default();
+        mu[equation] = 1.0;
+        let (_, curvature) = joint.linearize(&configuration, &mu);
+        rows.set_row(equation, &curvature.tr_mul(&speeds).transpose());
+    }
+    rows
+}
