@@ -272,8 +272,20 @@ impl<const N: usize> Element for Beam<N> {
         let rates = self.rates(at, &relative);
         let mut conjugate = [Vector6::zeros(); N];
         for station in &self.stations {
-            let d = combine(&station.shape, &relative);
             let d_slope = combine(&station.slope, &relative);
+            if N == 2 {
+                // With one relative coordinate d and d' are parallel and T d' = d', whatever d.
+                let mut strain = d_slope - station.natural;
+                if let Some(rates) = &rates {
+                    strain += station.law.damping * combine(&station.slope, rates);
+                }
+                let stress = station.weight * (station.law.stiffness * strain);
+                for i in 0..N {
+                    conjugate[i] += station.slope[i] * stress;
+                }
+                continue;
+            }
+            let d = combine(&station.shape, &relative);
             // Hot: the operator's coefficients serve strain and forces.
             let operator = ScrewTangent::new(&d);
             let mut strain = operator.times(&d_slope) - station.natural;

@@ -119,6 +119,9 @@ impl MotionChange {
     /// The same change of a frame carried at `offset`: O⁻¹ (E, p) O.
     #[must_use]
     pub fn carried_at(&self, offset: &Motion) -> Self {
+        if offset.rotation == Rotation::IDENTITY {
+            return Self { turn: self.turn, shift: self.shift + self.turn * offset.position };
+        }
         let axes = offset.rotation.matrix();
         Self {
             turn: axes.tr_mul(&(self.turn * axes)),
