@@ -67,6 +67,7 @@ fn a_step_allocates_nothing() {
             scaling: ScalingChoice::default(),
             limits: Limits::default(),
             solver: lissom_solver::kind("sparse").expect("registered"),
+            threads: 1,
             from_equilibrium: false,
         };
         let mut simulation = Simulation::new(system, state, settings).expect("consistent");

@@ -24,6 +24,7 @@ fn simulation((system, state): (System, State), scheme: Scheme, step_size: f64) 
         scaling: ScalingChoice::default(),
         limits: Limits { tolerance: 1e-10, max_iterations: 25 },
         solver: lissom_solver::kind("sparse").expect("registered"),
+        threads: 1,
         from_equilibrium: false,
     };
     Simulation::new(system, state, settings).expect("consistent")

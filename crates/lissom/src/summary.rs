@@ -46,6 +46,7 @@ pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered
         }),
     );
     tell("solver", json!(settings.solver.name));
+    tell("threads", json!(settings.threads));
     tell("tolerance", json!(settings.limits.tolerance));
     tell("bodies", json!(document.bodies.len() + document.point_masses.len()));
     tell("beams", json!(document.beams.len()));

@@ -10,7 +10,9 @@ use super::{approach, equilibrium};
 use crate::newton::{self, Failure, Limits, Memory};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Coupling, Scheme, Tableau};
-use crate::system::{Augmentation, Chart, Kinematics, Linearization, MotionChange, Point, State, System};
+use crate::system::{
+    Augmentation, Chart, Kinematics, Lanes, Linearization, MotionChange, Point, State, System,
+};
 
 /// What a simulation is told besides system and state.
 #[derive(Clone)]
@@ -25,6 +27,8 @@ pub struct Settings {
     pub limits: Limits,
     /// Linear solver.
     pub solver: &'static SolverKind,
+    /// Threads that evaluate elements and joints of a large system. Results do not depend on it.
+    pub threads: usize,
     /// Whether a motion starts from the static equilibrium under the loads of the first instant.
     pub from_equilibrium: bool,
 }
@@ -119,6 +123,7 @@ impl Simulation {
         let equilibrated = settings.scaling.equilibrates();
         let mut work =
             Workspace::new(&system, &state, &settings.scheme, &representative, settings.solver, equilibrated);
+        work.lanes = Lanes::new(&system, settings.threads);
         work.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
         let projection = settings
             .scheme

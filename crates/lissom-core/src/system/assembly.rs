@@ -8,7 +8,8 @@
 
 use nalgebra::SMatrix;
 
-use super::batch::{Chart, through_chart};
+use super::batch::{Chart, scatter, through_chart};
+use super::lanes::Lanes;
 use super::layout::LOCKED;
 use super::state::{Kinematics, MotionChange};
 use super::{Drive, System};
@@ -120,8 +121,35 @@ impl System {
             batch.forces(point.at, out);
         }
         for (joint, rows) in self.joints.iter().zip(&self.joint_rows) {
-            joint_residual(joint, rows, point, out);
+            let mut local = [0.0; LOCAL + MOST_EQUATIONS];
+            let local = &mut local[..rows.len()];
+            joint_residual(joint, point, local);
+            add_joint(joint, rows, local, out);
         }
+        self.add_drives(point, out);
+    }
+
+    /// The same on several threads, to the last bit.
+    pub(crate) fn residual_side_by_side(&self, point: &Point<'_>, lanes: &mut Lanes, out: &mut [f64]) {
+        out.fill(0.0);
+        for batch in &self.batches {
+            batch.forces_side_by_side(point.at, lanes, out);
+        }
+        let starts = &self.joint_starts;
+        let locals = lanes.side_by_side(starts, &|joints, locals| {
+            let first = starts[joints.start];
+            for joint in joints {
+                let own = starts[joint] - first..starts[joint + 1] - first;
+                joint_residual(&self.joints[joint], point, &mut locals[own]);
+            }
+        });
+        for (index, (joint, rows)) in self.joints.iter().zip(&self.joint_rows).enumerate() {
+            add_joint(joint, rows, &locals[starts[index]..starts[index + 1]], out);
+        }
+        self.add_drives(point, out);
+    }
+
+    fn add_drives(&self, point: &Point<'_>, out: &mut [f64]) {
         for (drive, rows) in self.drives.iter().zip(&self.joint_rows[self.joints.len()..]) {
             let violation = drive_violation(drive, point);
             out[rows[1] as usize] = violation;
@@ -227,17 +255,20 @@ fn joint_multipliers(
     (violation, mu)
 }
 
-fn joint_residual(joint: &AttachedJoint, rows: &[u32], point: &Point<'_>, out: &mut [f64]) {
+/// Forces of a joint on its unknowns, then its violations.
+fn joint_residual(joint: &AttachedJoint, point: &Point<'_>, local: &mut [f64]) {
     let configuration = joint.configuration(&point.increments);
     let (violation, mu) = joint_multipliers(joint, &configuration, point);
     let forces = joint.forces(&configuration, &mu);
+    let (own, equations) = local.split_at_mut(local.len() - joint.equations());
+    own.copy_from_slice(&forces.as_slice()[..own.len()]);
+    equations.copy_from_slice(&violation[..equations.len()]);
+}
+
+fn add_joint(joint: &AttachedJoint, rows: &[u32], local: &[f64], out: &mut [f64]) {
     let unknowns = rows.len() - joint.equations();
-    for (&row, force) in rows[..unknowns].iter().zip(forces.iter()) {
-        if row != LOCKED {
-            out[row as usize] += force;
-        }
-    }
-    for (&row, value) in rows[unknowns..].iter().zip(violation) {
+    scatter(&rows[..unknowns], local, out);
+    for (&row, &value) in rows[unknowns..].iter().zip(&local[unknowns..]) {
         out[row as usize] = value;
     }
 }

@@ -6,6 +6,7 @@ use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 use lissom_solver::Pattern;
 
 use super::assembly::Linearization;
+use super::lanes::Lanes;
 use super::layout::{LOCKED, Layout};
 use super::state::{Kinematics, NodeMotion};
 use crate::elements::passage::{Passage, STAGES, Variation};
@@ -33,7 +34,11 @@ pub(crate) trait AnyBatch: Send + Sync {
     fn locate(&mut self, pattern: &Pattern);
     /// Free rows of each item.
     fn cliques(&self) -> Vec<Vec<usize>>;
+    /// Where each item's local unknowns begin, and where the last one's end.
+    fn starts(&self) -> &[usize];
     fn forces(&self, at: &Kinematics, out: &mut [f64]);
+    /// The same on several threads.
+    fn forces_side_by_side(&self, at: &Kinematics, lanes: &mut Lanes, out: &mut [f64]);
     fn linearize(
         &self,
         at_stressed: (&Kinematics, &Kinematics),
@@ -134,6 +139,21 @@ impl<E: Element> AnyBatch for Batch<E> {
 
     fn cliques(&self) -> Vec<Vec<usize>> {
         (0..self.items.len()).map(|item| free_rows(self.item_rows(item))).collect()
+    }
+
+    fn starts(&self) -> &[usize] {
+        &self.starts
+    }
+
+    fn forces_side_by_side(&self, at: &Kinematics, lanes: &mut Lanes, out: &mut [f64]) {
+        let locals = lanes.side_by_side(&self.starts, &|items, locals| {
+            let first = self.starts[items.start];
+            for item in items {
+                let own = self.starts[item] - first..self.starts[item + 1] - first;
+                self.items[item].forces(at, &mut locals[own]);
+            }
+        });
+        scatter(&self.rows, locals, out);
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
@@ -244,7 +264,7 @@ impl<E: Element> AnyBatch for Batch<E> {
 }
 
 /// Adds local values to the rows that are free.
-fn scatter(rows: &[u32], local: &[f64], out: &mut [f64]) {
+pub(super) fn scatter(rows: &[u32], local: &[f64], out: &mut [f64]) {
     for (&row, value) in rows.iter().zip(local) {
         if row != LOCKED {
             out[row as usize] += value;

@@ -285,6 +285,7 @@ impl Builder {
         let joint_positions = joint_rows.iter().map(|rows| positions_of(&pattern, rows)).collect();
         let structure = Structure::new(pattern, self.groups(&layout))
             .map_err(|error| BuildError::Structure(error.to_string()))?;
+        let joint_starts = starts(joint_rows[..self.joints.len()].iter().map(Vec::len));
         let state = self.initial_state(&layout, time);
         let element_count = self.batches.iter().map(|batch| batch.len()).sum();
         let system = System {
@@ -295,6 +296,7 @@ impl Builder {
             drives: self.drives,
             structure,
             joint_positions,
+            joint_starts,
             joint_rows,
             inertias,
             gravity: self.gravity,
@@ -411,6 +413,15 @@ impl Builder {
     pub fn ground(&self) -> NodeId {
         GROUND
     }
+}
+
+/// Where each of several lengths begins when they are laid in a row, and where the last one ends.
+fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
+    let ends = lengths.scan(0, |end, length| {
+        *end += length;
+        Some(*end)
+    });
+    std::iter::once(0).chain(ends).collect()
 }
 
 /// Direction of the joint frames at the start.

@@ -3,6 +3,7 @@
 mod assembly;
 mod batch;
 mod builder;
+mod lanes;
 mod layout;
 mod passage;
 pub(crate) mod state;
@@ -12,6 +13,8 @@ use std::sync::Arc;
 pub use assembly::{Augmentation, Linearization, Point};
 pub use batch::Chart;
 pub use builder::{BuildError, Builder, Placement};
+pub(crate) use lanes::Lanes;
+pub use lanes::WORTH_WHILE;
 pub use layout::{Freedoms, LOCKED, Layout};
 pub use passage::Course;
 pub use state::{CoordinateId, CoordinateMotion, Kinematics, MotionChange, NodeId, NodeMotion, State};
@@ -50,6 +53,8 @@ pub struct System {
     /// Positions of every joint's local matrix in the pattern, then of every drive's.
     pub(crate) joint_positions: Vec<Vec<u32>>,
     pub(crate) joint_rows: Vec<Vec<u32>>,
+    /// Where each joint's local unknowns and equations begin, all joints in a row.
+    pub(crate) joint_starts: Vec<usize>,
     pub(crate) inertias: Vec<Inertia>,
     pub(crate) gravity: Vector3,
     pub(crate) body_count: usize,

@@ -52,6 +52,7 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
         },
         limits: Limits { tolerance: analysis.tolerance, max_iterations: analysis.max_iterations },
         solver,
+        threads: 1,
         from_equilibrium,
     };
     let plan = Plan {

@@ -1,6 +1,7 @@
 //! `lissom run`: simulates a model and leaves its results in a folder.
 
 use std::fmt::Write;
+use std::num::NonZero;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
@@ -40,6 +41,11 @@ pub(super) struct Run {
     /// Draw no plots.
     #[arg(long)]
     no_plots: bool,
+
+    /// Threads for models of hundreds of elements or joints; results do not depend on their number [default: all
+    /// processors].
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZero<usize>>,
 }
 
 impl Run {
@@ -49,7 +55,9 @@ impl Run {
         if !self.quiet {
             show_warnings(&document);
         }
-        let lowered = lower(&document)?;
+        let mut lowered = lower(&document)?;
+        let processors = || std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
+        lowered.settings.threads = self.threads.unwrap_or_else(processors).get();
         let folder = ResultFolder::create(&self.folder()).map_err(unwritable)?;
         let mut history = folder.history().map_err(unwritable)?;
         let mut summary = summary::of_model(model.name(), &self.model.set, &document, &lowered);

@@ -1,0 +1,61 @@
+//! Evaluation on several threads: elements and joints compute their local forces side by side, then these are added
+//! up in the order in which one thread would. So results do not depend on the number of threads, not by a bit.
+
+use std::ops::Range;
+
+use super::System;
+
+/// With fewer elements or joints than this another thread takes longer to wake than to help.
+pub const WORTH_WHILE: usize = 400;
+
+/// Room for local forces, and how many threads share the work. Waking them allocates a little.
+#[derive(Clone, Debug)]
+pub(crate) struct Lanes {
+    threads: usize,
+    locals: Vec<f64>,
+}
+
+impl Lanes {
+    /// None where one thread is all there is, or enough.
+    pub(crate) fn new(system: &System, threads: usize) -> Option<Self> {
+        let parts = system.batches.iter().map(|batch| batch.len()).chain([system.joints.len()]);
+        if threads < 2 || parts.max().unwrap_or(0) < WORTH_WHILE {
+            return None;
+        }
+        let batches = system.batches.iter().map(|batch| batch.starts());
+        let longest =
+            batches.chain([&system.joint_starts[..]]).filter_map(|starts| starts.last().copied()).max();
+        Some(Self { threads, locals: vec![0.0; longest.unwrap_or(0)] })
+    }
+
+    /// Calls `work` with portions of the parts and the numbers that belong to them, all zero, side by side; gives
+    /// all numbers. Those of part `k` begin at `starts[k]`.
+    pub(crate) fn side_by_side(
+        &mut self,
+        starts: &[usize],
+        work: &(impl Fn(Range<usize>, &mut [f64]) + Sync),
+    ) -> &[f64] {
+        let parts = starts.len() - 1;
+        let lanes = if parts < WORTH_WHILE { 1 } else { self.threads };
+        let numbers = &mut self.locals[..starts[parts]];
+        let run = |range: Range<usize>, own: &mut [f64]| {
+            own.fill(0.0);
+            work(range, own);
+        };
+        rayon::in_place_scope(|scope| {
+            let (mut rest, mut from) = (&mut *numbers, 0);
+            for lane in 1..=lanes {
+                let to = parts * lane / lanes;
+                let (own, further) = rest.split_at_mut(starts[to] - starts[from]);
+                (rest, from) = (further, to);
+                let range = parts * (lane - 1) / lanes..to;
+                if lane == lanes {
+                    run(range, own);
+                } else {
+                    scope.spawn(move |_| run(range, own));
+                }
+            }
+        });
+        numbers
+    }
+}
