@@ -104,7 +104,7 @@ pub enum Failure {
 }
 
 /// A tangent is renewed when it would need more iterations than this: about what a new one costs.
-const PATIENCE: f64 = 8.0;
+const PATIENCE: f64 = 6.0;
 /// A contraction that has not been seen for a solution is trusted this much less.
 const DISTRUST: f64 = 3.0;
 /// The best contraction that is remembered: a last correction that happens to vanish says nothing about the
