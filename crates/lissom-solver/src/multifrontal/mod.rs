@@ -49,14 +49,9 @@ impl<S: Scalar> Multifrontal<S> {
     pub fn new(structure: &Structure) -> Self {
         let symbolic = Symbolic::new(structure, 2);
         let pattern = Arc::clone(&structure.pattern);
-        let on_diagonal = |&unknown: &u32| {
-            let unknown = unknown as usize;
-            pattern.position(unknown, unknown).expect("the diagonal is in the pattern") as u32
-        };
-        let diagonal = symbolic.unknowns.iter().map(on_diagonal).collect();
         Multifrontal {
             processor: pulp::Arch::new(),
-            numeric: Numeric::new(&symbolic, diagonal),
+            numeric: Numeric::new::<false>(&symbolic, &pattern),
             vector: vec![S::zero(); symbolic.unknowns.len()],
             front_vectors: FrontVectors::new(&symbolic),
             symbolic,
@@ -84,7 +79,7 @@ impl<S: Scalar> LinearSolver<S> for Multifrontal<S> {
 
     fn factor(&mut self, values: &[S]) -> Result<FactorReport, FactorError> {
         assert_eq!(values.len(), self.pattern.entries(), "one value for each entry of the pattern");
-        self.processor.dispatch(Factor {
+        self.processor.dispatch(Factor::<_, false> {
             pattern: &self.pattern,
             symbolic: &self.symbolic,
             numeric: &mut self.numeric,
@@ -105,24 +100,26 @@ impl<S: Scalar> LinearSolver<S> for Multifrontal<S> {
     }
 }
 
-struct Factor<'a, S> {
+/// LU, or LDLᵀ.
+struct Factor<'a, S, const SYMMETRIC: bool> {
     pattern: &'a Pattern,
     symbolic: &'a Symbolic,
     numeric: &'a mut Numeric<S>,
     values: &'a [S],
 }
 
-impl<S: Scalar> Factor<'_, S> {
+impl<S: Scalar, const SYMMETRIC: bool> Factor<'_, S, SYMMETRIC> {
     #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
     #[inline(always)]
     fn run<const FUSED: bool, const ROWS: usize>(self) -> Result<FactorReport, FactorError> {
         let largest = largest_entry(self.pattern, self.values)?;
-        let (monitor, largest_upper) = self.numeric.factor::<FUSED, ROWS>(self.symbolic, self.values)?;
+        let (monitor, largest_upper) =
+            self.numeric.factor::<FUSED, ROWS, SYMMETRIC>(self.symbolic, self.values)?;
         Ok(monitor.report(largest_upper, largest))
     }
 }
 
-impl<S: Scalar> pulp::WithSimd for Factor<'_, S> {
+impl<S: Scalar, const SYMMETRIC: bool> pulp::WithSimd for Factor<'_, S, SYMMETRIC> {
     type Output = Result<FactorReport, FactorError>;
 
     #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
