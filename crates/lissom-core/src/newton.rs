@@ -132,7 +132,7 @@ const EXACT_ROUND_OFF: f64 = 1e-13;
 /// And larger ones than this are slow convergence [-].
 const EXACT_STALLED: f64 = 1e-11;
 /// Then smaller round-off than this is remembered [-].
-const EXACT_REMEMBERED: f64 = 1e-15;
+const EXACT_REMEMBERED: f64 = 1e-17;
 /// Where the solution is wanted exactly, so many new tangents are made for corrections that stall.
 const MOST_STALLS: usize = 2;
 
