@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use super::System;
 
-/// With fewer elements or joints than this another thread takes longer to wake than to help.
-pub const WORTH_WHILE: usize = 400;
+/// With fewer elements or joints than this another thread takes about as long to wake as it helps.
+pub const WORTH_WHILE: usize = 4000;
 
 /// Room for local forces, and how many threads share the work. Waking them allocates a little.
 #[derive(Clone, Debug)]

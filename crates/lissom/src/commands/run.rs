@@ -42,7 +42,7 @@ pub(super) struct Run {
     #[arg(long)]
     no_plots: bool,
 
-    /// Threads for models of hundreds of elements or joints; results do not depend on their number [default: all
+    /// Threads for models of thousands of elements or joints; results do not depend on their number [default: all
     /// processors].
     #[arg(long, value_name = "N")]
     threads: Option<NonZero<usize>>,
