@@ -311,3 +311,17 @@ fn one_step_of_any_size_is_solved_to_round_off() {
         }
     }
 }
+
+#[test]
+fn one_step_of_a_tenth_of_a_second_is_solved() {
+    for model in ["pendulum", "top", "tip-crank"] {
+        let step = |path: &str| (path.to_owned(), "0.1".to_owned());
+        let mut overrides = vec![step("analysis.step"), step("analysis.end")];
+        overrides.push(("analysis.tolerance".to_owned(), "1e-13".to_owned()));
+        let mut session = example(model).session(&overrides).unwrap();
+        let (_, report) = session.record();
+        assert!(report.is_complete(), "{model}: {:?}", report.error());
+        assert_eq!((report.totals.steps, report.totals.rejected_steps), (1, 0), "{model}");
+        assert!(report.violation < 1e-14, "{model}: {:e}", report.violation);
+    }
+}
