@@ -9,6 +9,9 @@ use crate::system::{Augmentation, Chart, Linearization, MotionChange, Point, Sta
 /// Entries below this part of a row's largest count as round-off.
 const ROUND_OFF: f64 = 1e-9;
 
+/// A pivot is at least this part of its row's largest entry.
+const LARGE_ENOUGH: f64 = 0.1;
+
 /// Count of freedoms.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Mobility {
@@ -39,8 +42,10 @@ pub struct Redundant {
 struct Reduced {
     pivot: usize,
     entries: BTreeMap<usize, f64>,
-    /// Joints whose rows went into it.
-    joints: BTreeSet<String>,
+    /// Its multiplier.
+    multiplier: usize,
+    /// Earlier reduced rows that went into it.
+    used: Vec<usize>,
 }
 
 /// Freedoms and redundant constraints of `system` at `state`.
@@ -53,18 +58,25 @@ pub fn mobility(system: &System, state: &State) -> Mobility {
     };
     let mut reduced: Vec<Reduced> = Vec::new();
     let mut by_pivot: BTreeMap<usize, usize> = BTreeMap::new();
+    // Columns of nodes come before those of joints' own coordinates.
+    let of_nodes = result.coordinates - layout.coordinate_rows.len();
     for (k, row) in rows(system, state).into_iter().enumerate() {
-        let (joint, equation) = layout.constraint_name(k);
-        match eliminate(row, joint, &reduced, &by_pivot) {
+        match eliminate(row, k, &reduced, &by_pivot, of_nodes) {
             Ok(row) => {
                 by_pivot.insert(row.pivot, reduced.len());
                 reduced.push(row);
             }
-            Err(joints) => result.redundant.push(Redundant {
-                joint: joint.to_owned(),
-                equation,
-                among: joints.into_iter().filter(|name| name != joint).collect(),
-            }),
+            Err(used) => {
+                let (joint, equation) = layout.constraint_name(k);
+                let names = origins(used, &reduced).into_iter().map(|k| layout.constraint_name(k).0);
+                let among: BTreeSet<String> =
+                    names.filter(|&name| name != joint).map(str::to_owned).collect();
+                result.redundant.push(Redundant {
+                    joint: joint.to_owned(),
+                    equation,
+                    among: among.into_iter().collect(),
+                });
+            }
         }
     }
     result.rank = reduced.len();
@@ -72,15 +84,27 @@ pub fn mobility(system: &System, state: &State) -> Mobility {
     result
 }
 
-/// Eliminates a row with the earlier ones: a new independent row, or the joints it follows from.
+/// Multipliers of all rows that went into the given ones.
+fn origins(mut open: Vec<usize>, reduced: &[Reduced]) -> BTreeSet<usize> {
+    let mut seen = BTreeSet::new();
+    while let Some(row) = open.pop() {
+        if seen.insert(row) {
+            open.extend(&reduced[row].used);
+        }
+    }
+    seen.into_iter().map(|row| reduced[row].multiplier).collect()
+}
+
+/// Eliminates a row with the earlier ones: a new independent row, or the reduced rows it follows from.
 fn eliminate(
     mut entries: BTreeMap<usize, f64>,
-    joint: &str,
+    multiplier: usize,
     reduced: &[Reduced],
     by_pivot: &BTreeMap<usize, usize>,
-) -> Result<Reduced, BTreeSet<String>> {
+    of_nodes: usize,
+) -> Result<Reduced, Vec<usize>> {
     let largest = entries.values().fold(0.0_f64, |most, value| most.max(value.abs()));
-    let mut joints = BTreeSet::from([joint.to_owned()]);
+    let mut used = Vec::new();
     // Earlier rows in their order: each is free of the pivots before it.
     let mut waiting: BTreeSet<usize> =
         entries.keys().filter_map(|column| by_pivot.get(column).copied()).collect();
@@ -97,15 +121,19 @@ fn eliminate(
                     waiting.insert(next);
                 }
             }
-            joints.extend(row.joints.iter().cloned());
+            used.push(earlier);
         }
         entries.remove(&row.pivot);
     }
     entries.retain(|_, value| value.abs() > ROUND_OFF * largest);
-    let pivot = entries.iter().max_by(|a, b| a.1.abs().total_cmp(&b.1.abs())).map(|(&column, _)| column);
+    // Any entry that is not small will do: the joint's own coordinate, or else the first, so that eliminating along
+    // a chain does not lead back to its beginning.
+    let left = entries.values().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let large = entries.iter().filter(|(_, value)| value.abs() >= LARGE_ENOUGH * left);
+    let pivot = large.min_by_key(|&(&column, _)| (column < of_nodes, column)).map(|(&column, _)| column);
     match pivot {
-        Some(pivot) => Ok(Reduced { pivot, entries, joints }),
-        None => Err(joints),
+        Some(pivot) => Ok(Reduced { pivot, entries, multiplier, used }),
+        None => Err(used),
     }
 }
 
