@@ -50,7 +50,6 @@ pub struct Session {
     tally: Tally,
     spent: Spent,
     scale: f64,
-    first_condition: Option<f64>,
     telemetry: Telemetry,
     began: Instant,
 }
@@ -103,7 +102,6 @@ impl Session {
             spent,
             tally: Tally { violations, ..Tally::default() },
             scale: simulation.scaled().scale(),
-            first_condition: None,
             telemetry: Telemetry::default(),
             simulation,
             channels,
@@ -171,9 +169,6 @@ impl Session {
                     let most = self.simulation.settings().limits.max_iterations;
                     self.pace.accept(2 * report.iterations <= most);
                     self.telemetry.note(&mut self.simulation, &report, self.spent.steps());
-                    if self.simulation.totals().steps == 1 {
-                        self.first_condition = self.telemetry.condition_range().map(|(least, _)| least);
-                    }
                     return Ok(report);
                 }
                 Err(error) => {
@@ -220,7 +215,7 @@ impl Session {
             seconds: self.spent.seconds(),
             violation: self.tally.violation,
             energy: self.tally.energy,
-            conditions: [self.first_condition, self.condition_estimate()],
+            conditions: [self.telemetry.first_condition(), self.condition_estimate()],
         }
     }
 

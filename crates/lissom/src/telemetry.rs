@@ -63,6 +63,11 @@ impl Telemetry {
         &self.samples
     }
 
+    /// Condition number of the tangent after the first step.
+    pub fn first_condition(&self) -> Option<f64> {
+        self.samples.first()?.condition
+    }
+
     /// Smallest and largest condition number estimated.
     pub fn condition_range(&self) -> Option<(f64, f64)> {
         self.range

@@ -201,23 +201,28 @@ fn all_joints() {
     }
 }
 
+/// Two bodies and a joint of a kind that stands between two nodes.
+fn joined(kind: &joints::JointKind, random: &mut Random) -> (System, State) {
+    let (mut builder, nodes) = two_bodies(random);
+    let placement = Placement {
+        nodes,
+        at: random.vector(),
+        at_tip: None,
+        axis: Some(random.vector()),
+        second_axis: Some(random.vector()),
+    };
+    let parameters = sample_parameters(kind.parameters, true, random);
+    builder.add_joint("joint", kind, &placement, &parameters).expect("valid");
+    builder.build(0.0).expect("valid")
+}
+
 /// The violation carried over a step equals the one evaluated outright, and joints start satisfied.
 #[test]
 fn violation_changes_agree_with_violations() {
     for (seed, kind) in joints::KINDS.iter().enumerate() {
         let Build::Relative(..) = kind.build else { continue };
         let mut random = Random::new(seed as u64 + 20);
-        let (mut builder, nodes) = two_bodies(&mut random);
-        let placement = Placement {
-            nodes,
-            at: random.vector(),
-            at_tip: None,
-            axis: Some(random.vector()),
-            second_axis: Some(random.vector()),
-        };
-        let parameters = sample_parameters(kind.parameters, true, &mut random);
-        builder.add_joint("joint", kind, &placement, &parameters).expect("valid");
-        let (system, state) = builder.build(0.0).expect("valid");
+        let (system, state) = joined(kind, &mut random);
         let count = state.multipliers.len();
         let mut violations = vec![0.0; count];
         system.violations(&state.kinematics, &mut violations);
@@ -243,17 +248,7 @@ fn constraint_accelerations_are_second_derivatives() {
     for (seed, kind) in joints::KINDS.iter().enumerate() {
         let Build::Relative(..) = kind.build else { continue };
         let mut random = Random::new(seed as u64 + 40);
-        let (mut builder, nodes) = two_bodies(&mut random);
-        let placement = Placement {
-            nodes,
-            at: random.vector(),
-            at_tip: None,
-            axis: Some(random.vector()),
-            second_axis: Some(random.vector()),
-        };
-        let parameters = sample_parameters(kind.parameters, true, &mut random);
-        builder.add_joint("joint", kind, &placement, &parameters).expect("valid");
-        let (system, state) = builder.build(0.0).expect("valid");
+        let (system, state) = joined(kind, &mut random);
         let here = Configuration::random(&system, &state, 0.3, &mut random);
         let mut exact = vec![0.0; state.multipliers.len()];
         system.constraint_accelerations(&here.at, &mut exact);

@@ -47,11 +47,16 @@ impl<S: Scalar> Multifrontal<S> {
     /// # Panics
     /// If [`Structure::check`] refuses the structure.
     pub fn new(structure: &Structure) -> Self {
-        let symbolic = Symbolic::new(structure, 2);
+        Self::of_panels::<false>(structure)
+    }
+
+    /// For LU, with two panels to a front, or for LDLᵀ, with one.
+    fn of_panels<const SYMMETRIC: bool>(structure: &Structure) -> Self {
+        let symbolic = Symbolic::new(structure, if SYMMETRIC { 1 } else { 2 });
         let pattern = Arc::clone(&structure.pattern);
         Multifrontal {
             processor: pulp::Arch::new(),
-            numeric: Numeric::new::<false>(&symbolic, &pattern),
+            numeric: Numeric::new::<SYMMETRIC>(&symbolic, &pattern),
             vector: vec![S::zero(); symbolic.unknowns.len()],
             front_vectors: FrontVectors::new(&symbolic),
             symbolic,
@@ -59,15 +64,21 @@ impl<S: Scalar> Multifrontal<S> {
         }
     }
 
-    fn triangular(&mut self, right_hand_side: &mut [S], transposed: bool) {
+    fn factor_as<const SYMMETRIC: bool>(&mut self, values: &[S]) -> Result<FactorReport, FactorError> {
+        assert_eq!(values.len(), self.pattern.entries(), "one value for each entry of the pattern");
+        let Self { pattern, symbolic, numeric, .. } = self;
+        self.processor.dispatch(Factor::<_, SYMMETRIC> { pattern, symbolic, numeric, values })
+    }
+
+    fn triangular(&mut self, right_hand_side: &mut [S], way: Way) {
         assert_eq!(right_hand_side.len(), self.vector.len(), "one number for each unknown");
         self.processor.dispatch(Solve {
             symbolic: &self.symbolic,
-            factors: &self.numeric.factors,
+            numeric: &self.numeric,
             right_hand_side,
             vector: &mut self.vector,
             front_vectors: &mut self.front_vectors,
-            transposed,
+            way,
         });
     }
 }
@@ -78,21 +89,15 @@ impl<S: Scalar> LinearSolver<S> for Multifrontal<S> {
     }
 
     fn factor(&mut self, values: &[S]) -> Result<FactorReport, FactorError> {
-        assert_eq!(values.len(), self.pattern.entries(), "one value for each entry of the pattern");
-        self.processor.dispatch(Factor::<_, false> {
-            pattern: &self.pattern,
-            symbolic: &self.symbolic,
-            numeric: &mut self.numeric,
-            values,
-        })
+        self.factor_as::<false>(values)
     }
 
     fn solve(&mut self, right_hand_side: &mut [S]) {
-        self.triangular(right_hand_side, false);
+        self.triangular(right_hand_side, Way::Plain);
     }
 
     fn solve_transposed(&mut self, right_hand_side: &mut [S]) {
-        self.triangular(right_hand_side, true);
+        self.triangular(right_hand_side, Way::Transposed);
     }
 
     fn factor_entries(&self) -> usize {
@@ -137,13 +142,24 @@ impl<S: Scalar, const SYMMETRIC: bool> pulp::WithSimd for Factor<'_, S, SYMMETRI
     }
 }
 
+/// What is solved with.
+#[derive(Clone, Copy)]
+enum Way {
+    /// L U.
+    Plain,
+    /// (L U)ᵀ.
+    Transposed,
+    /// L D Lᵀ.
+    Symmetric,
+}
+
 struct Solve<'a, S> {
     symbolic: &'a Symbolic,
-    factors: &'a [S],
+    numeric: &'a Numeric<S>,
     right_hand_side: &'a mut [S],
     vector: &'a mut [S],
     front_vectors: &'a mut FrontVectors<S>,
-    transposed: bool,
+    way: Way,
 }
 
 impl<S: Scalar> Solve<'_, S> {
@@ -154,17 +170,16 @@ impl<S: Scalar> Solve<'_, S> {
         for (value, &unknown) in self.vector.iter_mut().zip(unknowns) {
             *value = self.right_hand_side[unknown as usize];
         }
-        if self.transposed {
-            triangular::solve_transposed::<S, FUSED>(
-                self.symbolic,
-                self.factors,
-                self.vector,
-                self.front_vectors,
-            );
-        } else {
-            triangular::solve::<S, FUSED>(self.symbolic, self.factors, self.vector, self.front_vectors);
+        let Solve { symbolic, numeric, vector, front_vectors, way, .. } = self;
+        let factors = &numeric.factors;
+        match way {
+            Way::Plain => triangular::solve::<S, FUSED>(symbolic, factors, vector, front_vectors),
+            Way::Transposed => {
+                triangular::solve_transposed::<S, FUSED>(symbolic, factors, vector, front_vectors);
+            }
+            Way::Symmetric => symmetric::solve::<S, FUSED>(symbolic, numeric, vector, front_vectors),
         }
-        for (&value, &unknown) in self.vector.iter().zip(unknowns) {
+        for (&value, &unknown) in vector.iter().zip(unknowns) {
             self.right_hand_side[unknown as usize] = value;
         }
     }
@@ -204,7 +219,7 @@ mod tests {
             solver.factor(&values).expect("a regular matrix");
             for transposed in [false, true] {
                 let mut x = b.clone();
-                solver.triangular(&mut x, transposed);
+                solver.triangular(&mut x, if transposed { Way::Transposed } else { Way::Plain });
                 let error = backward_error(&structure.pattern, &values, &x, &b, transposed);
                 assert!(error < 1e-12, "{processor:?}: {error:e}");
             }

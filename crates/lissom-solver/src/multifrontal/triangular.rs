@@ -46,6 +46,18 @@ pub(super) fn solve<S: Scalar, const FUSED: bool>(
     x: &mut [S],
     vectors: &mut FrontVectors<S>,
 ) {
+    forward::<S, FUSED>(symbolic, factors, x, vectors);
+    backward::<S, FUSED>(symbolic, factors, x, vectors);
+}
+
+/// `x = L⁻¹ x`.
+#[inline(always)]
+pub(super) fn forward<S: Scalar, const FUSED: bool>(
+    symbolic: &Symbolic,
+    factors: &[S],
+    x: &mut [S],
+    vectors: &mut FrontVectors<S>,
+) {
     let far = size_of_val(factors) > NEAR;
     for (index, front) in symbolic.fronts.iter().enumerate() {
         if far && let Some(next) = symbolic.fronts.get(index + AHEAD) {
@@ -66,6 +78,17 @@ pub(super) fn solve<S: Scalar, const FUSED: bool>(
             x[row as usize] -= sum;
         }
     }
+}
+
+/// `x = U⁻¹ x`.
+#[inline(always)]
+fn backward<S: Scalar, const FUSED: bool>(
+    symbolic: &Symbolic,
+    factors: &[S],
+    x: &mut [S],
+    vectors: &mut FrontVectors<S>,
+) {
+    let far = size_of_val(factors) > NEAR;
     for (index, front) in symbolic.fronts.iter().enumerate().rev() {
         if far && let Some(next) = index.checked_sub(AHEAD) {
             let (square, _, upper) = pieces(&symbolic.fronts[next], factors);
@@ -89,7 +112,7 @@ pub(super) fn solve<S: Scalar, const FUSED: bool>(
 
 /// `x = L11⁻¹ x` for a padded vector, four columns at a time.
 #[inline(always)]
-pub(super) fn solve_lower<S: Scalar, const FUSED: bool>(x: &mut [S], square: &[S], pivots: usize) {
+fn solve_lower<S: Scalar, const FUSED: bool>(x: &mut [S], square: &[S], pivots: usize) {
     let stride = x.len();
     let whole = pivots / COLUMNS * COLUMNS;
     for first in (0..whole).step_by(COLUMNS) {
@@ -197,7 +220,7 @@ pub(super) fn gather<S: Scalar>(symbolic: &Symbolic, front: &Front, x: &[S], fro
 
 /// `sums += P x`, with the columns of the panel in fours.
 #[inline(always)]
-pub(super) fn add_columns<S: Scalar, const FUSED: bool>(sums: &mut [S], panel: &[S], x: &[S]) {
+fn add_columns<S: Scalar, const FUSED: bool>(sums: &mut [S], panel: &[S], x: &[S]) {
     let stride = sums.len();
     if stride == 0 {
         return;
