@@ -1,8 +1,13 @@
 //! The scalar coefficients of the exponential and its tangent as functions of `q = θ²`, with derivatives by `q`.
 //! Knows scalars only, no vectors.
+//! Over several arguments side by side the longest series that one of them needs serves all.
 //!
 //! Legend: `S_k(q) = Σ_j (-q)ʲ/(2j + k)!`, so `S_0 = cos θ`, `S_1 = sin θ/θ`, `b = S_2 = (1 - cos θ)/θ²`,
 //! `c = S_3 = (θ - sin θ)/θ³` (Stumpff's functions), `e = (1 - (θ/2) cot(θ/2))/θ²`.
+
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use crate::real::Real;
 
 /// Below this `q` a short series reaches full accuracy.
 const TINY: f64 = 1.0 / 16.0;
@@ -69,52 +74,66 @@ const fn falling_product(n: usize, count: usize) -> f64 {
 
 /// Cosine of the half angle, and sine of the half angle divided by the whole angle.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct HalfAngle {
-    pub(crate) cosine: f64,
-    pub(crate) sine_by_angle: f64,
+pub(crate) struct HalfAngle<R> {
+    pub(crate) cosine: R,
+    pub(crate) sine_by_angle: R,
 }
 
-impl HalfAngle {
+impl<R: Real> HalfAngle<R> {
     /// From the square of the whole angle.
-    #[inline]
-    pub(crate) fn from_square(q: f64) -> Self {
-        let quarter = 0.25 * q;
-        if q < TINY {
-            let [cosine, sine] = horner(&CIRCULAR[..TINY_TERMS - 1], quarter);
-            Self { cosine, sine_by_angle: 0.5 * sine }
-        } else if q < SMALL {
-            let [cosine, sine] = horner(&CIRCULAR, quarter);
-            Self { cosine, sine_by_angle: 0.5 * sine }
+    #[inline(always)]
+    pub(crate) fn from_square(q: R) -> Self {
+        let [cosine, sine_by_angle] = if q.all_below(TINY) {
+            half_angle_series(&CIRCULAR[..TINY_TERMS - 1], q)
+        } else if q.all_below(SMALL) {
+            half_angle_series(&CIRCULAR, q)
         } else {
-            let angle = q.sqrt();
-            let (sine, cosine) = (0.5 * angle).sin_cos();
-            Self { cosine, sine_by_angle: sine / angle }
-        }
+            let [values] = R::one_by_one([q], half_angle_of_any);
+            values
+        };
+        Self { cosine, sine_by_angle }
     }
+}
+
+#[inline(always)]
+fn half_angle_series<R: Real>(table: &[[f64; 2]], q: R) -> [R; 2] {
+    let [cosine, sine] = horner(table, q.scaled(0.25));
+    [cosine, sine.scaled(0.5)]
+}
+
+fn half_angle_of_any([q]: [f64; 1]) -> [[f64; 2]; 1] {
+    if q < SMALL {
+        return [half_angle_series(&CIRCULAR, q)];
+    }
+    let angle = q.sqrt();
+    let (sine, cosine) = (0.5 * angle).sin_cos();
+    [[cosine, sine / angle]]
 }
 
 /// `[b, c]` and their derivatives by `q` up to order `ORDERS - 1` (at most 3).
-#[inline]
-pub(crate) fn exponential_coefficients<const ORDERS: usize>(q: f64) -> [[f64; 2]; ORDERS] {
-    if q < TINY {
+#[inline(always)]
+pub(crate) fn exponential_coefficients<R: Real, const ORDERS: usize>(q: R) -> [[R; 2]; ORDERS] {
+    if q.all_below(TINY) {
         series(&SERIES[..TINY_TERMS], q)
-    } else if q < SMALL {
+    } else if q.all_below(SMALL) {
         series(&SERIES[..SMALL_TERMS], q)
-    } else if q < CLOSED_VALUES_FROM {
+    } else if q.all_below(CLOSED_VALUES_FROM) {
         series(&SERIES[..MEDIUM_TERMS], q)
     } else {
-        large_angle(q)
+        R::one_by_one([q], exponential_coefficients_of_any)
     }
 }
 
-#[inline]
-fn large_angle<const ORDERS: usize>(q: f64) -> [[f64; 2]; ORDERS] {
+fn exponential_coefficients_of_any<const ORDERS: usize>([q]: [f64; 1]) -> [[f64; 2]; ORDERS] {
+    if q < CLOSED_VALUES_FROM {
+        return series(&SERIES[..MEDIUM_TERMS], q);
+    }
     let half = HalfAngle::from_square(q);
     if ORDERS == 1 || q > CLOSED_FROM {
         return closed_form(q, half);
     }
     let [values, slopes] = closed_form::<2>(q, half);
-    let mut result = series::<ORDERS>(&SERIES, q);
+    let mut result = series::<f64, ORDERS>(&SERIES, q);
     result[0] = values;
     if q > CLOSED_SLOPES_FROM {
         result[1] = slopes;
@@ -123,32 +142,46 @@ fn large_angle<const ORDERS: usize>(q: f64) -> [[f64; 2]; ORDERS] {
 }
 
 /// `[b, c]`, where the half angle is known already.
-#[inline]
-pub(crate) fn exponential_values(q: f64, half: HalfAngle) -> [f64; 2] {
-    if q < CLOSED_VALUES_FROM {
-        let [values] = exponential_coefficients::<1>(q);
-        values
+#[inline(always)]
+pub(crate) fn exponential_values<R: Real>(q: R, half: HalfAngle<R>) -> [R; 2] {
+    let [values] = if q.all_below(CLOSED_VALUES_FROM) {
+        exponential_coefficients::<R, 1>(q)
     } else {
-        let [values] = closed_form::<1>(q, half);
-        values
+        R::one_by_one([q, half.cosine, half.sine_by_angle], exponential_values_of_any)
+    };
+    values
+}
+
+fn exponential_values_of_any([q, cosine, sine_by_angle]: [f64; 3]) -> [[f64; 2]; 1] {
+    if q < CLOSED_VALUES_FROM {
+        exponential_coefficients_of_any::<1>([q])
+    } else {
+        closed_form::<1>(q, HalfAngle { cosine, sine_by_angle })
     }
 }
 
-#[inline]
-fn horner(table: &[[f64; 2]], x: f64) -> [f64; 2] {
-    let mut sum = [0.0; 2];
-    for row in table.iter().rev() {
-        sum = [sum[0] * x + row[0], sum[1] * x + row[1]];
+#[inline(always)]
+fn horner<R: Real>(table: &[[f64; 2]], x: R) -> [R; 2] {
+    let last = table[table.len() - 1];
+    let mut sum = [x.like(last[0]), x.like(last[1])];
+    for j in (0..table.len() - 1).rev() {
+        sum[0] = x.like(table[j][0]).plus_product(sum[0], x);
+        sum[1] = x.like(table[j][1]).plus_product(sum[1], x);
     }
     sum
 }
 
-#[inline]
-fn series<const ORDERS: usize>(table: &[[[f64; 2]; 4]], q: f64) -> [[f64; 2]; ORDERS] {
-    let mut sum = [[0.0; 2]; ORDERS];
-    for row in table.iter().rev() {
+#[inline(always)]
+fn series<R: Real, const ORDERS: usize>(table: &[[[f64; 2]; 4]], q: R) -> [[R; 2]; ORDERS] {
+    let mut sum = [[q.like(0.0); 2]; ORDERS];
+    let last = table.len() - 1;
+    for m in 0..ORDERS {
+        sum[m] = [q.like(table[last][m][0]), q.like(table[last][m][1])];
+    }
+    for j in (0..last).rev() {
         for m in 0..ORDERS {
-            sum[m] = [sum[m][0] * q + row[m][0], sum[m][1] * q + row[m][1]];
+            sum[m][0] = q.like(table[j][m][0]).plus_product(sum[m][0], q);
+            sum[m][1] = q.like(table[j][m][1]).plus_product(sum[m][1], q);
         }
     }
     sum
@@ -156,7 +189,7 @@ fn series<const ORDERS: usize>(table: &[[[f64; 2]; 4]], q: f64) -> [[f64; 2]; OR
 
 /// Upward recursion `S_(k+2) = (1/k! - S_k)/q`, then `dS_k/dq = (k S_(k+2) - S_(k+1))/2` once per order.
 #[inline]
-fn closed_form<const ORDERS: usize>(q: f64, half: HalfAngle) -> [[f64; 2]; ORDERS] {
+fn closed_form<const ORDERS: usize>(q: f64, half: HalfAngle<f64>) -> [[f64; 2]; ORDERS] {
     const INVERSE_FACTORIAL: [f64; 8] =
         [1.0, 1.0, 1.0 / 2.0, 1.0 / 6.0, 1.0 / 24.0, 1.0 / 120.0, 1.0 / 720.0, 1.0 / 5040.0];
     let inverse = 1.0 / q;
@@ -176,6 +209,28 @@ fn closed_form<const ORDERS: usize>(q: f64, half: HalfAngle) -> [[f64; 2]; ORDER
     }
     result
 }
+
+/// Series of `e`, `|B_2n|/(2n)!` with Bernoulli's numbers, used below [`SMALL`].
+const INVERSE: [f64; 15] = [
+    1.0 / 12.0,
+    1.0 / 720.0,
+    1.0 / 30_240.0,
+    1.0 / 1_209_600.0,
+    1.0 / 47_900_160.0,
+    5.284_190_138_687_493e-10,
+    1.338_253_653_068_467_9e-11,
+    3.389_680_296_322_582_7e-13,
+    8.586_062_056_277_845e-15,
+    2.174_868_698_558_062e-16,
+    5.509_002_828_360_229_5e-18,
+    1.395_446_468_581_252_3e-19,
+    3.534_707_039_629_467e-21,
+    8.953_517_427_037_546e-23,
+    2.267_952_452_337_683e-24,
+];
+const INVERSE_TERMS: usize = 12;
+const TINY_INVERSE_TERMS: usize = 7;
+const INVERSE_SERIES: [[f64; 4]; INVERSE_TERMS] = derivatives(&INVERSE);
 
 /// The first poles `4π²n²` of `e`.
 const POLES: [f64; 3] = [39.478_417_604_357_43, 157.913_670_417_429_73, 355.305_758_439_216_9];
@@ -205,62 +260,75 @@ const REMAINDER: [f64; 20] = [
     1.956_560_904_780_354_5e-56,
 ];
 const REMAINDER_TERMS: usize = 16;
-const SMALL_REMAINDER_TERMS: usize = 6;
-const TINY_REMAINDER_TERMS: usize = 4;
 
-/// `REMAINDER_SERIES[j][m]` is the coefficient of `qʲ` in the `m`-th derivative of the remainder.
-const REMAINDER_SERIES: [[f64; 4]; REMAINDER_TERMS] = {
-    let mut table = [[0.0; 4]; REMAINDER_TERMS];
+const REMAINDER_SERIES: [[f64; 4]; REMAINDER_TERMS] = derivatives(&REMAINDER);
+
+/// Of a series: entry `[j][m]` is the coefficient of `qʲ` in the `m`-th derivative.
+const fn derivatives<const TERMS: usize>(series: &[f64]) -> [[f64; 4]; TERMS] {
+    let mut table = [[0.0; 4]; TERMS];
     let mut j = 0;
-    while j < REMAINDER_TERMS {
+    while j < TERMS {
         let mut m = 0;
         while m < 4 {
-            table[j][m] = falling_product(j + m, m) * REMAINDER[j + m];
+            table[j][m] = falling_product(j + m, m) * series[j + m];
             m += 1;
         }
         j += 1;
     }
     table
-};
+}
 
 /// `e` and its derivatives by `q` up to order `ORDERS - 1` (at most 3).
 ///
 /// From Euler's expansion of the cotangent, `e = 2 Σ_n 1/(4π²n² - q)`: every term is positive below the first pole,
 /// so neither `e` nor a derivative of it loses a digit, whatever the angle. At the pole itself (a whole turn, where
 /// the tangent has no inverse) the distance to it is replaced by its rounding error, so that values stay finite.
-#[inline]
-pub(crate) fn inverse_coefficients<const ORDERS: usize>(q: f64) -> [f64; ORDERS] {
-    if q > POLES_UP_TO {
-        return inverse_closed_form(q);
-    }
-    let mut sum = if q < TINY {
-        remainder(&REMAINDER_SERIES[..TINY_REMAINDER_TERMS], q)
-    } else if q < SMALL {
-        remainder(&REMAINDER_SERIES[..SMALL_REMAINDER_TERMS], q)
+#[inline(always)]
+pub(crate) fn inverse_coefficients<R: Real, const ORDERS: usize>(q: R) -> [R; ORDERS] {
+    if q.all_below(TINY) {
+        inverse_series(&INVERSE_SERIES[..TINY_INVERSE_TERMS], q)
+    } else if q.all_below(SMALL) {
+        inverse_series(&INVERSE_SERIES, q)
+    } else if q.all_below(POLES[0]) {
+        expansion(q)
     } else {
-        remainder(&REMAINDER_SERIES, q)
-    };
-    for pole in POLES {
-        let mut distance = pole - q;
-        if distance == 0.0 {
-            distance = pole * f64::EPSILON;
-        }
-        let inverse = 1.0 / distance;
-        let mut term = 2.0 * inverse;
+        let [values] = R::one_by_one([q], inverse_coefficients_of_any);
+        values
+    }
+}
+
+fn inverse_coefficients_of_any<const ORDERS: usize>([q]: [f64; 1]) -> [[f64; ORDERS]; 1] {
+    if q > POLES_UP_TO {
+        return [inverse_closed_form(q)];
+    }
+    let at_pole = POLES.contains(&q);
+    [expansion(if at_pole { q * (1.0 - f64::EPSILON) } else { q })]
+}
+
+#[inline(always)]
+fn expansion<R: Real, const ORDERS: usize>(q: R) -> [R; ORDERS] {
+    let mut sum = inverse_series(&REMAINDER_SERIES, q);
+    for n in 0..POLES.len() {
+        let inverse = q.like(1.0) / (q.like(POLES[n]) - q);
+        let mut term = inverse.scaled(2.0);
         for m in 0..ORDERS {
-            sum[m] += term;
-            term *= inverse * (m + 1) as f64;
+            sum[m] = sum[m] + term;
+            term = term * inverse.scaled((m + 1) as f64);
         }
     }
     sum
 }
 
-#[inline]
-fn remainder<const ORDERS: usize>(table: &[[f64; 4]], q: f64) -> [f64; ORDERS] {
-    let mut sum = [0.0; ORDERS];
-    for row in table.iter().rev() {
+#[inline(always)]
+fn inverse_series<R: Real, const ORDERS: usize>(table: &[[f64; 4]], q: R) -> [R; ORDERS] {
+    let last = table.len() - 1;
+    let mut sum = [q.like(0.0); ORDERS];
+    for m in 0..ORDERS {
+        sum[m] = q.like(table[last][m]);
+    }
+    for j in (0..last).rev() {
         for m in 0..ORDERS {
-            sum[m] = sum[m] * q + row[m];
+            sum[m] = q.like(table[j][m]).plus_product(sum[m], q);
         }
     }
     sum
@@ -324,7 +392,7 @@ mod tests {
     fn worst_errors<const ORDERS: usize>(range: std::ops::Range<f64>, floor: f64) -> [f64; ORDERS] {
         let mut worst = [0.0_f64; ORDERS];
         for q in squares().into_iter().filter(|q| range.contains(q)) {
-            let computed = exponential_coefficients::<ORDERS>(q);
+            let computed = exponential_coefficients::<f64, ORDERS>(q);
             for m in 0..ORDERS {
                 for k in 0..2 {
                     let reference = long_series(q, m, k + 2, |_| 1.0).value();
@@ -357,7 +425,7 @@ mod tests {
     #[test]
     fn values_with_a_known_half_angle_are_the_same() {
         for q in squares() {
-            let [values] = exponential_coefficients::<1>(q);
+            let [values] = exponential_coefficients::<f64, 1>(q);
             assert_eq!(exponential_values(q, HalfAngle::from_square(q)), values, "{q}");
         }
     }
@@ -375,12 +443,12 @@ mod tests {
     #[test]
     fn inverse_coefficients_agree_beyond_a_whole_turn() {
         for q in [45.0, POLES_UP_TO] {
-            let (poles, closed) = (inverse_coefficients::<4>(q), inverse_closed_form::<4>(q));
+            let (poles, closed) = (inverse_coefficients::<f64, 4>(q), inverse_closed_form::<4>(q));
             for m in 0..4 {
                 assert!((poles[m] - closed[m]).abs() < 1e-12 * closed[m].abs(), "{poles:?} {closed:?}");
             }
         }
-        assert!(inverse_coefficients::<4>(POLES[0]).iter().all(|value| value.is_finite()));
+        assert!(inverse_coefficients::<f64, 4>(POLES[0]).iter().all(|value| value.is_finite()));
     }
 
     #[test]
@@ -391,7 +459,7 @@ mod tests {
             let h = 0.25 * q;
             let factor = [1.0, 1.0, 0.5, 1.0 / 6.0];
             let mut quotient = [Wide::default(); 4];
-            let computed = inverse_coefficients::<4>(q);
+            let computed = inverse_coefficients::<f64, 4>(q);
             for m in 0..4 {
                 let numerator = |j: usize| (2 * j + 2) as f64;
                 let mut rest = long_series(h, m, 3, numerator) / Wide::new(falling_product(m, m));

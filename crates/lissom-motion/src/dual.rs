@@ -1,23 +1,27 @@
 //! Dual numbers `a + ε b` with `ε² = 0`, and vectors and matrices of them.
 //! A twist `(u; θ)` is the dual vector `θ + ε u`, a wrench `(n; m)` the dual vector `n + ε m`.
 //! Knows no rotation and no exponential.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::{Matrix3, Matrix6, Vector3, Vector6, rotation_part, screw, skew, translation_part};
+use crate::real::Real;
+use crate::screw::Screw;
+use crate::triple::Triple;
+use crate::{Matrix3, Matrix6, Vector3, skew};
 
 /// The scalar `real + ε dual`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Dual {
-    pub(crate) real: f64,
-    pub(crate) dual: f64,
+pub(crate) struct Dual<R> {
+    pub(crate) real: R,
+    pub(crate) dual: R,
 }
 
 /// The vector `real + ε dual`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct DualVector {
-    pub(crate) real: Vector3,
-    pub(crate) dual: Vector3,
+pub(crate) struct DualVector<R> {
+    pub(crate) real: Triple<R>,
+    pub(crate) dual: Triple<R>,
 }
 
 /// The matrix `real + ε dual`.
@@ -27,53 +31,90 @@ pub(crate) struct DualMatrix {
     pub(crate) dual: Matrix3,
 }
 
-impl Dual {
-    #[inline]
-    pub(crate) fn new(real: f64, dual: f64) -> Self {
+impl<R: Real> Dual<R> {
+    #[inline(always)]
+    pub(crate) fn new(real: R, dual: R) -> Self {
         Self { real, dual }
+    }
+
+    /// `self + a b`.
+    #[inline(always)]
+    pub(crate) fn plus_product(self, a: Self, b: Self) -> Self {
+        Self {
+            real: self.real.plus_product(a.real, b.real),
+            dual: self.dual.plus_product(a.real, b.dual).plus_product(a.dual, b.real),
+        }
+    }
+
+    /// `self - a b`.
+    #[inline(always)]
+    pub(crate) fn minus_product(self, a: Self, b: Self) -> Self {
+        Self {
+            real: self.real.minus_product(a.real, b.real),
+            dual: self.dual.minus_product(a.real, b.dual).minus_product(a.dual, b.real),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn scaled(self, factor: f64) -> Self {
+        Self { real: self.real.scaled(factor), dual: self.dual.scaled(factor) }
     }
 }
 
-impl DualVector {
+impl<R: Real> DualVector<R> {
     /// `θ + ε u` of the twist `(u; θ)`.
-    #[inline]
-    pub(crate) fn from_twist(v: &Vector6) -> Self {
-        Self { real: rotation_part(v), dual: translation_part(v) }
+    #[inline(always)]
+    pub(crate) fn from_twist(v: Screw<R>) -> Self {
+        Self { real: v.rotation, dual: v.translation }
     }
 
     /// `n + ε m` of the wrench `(n; m)`.
-    #[inline]
-    pub(crate) fn from_wrench(w: &Vector6) -> Self {
-        Self { real: translation_part(w), dual: rotation_part(w) }
+    #[inline(always)]
+    pub(crate) fn from_wrench(w: Screw<R>) -> Self {
+        Self { real: w.translation, dual: w.rotation }
     }
 
-    #[inline]
-    pub(crate) fn to_twist(self) -> Vector6 {
-        screw(&self.dual, &self.real)
+    #[inline(always)]
+    pub(crate) fn to_twist(self) -> Screw<R> {
+        Screw::new(self.dual, self.real)
     }
 
-    #[inline]
-    pub(crate) fn to_wrench(self) -> Vector6 {
-        screw(&self.real, &self.dual)
+    #[inline(always)]
+    pub(crate) fn to_wrench(self) -> Screw<R> {
+        Screw::new(self.real, self.dual)
     }
 
-    #[inline]
-    pub(crate) fn dot(self, other: Self) -> Dual {
-        Dual::new(self.real.dot(&other.real), self.real.dot(&other.dual) + self.dual.dot(&other.real))
+    #[inline(always)]
+    pub(crate) fn dot(self, other: Self) -> Dual<R> {
+        Dual::new(self.real.dot(other.real), self.real.dot(other.dual) + self.dual.dot(other.real))
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn cross(self, other: Self) -> Self {
         Self {
-            real: self.real.cross(&other.real),
-            dual: self.real.cross(&other.dual) + self.dual.cross(&other.real),
+            real: self.real.cross(other.real),
+            dual: self.real.cross(other.dual).plus_cross(self.dual, other.real),
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn scaled(self, factor: f64) -> Self {
+        Self { real: self.real.scaled(factor), dual: self.dual.scaled(factor) }
+    }
+
+    /// `self + v factor`.
+    #[inline(always)]
+    pub(crate) fn plus_scaled(self, v: Self, factor: Dual<R>) -> Self {
+        Self {
+            real: self.real.plus_scaled(v.real, factor.real),
+            dual: self.dual.plus_scaled(v.dual, factor.real).plus_scaled(v.real, factor.dual),
         }
     }
 }
 
 impl DualMatrix {
     #[inline]
-    pub(crate) fn diagonal(value: Dual) -> Self {
+    pub(crate) fn diagonal(value: Dual<f64>) -> Self {
         Self {
             real: Matrix3::from_diagonal_element(value.real),
             dual: Matrix3::from_diagonal_element(value.dual),
@@ -81,16 +122,17 @@ impl DualMatrix {
     }
 
     #[inline]
-    pub(crate) fn skew(v: DualVector) -> Self {
-        Self { real: skew(&v.real), dual: skew(&v.dual) }
+    pub(crate) fn skew(v: DualVector<f64>) -> Self {
+        Self { real: skew(&v.real.into()), dual: skew(&v.dual.into()) }
     }
 
     /// `a bᵀ`.
     #[inline]
-    pub(crate) fn outer(a: DualVector, b: DualVector) -> Self {
+    pub(crate) fn outer(a: DualVector<f64>, b: DualVector<f64>) -> Self {
+        let [real_a, dual_a, real_b, dual_b] = [a.real, a.dual, b.real, b.dual].map(Vector3::from);
         Self {
-            real: a.real * b.real.transpose(),
-            dual: a.real * b.dual.transpose() + a.dual * b.real.transpose(),
+            real: real_a * real_b.transpose(),
+            dual: real_a * dual_b.transpose() + dual_a * real_b.transpose(),
         }
     }
 
@@ -116,39 +158,32 @@ impl DualMatrix {
 }
 
 macro_rules! linear_operations {
-    ($kind:ident) => {
-        impl Add for $kind {
+    ($kind:ty, $number:ty $(, $parameter:ident)?) => {
+        impl$(<$parameter: Real>)? Add for $kind {
             type Output = Self;
-            #[inline]
+            #[inline(always)]
             fn add(self, other: Self) -> Self {
                 Self { real: self.real + other.real, dual: self.dual + other.dual }
             }
         }
-        impl Sub for $kind {
+        impl$(<$parameter: Real>)? Sub for $kind {
             type Output = Self;
-            #[inline]
+            #[inline(always)]
             fn sub(self, other: Self) -> Self {
                 Self { real: self.real - other.real, dual: self.dual - other.dual }
             }
         }
-        impl Neg for $kind {
+        impl$(<$parameter: Real>)? Neg for $kind {
             type Output = Self;
-            #[inline]
+            #[inline(always)]
             fn neg(self) -> Self {
                 Self { real: -self.real, dual: -self.dual }
             }
         }
-        impl Mul<f64> for $kind {
+        impl$(<$parameter: Real>)? Mul<Dual<$number>> for $kind {
             type Output = Self;
-            #[inline]
-            fn mul(self, factor: f64) -> Self {
-                Self { real: self.real * factor, dual: self.dual * factor }
-            }
-        }
-        impl Mul<Dual> for $kind {
-            type Output = Self;
-            #[inline]
-            fn mul(self, factor: Dual) -> Self {
+            #[inline(always)]
+            fn mul(self, factor: Dual<$number>) -> Self {
                 Self {
                     real: self.real * factor.real,
                     dual: self.dual * factor.real + self.real * factor.dual,
@@ -158,6 +193,6 @@ macro_rules! linear_operations {
     };
 }
 
-linear_operations!(Dual);
-linear_operations!(DualVector);
-linear_operations!(DualMatrix);
+linear_operations!(Dual<R>, R, R);
+linear_operations!(DualVector<R>, R, R);
+linear_operations!(DualMatrix, f64);

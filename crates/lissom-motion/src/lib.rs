@@ -11,14 +11,24 @@
 //!
 //! Every SE(3) operator is the SO(3) formula read over dual numbers (principle of transference: Kotelnikov 1895,
 //! Study 1903), so each formula is written once, in the private modules `dual` and `operator`.
+//!
+//! What is evaluated often is written over any [`Real`]: a number, or [`Lanes`], several numbers side by side in one
+//! vector register. [`Pose`], [`Versor`], [`Screw`] and [`Triple`] are [`Motion`], [`Rotation`], twist or wrench, and
+//! vector over them; those of plain numbers call the same formulas.
 
 mod algebra;
 mod coefficients;
 mod dual;
+mod lanes;
 mod motion;
 mod operator;
+mod pose;
+mod real;
 mod rotation;
+mod screw;
 mod tangent;
+mod triple;
+mod versor;
 #[cfg(test)]
 #[path = "../tests/exactness/wide.rs"]
 mod wide;
@@ -27,8 +37,12 @@ pub use algebra::{
     axial, coadjoint_matrix, coadjoint_times, lie_bracket, lie_bracket_matrix, rotation_part, screw, skew,
     translation_part,
 };
+pub use lanes::{Block, Lanes, WIDTH};
 pub use motion::Motion;
+pub use pose::Pose;
+pub use real::Real;
 pub use rotation::{Rotation, rotation_exponential_minus_identity};
+pub use screw::{Screw, TangentOperator};
 pub use tangent::{
     ScrewTangent, inverse_tangent, inverse_tangent_derivative, inverse_tangent_derivative_transpose_times,
     inverse_tangent_hessian, inverse_tangent_times, inverse_tangent_transpose_derivative,
@@ -36,6 +50,8 @@ pub use tangent::{
     tangent_derivative_transpose_times, tangent_hessian, tangent_rate_times, tangent_times,
     tangent_transpose_derivative, tangent_transpose_times,
 };
+pub use triple::Triple;
+pub use versor::Versor;
 
 /// A vector of three components.
 pub type Vector3 = nalgebra::Vector3<f64>;

@@ -3,8 +3,10 @@
 
 use std::ops::Mul;
 
-use crate::coefficients::{HalfAngle, exponential_values, inverse_coefficients};
-use crate::{Matrix3, Matrix6, Rotation, Vector3, Vector6, rotation_part, screw, skew, translation_part};
+use crate::coefficients::{HalfAngle, exponential_values};
+use crate::pose::{Pose, stretch};
+use crate::screw::Screw;
+use crate::{Matrix3, Matrix6, Rotation, Vector3, Vector6, skew};
 
 /// A rigid motion, or the frame it moves the base frame to: body coordinates `X` go to `position + rotation X`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,35 +43,26 @@ impl Motion {
     /// `u + b θ × u + c θ × (θ × u)`.
     #[inline]
     pub fn exponential(psi: &Vector6) -> Self {
-        let (u, theta) = (translation_part(psi), rotation_part(psi));
-        let q = theta.norm_squared();
-        let half = HalfAngle::from_square(q);
-        let [b, c] = exponential_values(q, half);
-        Self { rotation: Rotation::from_half_angle(&theta, half), position: stretch(&u, &theta, b, c) }
+        Pose::exponential(psi.into()).into()
     }
 
     /// The twist `ψ = (u; θ)` with `exp(ψ)` equal to this motion and `|θ| ≤ π` (see [`Rotation::logarithm`]):
     /// `u = x - θ × x/2 + e θ × (θ × x)`.
     #[inline]
     pub fn logarithm(&self) -> Vector6 {
-        let theta = self.rotation.logarithm();
-        let [e] = inverse_coefficients::<1>(theta.norm_squared());
-        screw(&stretch(&self.position, &theta, -0.5, e), &theta)
+        Pose::from(self).logarithm().into()
     }
 
     /// The motion back.
     #[inline]
     pub fn inverse(&self) -> Self {
-        Self { rotation: self.rotation.inverse(), position: -self.rotation.apply_inverse(&self.position) }
+        Pose::from(self).inverse().into()
     }
 
     /// This motion as seen from `base`: `base⁻¹ self`. Exactly free of the common position.
     #[inline]
     pub fn relative_to(&self, base: &Self) -> Self {
-        Self {
-            rotation: base.rotation.inverse() * self.rotation,
-            position: base.rotation.apply_inverse(&(self.position - base.position)),
-        }
+        Pose::from(self).relative_to(base.into()).into()
     }
 
     /// The place `x + R X` of the body point `X`.
@@ -88,10 +81,10 @@ impl Motion {
     /// increment; accurate relative to `u + θ × X` for the smallest `ψ`.
     #[inline]
     pub fn displacement_of_point(psi: &Vector6, point: &Vector3) -> Vector3 {
-        let (u, theta) = (translation_part(psi), rotation_part(psi));
+        let Screw { translation: u, rotation: theta } = Screw::from(psi);
         let q = theta.norm_squared();
         let [b, c] = exponential_values(q, HalfAngle::from_square(q));
-        stretch(&(u + theta.cross(point)), &theta, b, c)
+        stretch(u.plus_cross(theta, point.into()), theta, b, c).into()
     }
 
     /// `Ad_H = [[R, x̃R], [0, R]]`: takes body twists to the base frame.
@@ -108,42 +101,40 @@ impl Motion {
     /// `Ad_H v` of the body twist `v`: `(R u + x × R θ; R θ)`.
     #[inline]
     pub fn adjoint_times(&self, twist: &Vector6) -> Vector6 {
-        let theta = self.rotation.apply(&rotation_part(twist));
-        let u = self.rotation.apply(&translation_part(twist)) + self.position.cross(&theta);
-        screw(&u, &theta)
+        Pose::from(self).adjoint_times(twist.into()).into()
     }
 
     /// `Ad_H⁻¹ v` of the base twist `v`: `(Rᵀ (u - x × θ); Rᵀ θ)`.
     #[inline]
     pub fn adjoint_inverse_times(&self, twist: &Vector6) -> Vector6 {
-        let (u, theta) = (translation_part(twist), rotation_part(twist));
-        screw(
-            &self.rotation.apply_inverse(&(u - self.position.cross(&theta))),
-            &self.rotation.apply_inverse(&theta),
-        )
+        Pose::from(self).adjoint_inverse_times(twist.into()).into()
     }
 
     /// `Ad_Hᵀ w` of the base wrench `w = (n; m)`: the same wrench in the body frame, `(Rᵀ n; Rᵀ (m - x × n))`.
     #[inline]
     pub fn adjoint_transpose_times(&self, wrench: &Vector6) -> Vector6 {
-        let (n, m) = (translation_part(wrench), rotation_part(wrench));
-        screw(&self.rotation.apply_inverse(&n), &self.rotation.apply_inverse(&(m - self.position.cross(&n))))
+        Pose::from(self).adjoint_transpose_times(wrench.into()).into()
     }
 
     /// `Ad_H⁻ᵀ w` of the body wrench `w = (n; m)`: the same wrench in the base frame, `(R n; R m + x × R n)`.
     #[inline]
     pub fn adjoint_inverse_transpose_times(&self, wrench: &Vector6) -> Vector6 {
-        let n = self.rotation.apply(&translation_part(wrench));
-        let m = self.rotation.apply(&rotation_part(wrench)) + self.position.cross(&n);
-        screw(&n, &m)
+        Pose::from(self).adjoint_inverse_transpose_times(wrench.into()).into()
     }
 }
 
-/// `v + β θ × v + γ θ × (θ × v)`.
-#[inline]
-fn stretch(v: &Vector3, theta: &Vector3, beta: f64, gamma: f64) -> Vector3 {
-    let p = theta.cross(v);
-    v + p * beta + theta.cross(&p) * gamma
+impl From<&Motion> for Pose<f64> {
+    #[inline]
+    fn from(motion: &Motion) -> Self {
+        Self::new((&motion.rotation).into(), (&motion.position).into())
+    }
+}
+
+impl From<Pose<f64>> for Motion {
+    #[inline]
+    fn from(pose: Pose<f64>) -> Self {
+        Self { rotation: pose.rotation.into(), position: pose.position.into() }
+    }
 }
 
 impl Default for Motion {
@@ -157,9 +148,6 @@ impl Mul for Motion {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        Self {
-            rotation: self.rotation * other.rotation,
-            position: self.position + self.rotation.apply(&other.position),
-        }
+        (Pose::from(&self) * Pose::from(&other)).into()
     }
 }

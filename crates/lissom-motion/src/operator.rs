@@ -4,38 +4,88 @@
 //! Legend: `d` argument, `a` vector acted upon, `w` vector (or wrench) contracted with the result, `p = d × a`,
 //! `r = d × (d × a) = d (d·a) - q a`. The transpose has `-β` in place of `β`.
 
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
 use std::ops::Neg;
 
+use crate::coefficients::{exponential_coefficients, inverse_coefficients};
 use crate::dual::{Dual, DualMatrix, DualVector};
+use crate::real::Real;
 
 /// The coefficients `β` of `d̃` and `γ` of `d̃²`, or one of their derivatives by `q`.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Pair {
-    pub(crate) linear: Dual,
-    pub(crate) quadratic: Dual,
+pub(crate) struct Pair<R> {
+    pub(crate) linear: Dual<R>,
+    pub(crate) quadratic: Dual<R>,
 }
 
-impl Pair {
+impl<R: Real> Pair<R> {
     /// A function known by value and slope at the real part of `q`, continued to the dual number:
     /// `f(q₀ + ε q₁) = f(q₀) + ε q₁ f'(q₀)`.
-    #[inline]
-    pub(crate) fn lift(value: [f64; 2], slope: [f64; 2], q: Dual) -> Self {
+    #[inline(always)]
+    fn lift(value: [R; 2], slope: [R; 2], q: Dual<R>) -> Self {
         Self {
             linear: Dual::new(value[0], slope[0] * q.dual),
             quadratic: Dual::new(value[1], slope[1] * q.dual),
         }
     }
 
+    /// The coefficients of `T`, `q = d·d`.
+    #[inline(always)]
+    pub(crate) fn of_tangent(q: Dual<R>) -> Self {
+        let [value] = tangent_pairs::<R, 2, 1>(q);
+        value
+    }
+
+    /// The coefficients of `T⁻¹`.
+    #[inline(always)]
+    pub(crate) fn of_inverse(q: Dual<R>) -> Self {
+        let [value] = inverse_pairs::<R, 2, 1>(q);
+        value
+    }
+
     /// The coefficients of the transposed operator.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn transposed(self) -> Self {
         Self { linear: self.linear.neg(), quadratic: self.quadratic }
     }
 }
 
+/// The coefficients of `T = I - b d̃ + c d̃²` and their derivatives by `q = d·d`.
+#[inline(always)]
+pub(crate) fn tangent_pairs<R: Real, const ORDERS: usize, const PAIRS: usize>(
+    q: Dual<R>,
+) -> [Pair<R>; PAIRS] {
+    const { assert!(ORDERS == PAIRS + 1, "a dual value takes one derivative more") };
+    let mut k = exponential_coefficients::<R, ORDERS>(q.real);
+    for m in 0..ORDERS {
+        k[m][0] = -k[m][0];
+    }
+    let mut pairs = [Pair::lift(k[0], k[1], q); PAIRS];
+    for m in 1..PAIRS {
+        pairs[m] = Pair::lift(k[m], k[m + 1], q);
+    }
+    pairs
+}
+
+/// The same of `T⁻¹ = I + d̃/2 + e d̃²`.
+#[inline(always)]
+pub(crate) fn inverse_pairs<R: Real, const ORDERS: usize, const PAIRS: usize>(
+    q: Dual<R>,
+) -> [Pair<R>; PAIRS] {
+    const { assert!(ORDERS == PAIRS + 1, "a dual value takes one derivative more") };
+    let e = inverse_coefficients::<R, ORDERS>(q.real);
+    let zero = q.real.like(0.0);
+    let mut pairs = [Pair::lift([q.real.like(0.5), e[0]], [zero, e[1]], q); PAIRS];
+    for m in 1..PAIRS {
+        pairs[m] = Pair::lift([zero, e[m]], [zero, e[m + 1]], q);
+    }
+    pairs
+}
+
 /// `I + β d̃ + γ d̃²`.
 #[inline]
-pub(crate) fn matrix(d: DualVector, value: Pair) -> DualMatrix {
+pub(crate) fn matrix(d: DualVector<f64>, value: Pair<f64>) -> DualMatrix {
     let diagonal = Dual::new(1.0, 0.0) - value.quadratic * d.dot(d);
     DualMatrix::diagonal(diagonal)
         + DualMatrix::skew(d) * value.linear
@@ -43,53 +93,65 @@ pub(crate) fn matrix(d: DualVector, value: Pair) -> DualMatrix {
 }
 
 /// `a + β p + γ r`.
-#[inline]
-pub(crate) fn times(d: DualVector, value: Pair, a: DualVector) -> DualVector {
+#[inline(always)]
+pub(crate) fn times<R: Real>(d: DualVector<R>, value: Pair<R>, a: DualVector<R>) -> DualVector<R> {
     let p = d.cross(a);
     let r = d.cross(p);
-    a + p * value.linear + r * value.quadratic
+    a.plus_scaled(p, value.linear).plus_scaled(r, value.quadratic)
 }
 
 /// The derivative of `a + β p + γ r` by `d`:
 /// `-β ã + γ [(d·a) I + d aᵀ - 2 a dᵀ] + 2 (β' p + γ' r) dᵀ`.
 #[inline]
-pub(crate) fn derivative(d: DualVector, value: Pair, slope: Pair, a: DualVector) -> DualMatrix {
+pub(crate) fn derivative(
+    d: DualVector<f64>,
+    value: Pair<f64>,
+    slope: Pair<f64>,
+    a: DualVector<f64>,
+) -> DualMatrix {
     let p = d.cross(a);
     let r = d.cross(p);
-    let column = (p * slope.linear + r * slope.quadratic - a * value.quadratic) * 2.0;
+    let column = p * slope.linear + r * slope.quadratic - a * value.quadratic;
     DualMatrix::diagonal(value.quadratic * d.dot(a)) - DualMatrix::skew(a * value.linear)
         + DualMatrix::outer(d * value.quadratic, a)
-        + DualMatrix::outer(column, d)
+        + DualMatrix::outer(column.scaled(2.0), d)
 }
 
 /// The derivative of [`times`] by `d`, applied to `rate`.
-#[inline]
-pub(crate) fn derivative_times(
-    d: DualVector,
-    value: Pair,
-    slope: Pair,
-    a: DualVector,
-    rate: DualVector,
-) -> DualVector {
+#[inline(always)]
+pub(crate) fn derivative_times<R: Real>(
+    d: DualVector<R>,
+    value: Pair<R>,
+    slope: Pair<R>,
+    a: DualVector<R>,
+    rate: DualVector<R>,
+) -> DualVector<R> {
     let p = d.cross(a);
     let r = d.cross(p);
     let p_rate = rate.cross(a);
     let r_rate = rate.cross(p) + d.cross(p_rate);
-    p_rate * value.linear
-        + r_rate * value.quadratic
-        + (p * slope.linear + r * slope.quadratic) * (d.dot(rate) * 2.0)
+    let along = (p * slope.linear).plus_scaled(r, slope.quadratic);
+    (p_rate * value.linear).plus_scaled(r_rate, value.quadratic).plus_scaled(along, d.dot(rate).scaled(2.0))
 }
 
 /// The gradient of `w·(a + β p + γ r)` by `d`:
 /// `β a × w + γ [w (d·a) + a (d·w) - 2 d (a·w)] + 2 d (β' w·p + γ' w·r)`.
-#[inline]
-pub(crate) fn gradient(d: DualVector, value: Pair, slope: Pair, a: DualVector, w: DualVector) -> DualVector {
+#[inline(always)]
+pub(crate) fn gradient<R: Real>(
+    d: DualVector<R>,
+    value: Pair<R>,
+    slope: Pair<R>,
+    a: DualVector<R>,
+    w: DualVector<R>,
+) -> DualVector<R> {
     let g = a.cross(w);
     let (d_a, d_w, a_w, q) = (d.dot(a), d.dot(w), a.dot(w), d.dot(d));
     let w_p = d.dot(g);
-    let w_r = d_a * d_w - q * a_w;
-    let along_d = w_p * slope.linear + w_r * slope.quadratic - a_w * value.quadratic;
-    g * value.linear + (w * d_a + a * d_w) * value.quadratic + d * (along_d * 2.0)
+    let w_r = (d_a * d_w).minus_product(q, a_w);
+    let along_d = (w_p * slope.linear).plus_product(w_r, slope.quadratic).minus_product(a_w, value.quadratic);
+    (g * value.linear)
+        .plus_scaled((w * d_a).plus_scaled(a, d_w), value.quadratic)
+        .plus_scaled(d, along_d.scaled(2.0))
 }
 
 /// The Hessian of `w·(a + β p + γ r)` by `d`. With `g = a × w`, `s = w·p = d·g`, `k = w·r`,
@@ -98,19 +160,19 @@ pub(crate) fn gradient(d: DualVector, value: Pair, slope: Pair, a: DualVector, w
 /// `h = 2 β' g + 2 γ' ∇k`.
 #[inline]
 pub(crate) fn hessian(
-    d: DualVector,
-    [value, slope, bend]: [Pair; 3],
-    a: DualVector,
-    w: DualVector,
+    d: DualVector<f64>,
+    [value, slope, bend]: [Pair<f64>; 3],
+    a: DualVector<f64>,
+    w: DualVector<f64>,
 ) -> DualMatrix {
     let g = a.cross(w);
     let (d_a, d_w, a_w, q) = (d.dot(a), d.dot(w), a.dot(w), d.dot(d));
     let s = d.dot(g);
     let k = d_a * d_w - q * a_w;
-    let k_gradient = w * d_a + a * d_w - d * (a_w * 2.0);
-    let diagonal = (s * slope.linear + k * slope.quadratic - a_w * value.quadratic) * 2.0;
-    let square = (s * bend.linear + k * bend.quadratic) * 2.0;
-    let h = (g * slope.linear + k_gradient * slope.quadratic) * 2.0 + d * square;
+    let k_gradient = w * d_a + a * d_w - d * a_w.scaled(2.0);
+    let diagonal = (s * slope.linear + k * slope.quadratic - a_w * value.quadratic).scaled(2.0);
+    let square = (s * bend.linear + k * bend.quadratic).scaled(2.0);
+    let h = (g * slope.linear + k_gradient * slope.quadratic).scaled(2.0) + d * square;
     let (scaled_a, outer) = (a * value.quadratic, DualMatrix::outer);
     DualMatrix::diagonal(diagonal) + outer(w, scaled_a) + outer(scaled_a, w) + outer(h, d) + outer(d, h)
 }

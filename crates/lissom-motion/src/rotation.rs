@@ -4,6 +4,7 @@
 use std::ops::Mul;
 
 use crate::coefficients::{HalfAngle, exponential_coefficients};
+use crate::versor::Versor;
 use crate::{Matrix3, Vector3, skew};
 
 /// A rotation, stored as a unit quaternion.
@@ -16,13 +17,6 @@ pub struct Rotation {
     vector: Vector3,
 }
 
-/// Series of `atan(x)/x` by `-x²`, used for `x² < ARC_TANGENT_UP_TO`.
-const ARC_TANGENT: [f64; 9] =
-    [1.0, 1.0 / 3.0, 1.0 / 5.0, 1.0 / 7.0, 1.0 / 9.0, 1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0];
-const ARC_TANGENT_UP_TO: f64 = 1.0 / 64.0;
-/// Below this `x²` the first terms of the series are enough.
-const ARC_TANGENT_SHORT_UP_TO: f64 = 1.0 / 1024.0;
-const ARC_TANGENT_SHORT: usize = 6;
 /// Smallest sine of the angle between two directions that still span a plane.
 const PARALLEL: f64 = 1e-10;
 
@@ -39,12 +33,7 @@ impl Rotation {
     /// The rotation by `|θ|` \[rad\] about the direction of `θ`.
     #[inline]
     pub fn exponential(theta: &Vector3) -> Self {
-        Self::from_half_angle(theta, HalfAngle::from_square(theta.norm_squared()))
-    }
-
-    #[inline]
-    pub(crate) fn from_half_angle(theta: &Vector3, half: HalfAngle) -> Self {
-        Self { scalar: half.cosine, vector: theta * half.sine_by_angle }
+        Versor::exponential(theta.into()).into()
     }
 
     /// The rotation vector `θ` \[rad\] with `|θ| ≤ π`.
@@ -52,21 +41,7 @@ impl Rotation {
     /// Of the two vectors of a half turn, the one whose first nonzero component is positive.
     #[inline]
     pub fn logarithm(&self) -> Vector3 {
-        let Self { scalar, vector } = self.with_positive_scalar();
-        let square = vector.norm_squared();
-        if square < ARC_TANGENT_UP_TO * scalar * scalar {
-            let inverse = 1.0 / scalar;
-            let x = -square * inverse * inverse;
-            let quotient = if -x < ARC_TANGENT_SHORT_UP_TO {
-                polynomial(&ARC_TANGENT[..ARC_TANGENT_SHORT], x)
-            } else {
-                polynomial(&ARC_TANGENT, x)
-            };
-            vector * (2.0 * quotient * inverse)
-        } else {
-            let sine = square.sqrt();
-            vector * (2.0 * sine.atan2(scalar) / sine)
-        }
+        Versor::from(self).logarithm().into()
     }
 
     /// The same rotation with the quaternion that has a positive scalar part.
@@ -95,15 +70,13 @@ impl Rotation {
     /// `R v`.
     #[inline]
     pub fn apply(&self, v: &Vector3) -> Vector3 {
-        let t = self.vector.cross(v) * 2.0;
-        v + t * self.scalar + self.vector.cross(&t)
+        Versor::from(self).apply(v.into()).into()
     }
 
     /// `Rᵀ v`.
     #[inline]
     pub fn apply_inverse(&self, v: &Vector3) -> Vector3 {
-        let t = self.vector.cross(v) * 2.0;
-        v - t * self.scalar + self.vector.cross(&t)
+        Versor::from(self).apply_inverse(v.into()).into()
     }
 
     /// The rotation matrix.
@@ -241,9 +214,18 @@ impl Rotation {
     }
 }
 
-#[inline]
-fn polynomial(coefficients: &[f64], x: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
+impl From<&Rotation> for Versor<f64> {
+    #[inline]
+    fn from(rotation: &Rotation) -> Self {
+        Self { scalar: rotation.scalar, vector: (&rotation.vector).into() }
+    }
+}
+
+impl From<Versor<f64>> for Rotation {
+    #[inline]
+    fn from(versor: Versor<f64>) -> Self {
+        Self { scalar: versor.scalar, vector: versor.vector.into() }
+    }
 }
 
 /// The unit vector along `v`; `None` if `v` is zero or not finite.
@@ -264,12 +246,7 @@ impl Mul for Rotation {
     type Output = Self;
     #[inline]
     fn mul(self, other: Self) -> Self {
-        Self {
-            scalar: self.scalar * other.scalar - self.vector.dot(&other.vector),
-            vector: other.vector * self.scalar
-                + self.vector * other.scalar
-                + self.vector.cross(&other.vector),
-        }
+        (Versor::from(&self) * Versor::from(&other)).into()
     }
 }
 
@@ -278,7 +255,7 @@ impl Mul for Rotation {
 pub fn rotation_exponential_minus_identity(theta: &Vector3) -> Matrix3 {
     let q = theta.norm_squared();
     let half = HalfAngle::from_square(q);
-    let [[b, _]] = exponential_coefficients::<1>(q);
+    let [[b, _]] = exponential_coefficients::<f64, 1>(q);
     skew(theta) * (2.0 * half.sine_by_angle * half.cosine)
         + (theta * theta.transpose() - Matrix3::from_diagonal_element(q)) * b
 }

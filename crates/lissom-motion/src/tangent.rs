@@ -4,168 +4,138 @@
 //! `T = I - b d̃ + c d̃²` and `T⁻¹ = I + d̃/2 + e d̃²` with `d` the rotation vector for SO(3), and the twist read as a
 //! dual vector for SE(3).
 
-use crate::coefficients::{exponential_coefficients, inverse_coefficients};
-use crate::dual::{Dual, DualVector};
+use crate::dual::DualVector;
 use crate::operator::{self, Pair};
+use crate::screw::{Screw, TangentOperator};
+use crate::triple::Triple;
 use crate::{Matrix3, Matrix6, Vector3, Vector6};
 
 #[inline]
-fn tangent_pairs<const ORDERS: usize, const PAIRS: usize>(q: Dual) -> [Pair; PAIRS] {
-    const { assert!(ORDERS == PAIRS + 1, "a dual value takes one derivative more") };
-    let k = exponential_coefficients::<ORDERS>(q.real).map(|[b, c]| [-b, c]);
-    std::array::from_fn(|m| Pair::lift(k[m], k[m + 1], q))
+fn twist(v: &Vector6) -> DualVector<f64> {
+    DualVector::from_twist(v.into())
 }
 
 #[inline]
-fn inverse_pairs<const ORDERS: usize, const PAIRS: usize>(q: Dual) -> [Pair; PAIRS] {
-    const { assert!(ORDERS == PAIRS + 1, "a dual value takes one derivative more") };
-    let e = inverse_coefficients::<ORDERS>(q.real);
-    let linear = |m: usize| if m == 0 { 0.5 } else { 0.0 };
-    std::array::from_fn(|m| Pair::lift([linear(m), e[m]], [0.0, e[m + 1]], q))
-}
-
-#[inline]
-fn tangent_value(d: DualVector) -> Pair {
-    let [value] = tangent_pairs::<2, 1>(d.dot(d));
-    value
-}
-
-#[inline]
-fn inverse_value(d: DualVector) -> Pair {
-    let [value] = inverse_pairs::<2, 1>(d.dot(d));
-    value
+fn wrench(w: &Vector6) -> DualVector<f64> {
+    DualVector::from_wrench(w.into())
 }
 
 /// The tangent operator at one twist, or its inverse, with all coefficients computed once for several uses.
 #[derive(Clone, Copy, Debug)]
-pub struct ScrewTangent {
-    d: DualVector,
-    value: Pair,
-    slope: Pair,
-}
+pub struct ScrewTangent(TangentOperator<f64>);
 
 impl ScrewTangent {
     /// `T(d)` at the twist `d`.
     #[inline]
     pub fn new(d: &Vector6) -> Self {
-        let d = DualVector::from_twist(d);
-        let [value, slope] = tangent_pairs::<3, 2>(d.dot(d));
-        Self { d, value, slope }
+        Self(TangentOperator::new(d.into()))
     }
 
     /// `T(d)⁻¹` at the twist `d`, `|θ| < 2π`; all methods then refer to the inverse.
     #[inline]
     pub fn inverse(d: &Vector6) -> Self {
-        let d = DualVector::from_twist(d);
-        let [value, slope] = inverse_pairs::<3, 2>(d.dot(d));
-        Self { d, value, slope }
+        Self(TangentOperator::inverse(d.into()))
     }
 
     /// The 6 x 6 matrix `T`.
     #[inline]
     pub fn matrix(&self) -> Matrix6 {
-        operator::matrix(self.d, self.value).to_twist_matrix()
+        operator::matrix(self.0.d, self.0.value).to_twist_matrix()
     }
 
     /// `T a` of a twist `a`.
     #[inline]
     pub fn times(&self, a: &Vector6) -> Vector6 {
-        operator::times(self.d, self.value, DualVector::from_twist(a)).to_twist()
+        self.0.times(a.into()).into()
     }
 
     /// `Tᵀ w` of a wrench `w`.
     #[inline]
     pub fn transpose_times(&self, w: &Vector6) -> Vector6 {
-        operator::times(self.d, self.value.transposed(), DualVector::from_wrench(w)).to_wrench()
+        self.0.transpose_times(w.into()).into()
     }
 
     /// `∂(T a)/∂d`.
     #[inline]
     pub fn derivative(&self, a: &Vector6) -> Matrix6 {
-        operator::derivative(self.d, self.value, self.slope, DualVector::from_twist(a)).to_twist_matrix()
+        operator::derivative(self.0.d, self.0.value, self.0.slope, twist(a)).to_twist_matrix()
     }
 
     /// `(∂(T a)/∂d)ᵀ w`, the gradient of the power `wᵀ T a` by `d`, without the matrix.
     #[inline]
     pub fn derivative_transpose_times(&self, a: &Vector6, w: &Vector6) -> Vector6 {
-        let (a, w) = (DualVector::from_twist(a), DualVector::from_wrench(w));
-        operator::gradient(self.d, self.value, self.slope, a, w).to_wrench()
+        self.0.derivative_transpose_times(a.into(), w.into()).into()
     }
 
     /// `∂(Tᵀ w)/∂d`: rows (force; moment), columns (translation; rotation); not symmetric.
     #[inline]
     pub fn transpose_derivative(&self, w: &Vector6) -> Matrix6 {
-        let (value, slope) = (self.value.transposed(), self.slope.transposed());
-        operator::derivative(self.d, value, slope, DualVector::from_wrench(w)).to_wrench_matrix()
+        let (value, slope) = (self.0.value.transposed(), self.0.slope.transposed());
+        operator::derivative(self.0.d, value, slope, wrench(w)).to_wrench_matrix()
     }
 
     /// `Ṫ a = (∂(T a)/∂d) ḋ`.
     #[inline]
     pub fn rate_times(&self, d_rate: &Vector6, a: &Vector6) -> Vector6 {
-        let (a, rate) = (DualVector::from_twist(a), DualVector::from_twist(d_rate));
-        operator::derivative_times(self.d, self.value, self.slope, a, rate).to_twist()
+        self.0.rate_times(d_rate.into(), a.into()).into()
     }
 }
 
 #[inline]
-fn rotation_argument(theta: &Vector3) -> DualVector {
-    DualVector { real: *theta, dual: Vector3::zeros() }
+fn rotation_argument(theta: &Vector3) -> DualVector<f64> {
+    DualVector { real: theta.into(), dual: Triple::new(0.0, 0.0, 0.0) }
 }
 
 /// `T(θ)` of SO(3): `vee(exp(θ̃)ᵀ δexp(θ̃)) = T(θ) δθ`.
 #[inline]
 pub fn rotation_tangent(theta: &Vector3) -> Matrix3 {
     let d = rotation_argument(theta);
-    operator::matrix(d, tangent_value(d)).real
+    operator::matrix(d, Pair::of_tangent(d.dot(d))).real
 }
 
 /// `T(θ)⁻¹` of SO(3), `|θ| < 2π`.
 #[inline]
 pub fn rotation_inverse_tangent(theta: &Vector3) -> Matrix3 {
     let d = rotation_argument(theta);
-    operator::matrix(d, inverse_value(d)).real
+    operator::matrix(d, Pair::of_inverse(d.dot(d))).real
 }
 
 /// `T(d)` of SE(3): `vee(exp(d)⁻¹ δexp(d)) = T(d) δd`.
 #[inline]
 pub fn tangent(d: &Vector6) -> Matrix6 {
-    let d = DualVector::from_twist(d);
-    operator::matrix(d, tangent_value(d)).to_twist_matrix()
+    let d = twist(d);
+    operator::matrix(d, Pair::of_tangent(d.dot(d))).to_twist_matrix()
 }
 
 /// `T(d)⁻¹`, `|θ| < 2π`.
 #[inline]
 pub fn inverse_tangent(d: &Vector6) -> Matrix6 {
-    let d = DualVector::from_twist(d);
-    operator::matrix(d, inverse_value(d)).to_twist_matrix()
+    let d = twist(d);
+    operator::matrix(d, Pair::of_inverse(d.dot(d))).to_twist_matrix()
 }
 
 /// `T(d) a` of a twist `a`.
 #[inline]
 pub fn tangent_times(d: &Vector6, a: &Vector6) -> Vector6 {
-    let d = DualVector::from_twist(d);
-    operator::times(d, tangent_value(d), DualVector::from_twist(a)).to_twist()
+    Screw::from(d).tangent_times(a.into()).into()
 }
 
 /// `T(d)⁻¹ a` of a twist `a`, `|θ| < 2π`.
 #[inline]
 pub fn inverse_tangent_times(d: &Vector6, a: &Vector6) -> Vector6 {
-    let d = DualVector::from_twist(d);
-    operator::times(d, inverse_value(d), DualVector::from_twist(a)).to_twist()
+    Screw::from(d).inverse_tangent_times(a.into()).into()
 }
 
 /// `T(d)ᵀ w` of a wrench `w`.
 #[inline]
 pub fn tangent_transpose_times(d: &Vector6, w: &Vector6) -> Vector6 {
-    let d = DualVector::from_twist(d);
-    operator::times(d, tangent_value(d).transposed(), DualVector::from_wrench(w)).to_wrench()
+    Screw::from(d).tangent_transpose_times(w.into()).into()
 }
 
 /// `T(d)⁻ᵀ w` of a wrench `w`, `|θ| < 2π`.
 #[inline]
 pub fn inverse_tangent_transpose_times(d: &Vector6, w: &Vector6) -> Vector6 {
-    let d = DualVector::from_twist(d);
-    operator::times(d, inverse_value(d).transposed(), DualVector::from_wrench(w)).to_wrench()
+    Screw::from(d).inverse_tangent_transpose_times(w.into()).into()
 }
 
 /// `∂(T(d) a)/∂d`.
@@ -189,9 +159,9 @@ pub fn tangent_transpose_derivative(d: &Vector6, w: &Vector6) -> Matrix6 {
 /// `∂²(wᵀ T(d) a)/∂d∂d`, symmetric.
 #[inline]
 pub fn tangent_hessian(d: &Vector6, a: &Vector6, w: &Vector6) -> Matrix6 {
-    let d = DualVector::from_twist(d);
-    let pairs = tangent_pairs::<4, 3>(d.dot(d));
-    operator::hessian(d, pairs, DualVector::from_twist(a), DualVector::from_wrench(w)).to_wrench_matrix()
+    let d = twist(d);
+    let pairs = operator::tangent_pairs::<f64, 4, 3>(d.dot(d));
+    operator::hessian(d, pairs, twist(a), wrench(w)).to_wrench_matrix()
 }
 
 /// `Ṫ a = (∂(T(d) a)/∂d) ḋ`.
@@ -221,7 +191,7 @@ pub fn inverse_tangent_transpose_derivative(d: &Vector6, w: &Vector6) -> Matrix6
 /// `∂²(wᵀ T(d)⁻¹ a)/∂d∂d`, symmetric, `|θ| < 2π`.
 #[inline]
 pub fn inverse_tangent_hessian(d: &Vector6, a: &Vector6, w: &Vector6) -> Matrix6 {
-    let d = DualVector::from_twist(d);
-    let pairs = inverse_pairs::<4, 3>(d.dot(d));
-    operator::hessian(d, pairs, DualVector::from_twist(a), DualVector::from_wrench(w)).to_wrench_matrix()
+    let d = twist(d);
+    let pairs = operator::inverse_pairs::<f64, 4, 3>(d.dot(d));
+    operator::hessian(d, pairs, twist(a), wrench(w)).to_wrench_matrix()
 }

@@ -1,0 +1,82 @@
+//! A number, or several side by side: what the hot formulas are written over, so that they stand there once.
+//!
+//! Everything that is generic over [`Real`] is inlined to the last function: only then a caller compiled for wider
+//! vectors uses them. For the same reason it calls no closures, iterators or foreign vector types.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number, or several side by side.
+pub trait Real:
+    Copy
+    + std::fmt::Debug
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// `value` in each lane; `self` only tells the kind.
+    fn like(self, value: f64) -> Self;
+
+    /// `self` times a constant.
+    fn scaled(self, factor: f64) -> Self;
+
+    /// `self + a b`, rounded once where the processor does so at no cost.
+    fn plus_product(self, a: Self, b: Self) -> Self;
+
+    /// `self - a b`, rounded once where the processor does so at no cost.
+    fn minus_product(self, a: Self, b: Self) -> Self;
+
+    /// The square root.
+    fn square_root(self) -> Self;
+
+    /// Whether all lanes are below `limit`; not if one is not a number.
+    fn all_below(self, limit: f64) -> bool;
+
+    /// A function of one lane at a time, for arguments that are too rare for formulas of their own.
+    fn one_by_one<const K: usize, const M: usize, const N: usize>(
+        arguments: [Self; K],
+        function: fn([f64; K]) -> [[f64; N]; M],
+    ) -> [[Self; N]; M];
+}
+
+impl Real for f64 {
+    #[inline(always)]
+    fn like(self, value: f64) -> Self {
+        value
+    }
+
+    #[inline(always)]
+    fn scaled(self, factor: f64) -> Self {
+        self * factor
+    }
+
+    #[inline(always)]
+    fn plus_product(self, a: Self, b: Self) -> Self {
+        self + a * b
+    }
+
+    #[inline(always)]
+    fn minus_product(self, a: Self, b: Self) -> Self {
+        self - a * b
+    }
+
+    #[inline(always)]
+    fn square_root(self) -> Self {
+        self.sqrt()
+    }
+
+    #[inline(always)]
+    fn all_below(self, limit: f64) -> bool {
+        self < limit
+    }
+
+    #[inline(always)]
+    fn one_by_one<const K: usize, const M: usize, const N: usize>(
+        arguments: [Self; K],
+        function: fn([f64; K]) -> [[f64; N]; M],
+    ) -> [[Self; N]; M] {
+        function(arguments)
+    }
+}

@@ -1,0 +1,195 @@
+//! Twists and wrenches over any [`Real`], and what the tangent operator makes of them.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use std::ops::{Add, Mul, Neg, Sub};
+
+use crate::dual::DualVector;
+use crate::operator::{self, Pair};
+use crate::real::Real;
+use crate::triple::Triple;
+use crate::{Vector6, rotation_part, translation_part};
+
+/// A twist (translation; rotation) or a wrench (force; moment).
+#[derive(Clone, Copy, Debug)]
+pub struct Screw<R> {
+    /// Translation of a twist, force of a wrench.
+    pub translation: Triple<R>,
+    /// Rotation of a twist, moment of a wrench.
+    pub rotation: Triple<R>,
+}
+
+impl<R: Real> Screw<R> {
+    /// From both parts.
+    #[inline(always)]
+    pub fn new(translation: Triple<R>, rotation: Triple<R>) -> Self {
+        Self { translation, rotation }
+    }
+
+    /// From six components.
+    #[inline(always)]
+    pub fn from_components(components: [R; 6]) -> Self {
+        let [a, b, c, d, e, f] = components;
+        Self::new(Triple::new(a, b, c), Triple::new(d, e, f))
+    }
+
+    /// Its six components.
+    #[inline(always)]
+    pub fn components(self) -> [R; 6] {
+        let (u, theta) = (self.translation, self.rotation);
+        [u.x, u.y, u.z, theta.x, theta.y, theta.z]
+    }
+
+    /// Times a constant.
+    #[inline(always)]
+    pub fn scaled(self, factor: f64) -> Self {
+        Self::new(self.translation.scaled(factor), self.rotation.scaled(factor))
+    }
+
+    /// `self + v factor`.
+    #[inline(always)]
+    pub fn plus_scaled(self, v: Self, factor: R) -> Self {
+        Self::new(
+            self.translation.plus_scaled(v.translation, factor),
+            self.rotation.plus_scaled(v.rotation, factor),
+        )
+    }
+
+    /// The Lie bracket of two twists, `ad_V W`.
+    #[inline(always)]
+    pub fn lie_bracket(self, other: Self) -> Self {
+        DualVector::from_twist(self).cross(DualVector::from_twist(other)).to_twist()
+    }
+
+    /// `ad_Vᵀ W` of this twist and the wrench `w`.
+    #[inline(always)]
+    pub fn coadjoint_times(self, w: Self) -> Self {
+        DualVector::from_wrench(w).cross(DualVector::from_twist(self)).to_wrench()
+    }
+
+    /// `T(d) a` of the twists `d` (this one) and `a`.
+    #[inline(always)]
+    pub fn tangent_times(self, a: Self) -> Self {
+        let d = DualVector::from_twist(self);
+        operator::times(d, Pair::of_tangent(d.dot(d)), DualVector::from_twist(a)).to_twist()
+    }
+
+    /// `T(d)ᵀ w` of a wrench `w`.
+    #[inline(always)]
+    pub fn tangent_transpose_times(self, w: Self) -> Self {
+        let d = DualVector::from_twist(self);
+        operator::times(d, Pair::of_tangent(d.dot(d)).transposed(), DualVector::from_wrench(w)).to_wrench()
+    }
+
+    /// `T(d)⁻¹ a` of a twist `a`, `|θ| < 2π`.
+    #[inline(always)]
+    pub fn inverse_tangent_times(self, a: Self) -> Self {
+        let d = DualVector::from_twist(self);
+        operator::times(d, Pair::of_inverse(d.dot(d)), DualVector::from_twist(a)).to_twist()
+    }
+
+    /// `T(d)⁻ᵀ w` of a wrench `w`, `|θ| < 2π`.
+    #[inline(always)]
+    pub fn inverse_tangent_transpose_times(self, w: Self) -> Self {
+        let d = DualVector::from_twist(self);
+        operator::times(d, Pair::of_inverse(d.dot(d)).transposed(), DualVector::from_wrench(w)).to_wrench()
+    }
+}
+
+impl<R: Real> Add for Screw<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        Self::new(self.translation + other.translation, self.rotation + other.rotation)
+    }
+}
+
+impl<R: Real> Sub for Screw<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.translation - other.translation, self.rotation - other.rotation)
+    }
+}
+
+impl<R: Real> Neg for Screw<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self::new(-self.translation, -self.rotation)
+    }
+}
+
+impl<R: Real> Mul<R> for Screw<R> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, factor: R) -> Self {
+        Self::new(self.translation * factor, self.rotation * factor)
+    }
+}
+
+impl From<&Vector6> for Screw<f64> {
+    #[inline(always)]
+    fn from(v: &Vector6) -> Self {
+        Self::new((&translation_part(v)).into(), (&rotation_part(v)).into())
+    }
+}
+
+impl From<Screw<f64>> for Vector6 {
+    #[inline(always)]
+    fn from(v: Screw<f64>) -> Self {
+        let [a, b, c, d, e, f] = v.components();
+        Self::new(a, b, c, d, e, f)
+    }
+}
+
+/// `T(d)`, or its inverse, at one twist, with all coefficients computed once for several uses.
+#[derive(Clone, Copy, Debug)]
+pub struct TangentOperator<R> {
+    pub(crate) d: DualVector<R>,
+    pub(crate) value: Pair<R>,
+    pub(crate) slope: Pair<R>,
+}
+
+impl<R: Real> TangentOperator<R> {
+    /// `T(d)` at the twist `d`.
+    #[inline(always)]
+    pub fn new(d: Screw<R>) -> Self {
+        let d = DualVector::from_twist(d);
+        let [value, slope] = operator::tangent_pairs::<R, 3, 2>(d.dot(d));
+        Self { d, value, slope }
+    }
+
+    /// `T(d)⁻¹` at the twist `d`, `|θ| < 2π`; all methods then refer to the inverse.
+    #[inline(always)]
+    pub fn inverse(d: Screw<R>) -> Self {
+        let d = DualVector::from_twist(d);
+        let [value, slope] = operator::inverse_pairs::<R, 3, 2>(d.dot(d));
+        Self { d, value, slope }
+    }
+
+    /// `T a` of a twist `a`.
+    #[inline(always)]
+    pub fn times(&self, a: Screw<R>) -> Screw<R> {
+        operator::times(self.d, self.value, DualVector::from_twist(a)).to_twist()
+    }
+
+    /// `Tᵀ w` of a wrench `w`.
+    #[inline(always)]
+    pub fn transpose_times(&self, w: Screw<R>) -> Screw<R> {
+        operator::times(self.d, self.value.transposed(), DualVector::from_wrench(w)).to_wrench()
+    }
+
+    /// `(∂(T a)/∂d)ᵀ w`, the gradient of the power `wᵀ T a` by `d`.
+    #[inline(always)]
+    pub fn derivative_transpose_times(&self, a: Screw<R>, w: Screw<R>) -> Screw<R> {
+        let (a, w) = (DualVector::from_twist(a), DualVector::from_wrench(w));
+        operator::gradient(self.d, self.value, self.slope, a, w).to_wrench()
+    }
+
+    /// `Ṫ a = (∂(T a)/∂d) ḋ`.
+    #[inline(always)]
+    pub fn rate_times(&self, d_rate: Screw<R>, a: Screw<R>) -> Screw<R> {
+        let (a, rate) = (DualVector::from_twist(a), DualVector::from_twist(d_rate));
+        operator::derivative_times(self.d, self.value, self.slope, a, rate).to_twist()
+    }
+}
