@@ -42,7 +42,7 @@ pub use motion::Motion;
 pub use pose::Pose;
 pub use real::Real;
 pub use rotation::{Rotation, rotation_exponential_minus_identity};
-pub use screw::{Screw, TangentOperator};
+pub use screw::{InverseTangent, Screw, TangentOperator};
 pub use tangent::{
     ScrewTangent, inverse_tangent, inverse_tangent_derivative, inverse_tangent_derivative_transpose_times,
     inverse_tangent_hessian, inverse_tangent_times, inverse_tangent_transpose_derivative,

@@ -100,6 +100,18 @@ pub(crate) fn times<R: Real>(d: DualVector<R>, value: Pair<R>, a: DualVector<R>)
     a.plus_scaled(p, value.linear).plus_scaled(r, value.quadratic)
 }
 
+/// `a + half p + γ r` with `half` 1/2 for `T⁻¹` and -1/2 for its transpose, and `γ = e`.
+#[inline(always)]
+pub(crate) fn inverse_times<R: Real>(
+    d: DualVector<R>,
+    half: f64,
+    quadratic: Dual<R>,
+    a: DualVector<R>,
+) -> DualVector<R> {
+    let p = d.cross(a);
+    (a + p.scaled(half)).plus_scaled(d.cross(p), quadratic)
+}
+
 /// The derivative of `a + β p + γ r` by `d`:
 /// `-β ã + γ [(d·a) I + d aᵀ - 2 a dᵀ] + 2 (β' p + γ' r) dᵀ`.
 #[inline]

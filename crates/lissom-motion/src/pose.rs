@@ -6,7 +6,7 @@ use std::ops::Mul;
 
 use crate::coefficients::{HalfAngle, exponential_values, inverse_coefficients};
 use crate::real::Real;
-use crate::screw::Screw;
+use crate::screw::{InverseTangent, Screw};
 use crate::triple::Triple;
 use crate::versor::Versor;
 
@@ -59,6 +59,16 @@ impl<R: Real> Pose<R> {
         let q = theta.norm_squared();
         let [e] = inverse_coefficients::<R, 1>(q);
         Screw::new(stretch(self.position, theta, q.like(-0.5), e), theta)
+    }
+
+    /// The logarithm `d` and `T(d)⁻¹`.
+    #[inline(always)]
+    pub fn logarithm_and_inverse_tangent(self) -> (Screw<R>, InverseTangent<R>) {
+        let theta = self.rotation.logarithm();
+        let q = theta.norm_squared();
+        let coefficients = inverse_coefficients::<R, 2>(q);
+        let d = Screw::new(stretch(self.position, theta, q.like(-0.5), coefficients[0]), theta);
+        (d, InverseTangent::with_coefficients(d, coefficients))
     }
 
     /// The motion back.

@@ -3,7 +3,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::dual::DualVector;
+use crate::dual::{Dual, DualVector};
 use crate::operator::{self, Pair};
 use crate::real::Real;
 use crate::triple::Triple;
@@ -37,6 +37,12 @@ impl<R: Real> Screw<R> {
     pub fn components(self) -> [R; 6] {
         let (u, theta) = (self.translation, self.rotation);
         [u.x, u.y, u.z, theta.x, theta.y, theta.z]
+    }
+
+    /// Zero; `kind` only tells the kind of number.
+    #[inline(always)]
+    pub fn zero(kind: R) -> Self {
+        Self::from_components([kind.like(0.0); 6])
     }
 
     /// Times a constant.
@@ -83,15 +89,13 @@ impl<R: Real> Screw<R> {
     /// `T(d)⁻¹ a` of a twist `a`, `|θ| < 2π`.
     #[inline(always)]
     pub fn inverse_tangent_times(self, a: Self) -> Self {
-        let d = DualVector::from_twist(self);
-        operator::times(d, Pair::of_inverse(d.dot(d)), DualVector::from_twist(a)).to_twist()
+        InverseTangent::new(self).times(a)
     }
 
     /// `T(d)⁻ᵀ w` of a wrench `w`, `|θ| < 2π`.
     #[inline(always)]
     pub fn inverse_tangent_transpose_times(self, w: Self) -> Self {
-        let d = DualVector::from_twist(self);
-        operator::times(d, Pair::of_inverse(d.dot(d)).transposed(), DualVector::from_wrench(w)).to_wrench()
+        InverseTangent::new(self).transpose_times(w)
     }
 }
 
@@ -191,5 +195,40 @@ impl<R: Real> TangentOperator<R> {
     pub fn rate_times(&self, d_rate: Screw<R>, a: Screw<R>) -> Screw<R> {
         let (a, rate) = (DualVector::from_twist(a), DualVector::from_twist(d_rate));
         operator::derivative_times(self.d, self.value, self.slope, a, rate).to_twist()
+    }
+}
+
+/// `T(d)⁻¹` at one twist, `|θ| < 2π`, for products only.
+#[derive(Clone, Copy, Debug)]
+pub struct InverseTangent<R> {
+    d: DualVector<R>,
+    quadratic: Dual<R>,
+}
+
+impl<R: Real> InverseTangent<R> {
+    /// At the twist `d`.
+    #[inline(always)]
+    pub fn new(d: Screw<R>) -> Self {
+        let d = DualVector::from_twist(d);
+        Self { d, quadratic: Pair::of_inverse(d.dot(d)).quadratic }
+    }
+
+    /// At the twist `d`, where `e` and its derivative by `θ²` are known.
+    #[inline(always)]
+    pub(crate) fn with_coefficients(d: Screw<R>, [e, slope]: [R; 2]) -> Self {
+        let d = DualVector::from_twist(d);
+        Self { d, quadratic: Dual::new(e, slope * d.dot(d).dual) }
+    }
+
+    /// `T⁻¹ a` of a twist `a`.
+    #[inline(always)]
+    pub fn times(&self, a: Screw<R>) -> Screw<R> {
+        operator::inverse_times(self.d, 0.5, self.quadratic, DualVector::from_twist(a)).to_twist()
+    }
+
+    /// `T⁻ᵀ w` of a wrench `w`.
+    #[inline(always)]
+    pub fn transpose_times(&self, w: Screw<R>) -> Screw<R> {
+        operator::inverse_times(self.d, -0.5, self.quadratic, DualVector::from_wrench(w)).to_wrench()
     }
 }

@@ -11,7 +11,7 @@ use crate::newton::{self, Failure, Limits, Memory};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Coupling, Scheme, Tableau};
 use crate::system::{
-    Augmentation, Chart, Kinematics, Lanes, Linearization, MotionChange, Point, State, System,
+    Augmentation, Chart, Kinematics, Linearization, MotionChange, Point, State, System, Threads,
 };
 
 /// What a simulation is told besides system and state.
@@ -123,7 +123,7 @@ impl Simulation {
         let equilibrated = settings.scaling.equilibrates();
         let mut work =
             Workspace::new(&system, &state, &settings.scheme, &representative, settings.solver, equilibrated);
-        work.lanes = Lanes::new(&system, settings.threads);
+        work.threads = Threads::new(&system, settings.threads);
         work.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
         let projection = settings
             .scheme

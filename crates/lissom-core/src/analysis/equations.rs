@@ -14,7 +14,7 @@ use crate::joints::{Quantity, attached};
 use crate::newton::{Correction, Equations, Failure};
 use crate::scaling::{Representative, Scaled, StageIncrements, StageMotion, UnitStart};
 use crate::schemes::{Coupling, Increments, Scheme};
-use crate::system::{Chart, Kinematics, LOCKED, Lanes, Layout, Linearization, Point, State, System};
+use crate::system::{Chart, Kinematics, LOCKED, Layout, Linearization, Point, State, System, Threads};
 
 /// Corrections of rotations larger than this are cut short [rad].
 const LARGEST_ROTATION: f64 = 1.0;
@@ -84,7 +84,7 @@ pub(crate) struct Workspace {
     /// Representative length [m].
     pub(super) length: f64,
     /// For evaluation on several threads, where that pays.
-    pub(crate) lanes: Option<Lanes>,
+    pub(crate) threads: Option<Threads>,
     pub(crate) report: Option<FactorReport>,
 }
 
@@ -130,7 +130,7 @@ impl Workspace {
             sizes,
             equilibration: equilibrated.then(|| Equilibration::new(layout.size(), count)),
             length: representative.length,
-            lanes: None,
+            threads: None,
             report: None,
         }
     }
@@ -249,12 +249,14 @@ impl StepEquations<'_> {
         }
         for stage in 0..self.scheme.stages.len() {
             let mut residual = std::mem::take(&mut self.work.residuals[stage]);
-            let mut lanes = self.work.lanes.take();
-            match &mut lanes {
-                Some(lanes) => self.system.residual_side_by_side(&self.point(stage), lanes, &mut residual),
+            let mut threads = self.work.threads.take();
+            match &mut threads {
+                Some(threads) => {
+                    self.system.residual_side_by_side(&self.point(stage), threads, &mut residual);
+                }
                 None => self.system.residual(&self.point(stage), &mut residual),
             }
-            self.work.lanes = lanes;
+            self.work.threads = threads;
             self.work.residuals[stage] = residual;
         }
     }

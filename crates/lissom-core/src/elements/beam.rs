@@ -21,12 +21,15 @@
 pub(super) mod linearize;
 
 use lissom_motion::{
-    Matrix6, Motion, ScrewTangent, Vector6, coadjoint_matrix, inverse_tangent, inverse_tangent_derivative,
+    Matrix6, Motion, Pose, Screw, Vector6, coadjoint_matrix, inverse_tangent, inverse_tangent_derivative,
     inverse_tangent_times, inverse_tangent_transpose_derivative, inverse_tangent_transpose_times,
     lie_bracket_matrix, tangent, tangent_derivative, tangent_derivative_transpose_times, tangent_hessian,
     tangent_rate_times, tangent_times, tangent_transpose_derivative, tangent_transpose_times,
 };
 
+use super::beam_blocks::BeamBlocks;
+use super::beam_forces::{Constants, forces};
+use super::blocks::Blocks;
 use super::passage::{Passage, STAGES, Variation};
 use super::quadrature::gauss_legendre;
 use super::shape::lagrange;
@@ -53,7 +56,7 @@ pub(super) struct Station<const N: usize> {
     pub(super) weight: f64,
     pub(super) law: SectionLaw,
     /// f₀ of the stress-free state.
-    natural: Vector6,
+    pub(super) natural: Vector6,
 }
 
 /// A beam element with `N` nodes at the Gauss-Lobatto points.
@@ -139,9 +142,13 @@ impl<const N: usize> Beam<N> {
         })
     }
 
+    pub(super) fn is_damped(&self) -> bool {
+        self.stations.iter().any(|station| station.law.damping != 0.0)
+    }
+
     /// Rates ḋ_i of the relative coordinates, or none where nothing is damped.
     fn rates(&self, at: &Kinematics, d: &Relative<N>) -> Option<Relative<N>> {
-        self.stations.iter().any(|station| station.law.damping != 0.0).then(|| {
+        self.is_damped().then(|| {
             let twists = self.relative_twists(at, d);
             std::array::from_fn(|i| inverse_tangent_times(&d[i], &twists[i]))
         })
@@ -261,52 +268,50 @@ impl<const N: usize> Station<N> {
     }
 }
 
+impl<const N: usize> Constants<f64> for Beam<N> {
+    fn shape(&self, k: usize, i: usize) -> f64 {
+        self.stations[k].shape[i]
+    }
+
+    fn slope(&self, k: usize, i: usize) -> f64 {
+        self.stations[k].slope[i]
+    }
+
+    fn natural(&self, k: usize) -> Screw<f64> {
+        (&self.stations[k].natural).into()
+    }
+
+    fn damping(&self, k: usize) -> f64 {
+        self.stations[k].law.damping
+    }
+
+    fn stress(&self, k: usize, strain: Screw<f64>) -> Screw<f64> {
+        let station = &self.stations[k];
+        (&(station.weight * (station.law.stiffness * Vector6::from(strain)))).into()
+    }
+}
+
 impl<const N: usize> Element for Beam<N> {
     fn nodes(&self) -> &[NodeId] {
         &self.nodes
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
-        let motions = relative_motions(&std::array::from_fn(|i| self.section_frame(at, i)));
-        let relative = logarithms(&motions);
-        let rates = self.rates(at, &relative);
-        let mut conjugate = [Vector6::zeros(); N];
-        for station in &self.stations {
-            let d_slope = combine(&station.slope, &relative);
-            if N == 2 {
-                // With one relative coordinate d and d' are parallel and T d' = d', whatever d.
-                let mut strain = d_slope - station.natural;
-                if let Some(rates) = &rates {
-                    strain += station.law.damping * combine(&station.slope, rates);
-                }
-                let stress = station.weight * (station.law.stiffness * strain);
-                for i in 0..N {
-                    conjugate[i] += station.slope[i] * stress;
-                }
-                continue;
-            }
-            let d = combine(&station.shape, &relative);
-            // Hot: the operator's coefficients serve strain and forces.
-            let operator = ScrewTangent::new(&d);
-            let mut strain = operator.times(&d_slope) - station.natural;
-            if let Some(rates) = &rates {
-                strain += station.law.damping * station.strain_rate(&d, &d_slope, rates);
-            }
-            let stress = station.weight * (station.law.stiffness * strain);
-            let along = operator.transpose_times(&stress);
-            let across = operator.derivative_transpose_times(&d_slope, &stress);
-            for i in 0..N {
-                conjugate[i] += station.slope[i] * along + station.shape[i] * across;
+        let frames: [_; N] = std::array::from_fn(|i| Pose::from(&self.section_frame(at, i)));
+        let twists = self.is_damped().then(|| std::array::from_fn(|i| (&self.section_twist(at, i)).into()));
+        let forces = forces(self, &frames, twists.as_ref());
+        for (i, force) in forces.into_iter().enumerate() {
+            let force = self.offsets[i]
+                .as_ref()
+                .map_or(force, |offset| Pose::from(offset).adjoint_inverse_transpose_times(force));
+            for (sum, value) in out[6 * i..].iter_mut().zip(force.components()) {
+                *sum += value;
             }
         }
-        let forces: Relative<N> = std::array::from_fn(|i| {
-            if i == Self::REFERENCE {
-                Vector6::zeros()
-            } else {
-                inverse_tangent_transpose_times(&relative[i], &conjugate[i])
-            }
-        });
-        self.add_relative_forces(&motions, &forces, out);
+    }
+
+    fn blocks(items: &[Self]) -> Option<Box<dyn Blocks>> {
+        Some(Box::new(BeamBlocks::new(items)))
     }
 
     fn passage_forces(&self, passage: &Passage<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {

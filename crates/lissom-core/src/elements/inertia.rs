@@ -9,6 +9,8 @@
 
 use lissom_motion::{Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times, lie_bracket_matrix, skew};
 
+use super::blocks::Blocks;
+use super::inertia_blocks::InertiaBlocks;
 use super::passage::{Passage, STAGES};
 use super::{Element, Energy, MOST_UNKNOWNS, Tangents, add_block};
 use crate::system::state::split;
@@ -19,7 +21,7 @@ use crate::system::{Kinematics, NodeId};
 pub struct Inertia {
     node: [NodeId; 1],
     mass: Matrix6,
-    gravity: Vector3,
+    pub(super) gravity: Vector3,
 }
 
 impl Inertia {
@@ -74,6 +76,10 @@ impl Element for Inertia {
         for (sum, value) in out.iter_mut().zip(force.iter()) {
             *sum += value;
         }
+    }
+
+    fn blocks(elements: &[Self]) -> Option<Box<dyn Blocks>> {
+        Some(Box::new(InertiaBlocks::new(elements)))
     }
 
     /// Gravity is corrected along the momenta P_j, so that its work is exactly the change of potential energy:

@@ -4,12 +4,16 @@
 //! derivatives. It knows no time step, no scheme and no scaling.
 
 pub mod beam;
+mod beam_blocks;
+mod beam_forces;
 mod beam_integrated;
 pub mod beam_line;
 mod beam_passage;
+pub mod blocks;
 pub mod coordinate_spring;
 pub mod force;
 pub mod inertia;
+mod inertia_blocks;
 pub mod moment;
 pub mod passage;
 pub mod point_spring;
@@ -19,6 +23,7 @@ pub mod shape;
 use crate::joints::Quantity;
 use crate::registry::{Parameter, ParameterError, Parameters};
 use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
+use blocks::Blocks;
 use lissom_motion::Vector3;
 use passage::{Passage, STAGES, Variation};
 
@@ -113,6 +118,15 @@ pub trait Element: Send + Sync + 'static {
     /// Adds the forces [N, N m] that stand on the left-hand side of the equations of motion,
     /// six per node in the node's body frame, then one per coordinate. Hot: called in every iteration.
     fn forces(&self, at: &Kinematics, out: &mut [f64]);
+
+    /// All elements of a batch laid out for evaluation several at a time, where that is worth while. Their forces
+    /// are those of [`Self::forces`] to round-off. Default: there is no such thing, they are evaluated one by one.
+    fn blocks(_elements: &[Self]) -> Option<Box<dyn Blocks>>
+    where
+        Self: Sized,
+    {
+        None
+    }
 
     /// Adds the forces at both stages of a passage, for schemes that integrate strains. Their work over it is the
     /// change of the elements' energy, as far as the method's stages integrate squares exactly. Default, for

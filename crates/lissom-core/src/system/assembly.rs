@@ -9,9 +9,9 @@
 use nalgebra::SMatrix;
 
 use super::batch::{Chart, scatter, through_chart};
-use super::lanes::Lanes;
 use super::layout::LOCKED;
 use super::state::{Kinematics, MotionChange};
+use super::threads::Threads;
 use super::{Drive, System};
 use crate::elements::{MOST_UNKNOWNS, Tangents};
 use crate::joints::attached::{AttachedJoint, Increments, LOCAL};
@@ -130,13 +130,13 @@ impl System {
     }
 
     /// The same on several threads, to the last bit.
-    pub(crate) fn residual_side_by_side(&self, point: &Point<'_>, lanes: &mut Lanes, out: &mut [f64]) {
+    pub(crate) fn residual_side_by_side(&self, point: &Point<'_>, threads: &mut Threads, out: &mut [f64]) {
         out.fill(0.0);
         for batch in &self.batches {
-            batch.forces_side_by_side(point.at, lanes, out);
+            batch.forces_side_by_side(point.at, threads, out);
         }
         let starts = &self.joint_starts;
-        let locals = lanes.side_by_side(starts, &|joints, locals| {
+        let locals = threads.side_by_side(starts, &|joints, locals| {
             let first = starts[joints.start];
             for joint in joints {
                 let own = starts[joint] - first..starts[joint + 1] - first;

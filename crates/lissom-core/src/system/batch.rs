@@ -1,14 +1,16 @@
 //! Elements of one kind stored together: one virtual call per kind, a monomorphic loop inside.
 
 use std::any::Any;
+use std::ops::Range;
 
-use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
+use lissom_motion::{Matrix6, Vector6, WIDTH, lie_bracket_matrix};
 use lissom_solver::Pattern;
 
 use super::assembly::Linearization;
-use super::lanes::Lanes;
 use super::layout::{LOCKED, Layout};
 use super::state::{Kinematics, NodeMotion};
+use super::threads::Threads;
+use crate::elements::blocks::Blocks;
 use crate::elements::passage::{Passage, STAGES, Variation};
 use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
 
@@ -25,6 +27,9 @@ pub(crate) struct Batch<E> {
     /// Position in the pattern of every local matrix entry, item after item.
     positions: Vec<u32>,
     position_starts: Vec<usize>,
+    /// The items laid out for evaluation several at a time, for kinds that are.
+    blocks: Option<Box<dyn Blocks>>,
+    processor: pulp::Arch,
 }
 
 /// A batch of any kind.
@@ -38,7 +43,7 @@ pub(crate) trait AnyBatch: Send + Sync {
     fn starts(&self) -> &[usize];
     fn forces(&self, at: &Kinematics, out: &mut [f64]);
     /// The same on several threads.
-    fn forces_side_by_side(&self, at: &Kinematics, lanes: &mut Lanes, out: &mut [f64]);
+    fn forces_side_by_side(&self, at: &Kinematics, threads: &mut Threads, out: &mut [f64]);
     fn linearize(
         &self,
         at_stressed: (&Kinematics, &Kinematics),
@@ -86,6 +91,8 @@ impl<E: Element> Batch<E> {
             starts: Vec::new(),
             positions: Vec::new(),
             position_starts: Vec::new(),
+            blocks: None,
+            processor: pulp::Arch::new(),
         }
     }
 
@@ -101,6 +108,11 @@ impl<E: Element> Batch<E> {
             out.damping[position] += local.damping[entry];
             out.mass[position] += local.mass[entry];
         }
+    }
+
+    /// Items in a block of those that are evaluated several at a time.
+    fn block_items(&self, block: usize) -> Range<usize> {
+        block * WIDTH..self.items.len().min((block + 1) * WIDTH)
     }
 
     fn item_rows(&self, item: usize) -> &[u32] {
@@ -125,6 +137,7 @@ impl<E: Element> AnyBatch for Batch<E> {
             );
             self.starts.push(self.rows.len());
         }
+        self.blocks = E::blocks(&self.items);
     }
 
     fn locate(&mut self, pattern: &Pattern) {
@@ -145,9 +158,21 @@ impl<E: Element> AnyBatch for Batch<E> {
         &self.starts
     }
 
-    fn forces_side_by_side(&self, at: &Kinematics, lanes: &mut Lanes, out: &mut [f64]) {
-        let locals = lanes.side_by_side(&self.starts, &|items, locals| {
+    fn forces_side_by_side(&self, at: &Kinematics, threads: &mut Threads, out: &mut [f64]) {
+        let locals = threads.side_by_side(&self.starts, &|items, locals| {
             let first = self.starts[items.start];
+            if let Some(blocks) = &self.blocks {
+                let range = items.start / WIDTH..items.end.div_ceil(WIDTH);
+                blocks.forces(self.processor, at, range, &mut |block, forces| {
+                    for (lane, item) in self.block_items(block).enumerate() {
+                        let own = &mut locals[self.starts[item] - first..self.starts[item + 1] - first];
+                        for (local, force) in own.iter_mut().zip(forces) {
+                            *local = force[lane];
+                        }
+                    }
+                });
+                return;
+            }
             for item in items {
                 let own = self.starts[item] - first..self.starts[item + 1] - first;
                 self.items[item].forces(at, &mut locals[own]);
@@ -157,6 +182,19 @@ impl<E: Element> AnyBatch for Batch<E> {
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        if let Some(blocks) = &self.blocks {
+            let range = 0..self.items.len().div_ceil(WIDTH);
+            blocks.forces(self.processor, at, range, &mut |block, forces| {
+                for (lane, item) in self.block_items(block).enumerate() {
+                    for (&row, force) in self.item_rows(item).iter().zip(forces) {
+                        if row != LOCKED {
+                            out[row as usize] += force[lane];
+                        }
+                    }
+                }
+            });
+            return;
+        }
         for (index, item) in self.items.iter().enumerate() {
             let rows = self.item_rows(index);
             let mut local = [0.0; MOST_UNKNOWNS];

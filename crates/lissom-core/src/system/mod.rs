@@ -3,21 +3,21 @@
 mod assembly;
 mod batch;
 mod builder;
-mod lanes;
 mod layout;
 mod passage;
 pub(crate) mod state;
+mod threads;
 
 use std::sync::Arc;
 
 pub use assembly::{Augmentation, Linearization, Point};
 pub use batch::Chart;
 pub use builder::{BuildError, Builder, Placement};
-pub(crate) use lanes::Lanes;
-pub use lanes::WORTH_WHILE;
 pub use layout::{Freedoms, LOCKED, Layout};
 pub use passage::Course;
 pub use state::{CoordinateId, CoordinateMotion, Kinematics, MotionChange, NodeId, NodeMotion, State};
+pub(crate) use threads::Threads;
+pub use threads::WORTH_WHILE;
 
 use lissom_motion::Vector3;
 use lissom_solver::Structure;

@@ -3,10 +3,10 @@
 use std::f64::consts::PI;
 
 use lissom_motion::{
-    Matrix6, Motion, Rotation, ScrewTangent, Vector3, Vector6, inverse_tangent, lie_bracket,
-    lie_bracket_matrix, rotation_part, rotation_tangent, screw, tangent, tangent_derivative,
-    tangent_derivative_transpose_times, tangent_hessian, tangent_rate_times, tangent_times,
-    tangent_transpose_derivative, tangent_transpose_times, translation_part,
+    Matrix6, Motion, Pose, Rotation, ScrewTangent, Vector3, Vector6, inverse_tangent, inverse_tangent_times,
+    inverse_tangent_transpose_times, lie_bracket, lie_bracket_matrix, rotation_part, rotation_tangent, screw,
+    tangent, tangent_derivative, tangent_derivative_transpose_times, tangent_hessian, tangent_rate_times,
+    tangent_times, tangent_transpose_derivative, tangent_transpose_times, translation_part,
 };
 use proptest::prelude::*;
 
@@ -121,6 +121,13 @@ proptest! {
         prop_assert!(error(&prepared.times(&a), &tangent_times(&d, &a), size) < 1e-15);
         prop_assert!(error(&prepared.transpose_times(&a), &tangent_transpose_times(&d, &a), size) < 1e-15);
         prop_assert_eq!(ScrewTangent::inverse(&d).matrix(), inverse_tangent(&d));
+        let (logarithm, inverse) = Pose::from(&Motion::exponential(&d)).logarithm_and_inverse_tangent();
+        let logarithm = Vector6::from(logarithm);
+        prop_assert_eq!(logarithm, Motion::exponential(&d).logarithm());
+        let expected = inverse_tangent_times(&logarithm, &a);
+        prop_assert!(error(&Vector6::from(inverse.times((&a).into())), &expected, size) < 1e-15);
+        let expected = inverse_tangent_transpose_times(&logarithm, &a);
+        prop_assert!(error(&Vector6::from(inverse.transpose_times((&a).into())), &expected, size) < 1e-15);
         let theta = rotation_part(&d);
         prop_assert!(error(&tangent(&d).fixed_view::<3, 3>(3, 3).into_owned(), &rotation_tangent(&theta), 1.0) < 1e-15);
     }

@@ -26,6 +26,7 @@ fn everything<R: Real>([d, a, w]: [Screw<R>; 3], motion: Pose<R>) -> Vec<[R; 6]>
     let exponential = Pose::exponential(d);
     let tangent = TangentOperator::new(d);
     let inverse = TangentOperator::inverse(d);
+    let (logarithm, inverse_there) = motion.logarithm_and_inverse_tangent();
     let quaternion = |pose: Pose<R>| {
         let [w, x, y, z, ..] = pose.components();
         Screw::from_components([w, x, y, z, w, x])
@@ -35,6 +36,9 @@ fn everything<R: Real>([d, a, w]: [Screw<R>; 3], motion: Pose<R>) -> Vec<[R; 6]>
         quaternion(exponential),
         place(exponential),
         motion.logarithm(),
+        logarithm,
+        inverse_there.times(a),
+        inverse_there.transpose_times(w),
         quaternion(motion.relative_to(exponential)),
         place(motion.relative_to(exponential)),
         quaternion(motion * exponential),

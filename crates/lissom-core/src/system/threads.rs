@@ -3,6 +3,8 @@
 
 use std::ops::Range;
 
+use lissom_motion::WIDTH;
+
 use super::System;
 
 /// With fewer elements or joints than this another thread takes about as long to wake as it helps.
@@ -10,12 +12,12 @@ pub const WORTH_WHILE: usize = 4000;
 
 /// Room for local forces, and how many threads share the work. Waking them allocates a little.
 #[derive(Clone, Debug)]
-pub(crate) struct Lanes {
-    threads: usize,
+pub(crate) struct Threads {
+    count: usize,
     locals: Vec<f64>,
 }
 
-impl Lanes {
+impl Threads {
     /// None where one thread is all there is, or enough.
     pub(crate) fn new(system: &System, threads: usize) -> Option<Self> {
         let parts = system.batches.iter().map(|batch| batch.len()).chain([system.joints.len()]);
@@ -25,10 +27,10 @@ impl Lanes {
         let batches = system.batches.iter().map(|batch| batch.starts());
         let longest =
             batches.chain([&system.joint_starts[..]]).filter_map(|starts| starts.last().copied()).max();
-        Some(Self { threads, locals: vec![0.0; longest.unwrap_or(0)] })
+        Some(Self { count: threads, locals: vec![0.0; longest.unwrap_or(0)] })
     }
 
-    /// Calls `work` with portions of the parts and the numbers that belong to them, all zero, side by side; gives
+    /// Calls `work` with portions of the parts, whole blocks of eight, and the numbers that belong to them, all zero, side by side; gives
     /// all numbers. Those of part `k` begin at `starts[k]`.
     pub(crate) fn side_by_side(
         &mut self,
@@ -36,7 +38,7 @@ impl Lanes {
         work: &(impl Fn(Range<usize>, &mut [f64]) + Sync),
     ) -> &[f64] {
         let parts = starts.len() - 1;
-        let lanes = if parts < WORTH_WHILE { 1 } else { self.threads };
+        let threads = if parts < WORTH_WHILE { 1 } else { self.count };
         let numbers = &mut self.locals[..starts[parts]];
         let run = |range: Range<usize>, own: &mut [f64]| {
             own.fill(0.0);
@@ -44,12 +46,12 @@ impl Lanes {
         };
         rayon::in_place_scope(|scope| {
             let (mut rest, mut from) = (&mut *numbers, 0);
-            for lane in 1..=lanes {
-                let to = parts * lane / lanes;
+            for thread in 1..=threads {
+                let to = if thread == threads { parts } else { parts * thread / threads / WIDTH * WIDTH };
                 let (own, further) = rest.split_at_mut(starts[to] - starts[from]);
+                let range = from..to;
                 (rest, from) = (further, to);
-                let range = parts * (lane - 1) / lanes..to;
-                if lane == lanes {
+                if thread == threads {
                     run(range, own);
                 } else {
                     scope.spawn(move |_| run(range, own));

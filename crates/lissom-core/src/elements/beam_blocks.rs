@@ -1,0 +1,180 @@
+//! Beams eight to a block, see `blocks`.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use std::ops::Range;
+
+use lissom_motion::{Block, Lanes, Pose, Screw, WIDTH};
+use pulp::{Simd, WithSimd};
+
+use super::beam::Beam;
+use super::beam_forces::{Constants, forces};
+use super::blocks::{Blocks, Frames, Part, Screws, block_of, gather_frames, gather_twists, nodes_of};
+use crate::system::{Kinematics, NodeId};
+
+/// Beams eight to a block.
+pub(super) struct BeamBlocks<const N: usize> {
+    blocks: Vec<BeamBlock<N>>,
+    /// Shape functions at the Gauss points, the same in all elements.
+    shapes: Vec<[f64; N]>,
+}
+
+/// Eight beams.
+struct BeamBlock<const N: usize> {
+    nodes: [[NodeId; WIDTH]; N],
+    /// Section frames in the nodes' frames, where one differs.
+    offsets: Option<Box<[Frames; N]>>,
+    /// Whether one is damped.
+    damped: bool,
+    stations: Vec<StationBlock<N>>,
+}
+
+/// One Gauss point of eight beams.
+struct StationBlock<const N: usize> {
+    slope: [Block; N],
+    natural: Screws,
+    damping: Block,
+    /// Weight times stiffness, row after row.
+    law: [Screws; 6],
+}
+
+impl<const N: usize> BeamBlocks<N> {
+    pub(super) fn new(beams: &[Beam<N>]) -> Self {
+        let shapes = beams.first().map(|beam| beam.stations.iter().map(|station| station.shape).collect());
+        Self { blocks: beams.chunks(WIDTH).map(BeamBlock::new).collect(), shapes: shapes.unwrap_or_default() }
+    }
+}
+
+impl<const N: usize> BeamBlock<N> {
+    fn new(beams: &[Beam<N>]) -> Self {
+        let offset = |i: usize, k: usize| {
+            block_of(beams, |beam| Pose::from(&beam.offsets[i].unwrap_or_default()).components()[k])
+        };
+        let offsets = beams
+            .iter()
+            .any(|beam| beam.offsets.iter().any(Option::is_some))
+            .then(|| Box::new(std::array::from_fn(|i| std::array::from_fn(|k| offset(i, k)))));
+        Self {
+            nodes: std::array::from_fn(|i| nodes_of(beams, |beam| beam.nodes[i])),
+            offsets,
+            damped: beams.iter().any(Beam::is_damped),
+            stations: (0..N - 1).map(|k| StationBlock::new(beams, k)).collect(),
+        }
+    }
+}
+
+impl<const N: usize> StationBlock<N> {
+    fn new(beams: &[Beam<N>], k: usize) -> Self {
+        let law = |i: usize, j: usize| {
+            block_of(beams, |beam| beam.stations[k].weight * beam.stations[k].law.stiffness[(i, j)])
+        };
+        Self {
+            slope: std::array::from_fn(|i| block_of(beams, |beam| beam.stations[k].slope[i])),
+            natural: std::array::from_fn(|i| block_of(beams, |beam| beam.stations[k].natural[i])),
+            damping: block_of(beams, |beam| beam.stations[k].law.damping),
+            law: std::array::from_fn(|i| std::array::from_fn(|j| law(i, j))),
+        }
+    }
+}
+
+impl<const N: usize> Blocks for BeamBlocks<N> {
+    fn forces(
+        &self,
+        processor: pulp::Arch,
+        at: &Kinematics,
+        blocks: Range<usize>,
+        add: &mut dyn FnMut(usize, &[Block]),
+    ) {
+        processor.dispatch(Evaluation { beams: self, at, blocks, add });
+    }
+}
+
+struct Evaluation<'a, const N: usize> {
+    beams: &'a BeamBlocks<N>,
+    at: &'a Kinematics,
+    blocks: Range<usize>,
+    add: &'a mut dyn FnMut(usize, &[Block]),
+}
+
+impl<const N: usize> WithSimd for Evaluation<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        for index in self.blocks {
+            let block = &self.beams.blocks[index];
+            let mut results = [[[0.0; WIDTH]; 6]; N];
+            block.forces(simd, self.at, &self.beams.shapes, &mut results);
+            (self.add)(index, results.as_flattened());
+        }
+    }
+}
+
+/// Constants of a part of a block.
+struct Here<'a, S, const N: usize> {
+    part: Part<S>,
+    stations: &'a [StationBlock<N>],
+    shapes: &'a [[f64; N]],
+}
+
+impl<S: Simd, const N: usize> Constants<Lanes<S>> for Here<'_, S, N> {
+    #[inline(always)]
+    fn shape(&self, k: usize, i: usize) -> f64 {
+        self.shapes[k][i]
+    }
+
+    #[inline(always)]
+    fn slope(&self, k: usize, i: usize) -> Lanes<S> {
+        self.part.number(&self.stations[k].slope[i])
+    }
+
+    #[inline(always)]
+    fn natural(&self, k: usize) -> Screw<Lanes<S>> {
+        self.part.screw(&self.stations[k].natural)
+    }
+
+    #[inline(always)]
+    fn damping(&self, k: usize) -> Lanes<S> {
+        self.part.number(&self.stations[k].damping)
+    }
+
+    #[inline(always)]
+    fn stress(&self, k: usize, strain: Screw<Lanes<S>>) -> Screw<Lanes<S>> {
+        self.part.product(&self.stations[k].law, strain)
+    }
+}
+
+impl<const N: usize> BeamBlock<N> {
+    #[inline(always)]
+    fn forces<S: Simd>(&self, simd: S, at: &Kinematics, shapes: &[[f64; N]], results: &mut [Screws; N]) {
+        let mut frames = [[[0.0; WIDTH]; 7]; N];
+        let mut twists = [[[0.0; WIDTH]; 6]; N];
+        for i in 0..N {
+            frames[i] = gather_frames(at, &self.nodes[i]);
+            if self.damped {
+                twists[i] = gather_twists(at, &self.nodes[i]);
+            }
+        }
+        for index in 0..Lanes::<S>::PARTS {
+            let part = Part { simd, index };
+            let mut sections = [part.frame(&frames[0]); N];
+            let mut moving = [part.screw(&twists[0]); N];
+            for i in 0..N {
+                sections[i] = part.frame(&frames[i]);
+                moving[i] = part.screw(&twists[i]);
+                if let Some(offsets) = &self.offsets {
+                    let offset = part.frame(&offsets[i]);
+                    sections[i] = sections[i] * offset;
+                    moving[i] = offset.adjoint_inverse_times(moving[i]);
+                }
+            }
+            let here = Here { part, stations: &self.stations, shapes };
+            let mut forces = forces(&here, &sections, self.damped.then_some(&moving));
+            for i in 0..N {
+                if let Some(offsets) = &self.offsets {
+                    forces[i] = part.frame(&offsets[i]).adjoint_inverse_transpose_times(forces[i]);
+                }
+                part.store(forces[i], &mut results[i]);
+            }
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Elements of one kind evaluated several at a time, in the lanes of vector registers.
+//!
+//! Blocks of eight hold the elements' constants lane by lane, whatever the processor; node motions are gathered into
+//! such blocks at each evaluation. The last block repeats its last element.
+
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use std::ops::Range;
+
+use lissom_motion::{Block, Lanes, Pose, Real, Screw, WIDTH};
+use pulp::Simd;
+
+use crate::system::{Kinematics, NodeId};
+
+/// All elements of a batch, eight to a block.
+pub trait Blocks: Send + Sync {
+    /// Computes the forces of whole blocks and hands each block's to `add`, in order: first the block's number, then
+    /// the forces, local unknown after local unknown. The same elements give the same forces to the last bit,
+    /// whichever blocks are asked for.
+    fn forces(
+        &self,
+        processor: pulp::Arch,
+        at: &Kinematics,
+        blocks: Range<usize>,
+        add: &mut dyn FnMut(usize, &[Block]),
+    );
+}
+
+/// One number of each element of a block.
+pub(super) fn block_of<E>(elements: &[E], number: impl Fn(&E) -> f64) -> Block {
+    std::array::from_fn(|lane| number(&elements[lane.min(elements.len() - 1)]))
+}
+
+/// One node of each element of a block.
+pub(super) fn nodes_of<E>(elements: &[E], node: impl Fn(&E) -> NodeId) -> [NodeId; WIDTH] {
+    std::array::from_fn(|lane| node(&elements[lane.min(elements.len() - 1)]))
+}
+
+/// Components of a motion, see [`Pose::components`].
+pub(super) type Frames = [Block; 7];
+
+/// Components of twists or wrenches.
+pub(super) type Screws = [Block; 6];
+
+/// A part of every block: as much of it as the processor's vectors hold.
+#[derive(Clone, Copy)]
+pub(super) struct Part<S> {
+    pub(super) simd: S,
+    pub(super) index: usize,
+}
+
+impl<S: Simd> Part<S> {
+    #[inline(always)]
+    pub(super) fn number(self, block: &Block) -> Lanes<S> {
+        Lanes::load(self.simd, block, self.index)
+    }
+
+    #[inline(always)]
+    pub(super) fn frame(self, frames: &Frames) -> Pose<Lanes<S>> {
+        let mut components = [self.number(&frames[0]); 7];
+        for i in 1..7 {
+            components[i] = self.number(&frames[i]);
+        }
+        Pose::from_components(components)
+    }
+
+    #[inline(always)]
+    pub(super) fn screw(self, screws: &Screws) -> Screw<Lanes<S>> {
+        let mut components = [self.number(&screws[0]); 6];
+        for i in 1..6 {
+            components[i] = self.number(&screws[i]);
+        }
+        Screw::from_components(components)
+    }
+
+    /// A matrix, row after row, times a twist.
+    #[inline(always)]
+    pub(super) fn product(self, matrix: &[Screws; 6], twist: Screw<Lanes<S>>) -> Screw<Lanes<S>> {
+        let twist = twist.components();
+        let mut result = twist;
+        for i in 0..6 {
+            result[i] = self.number(&matrix[i][0]) * twist[0];
+            for j in 1..6 {
+                result[i] = result[i].plus_product(self.number(&matrix[i][j]), twist[j]);
+            }
+        }
+        Screw::from_components(result)
+    }
+
+    #[inline(always)]
+    pub(super) fn store(self, screw: Screw<Lanes<S>>, screws: &mut Screws) {
+        let components = screw.components();
+        for i in 0..6 {
+            components[i].store(&mut screws[i], self.index);
+        }
+    }
+}
+
+/// The frames of eight nodes.
+#[inline]
+pub(super) fn gather_frames(at: &Kinematics, nodes: &[NodeId; WIDTH]) -> Frames {
+    let mut frames = [[0.0; WIDTH]; 7];
+    for lane in 0..WIDTH {
+        let components = Pose::from(&at.nodes[nodes[lane]].frame).components();
+        for i in 0..7 {
+            frames[i][lane] = components[i];
+        }
+    }
+    frames
+}
+
+/// The twists of eight nodes.
+#[inline]
+pub(super) fn gather_twists(at: &Kinematics, nodes: &[NodeId; WIDTH]) -> Screws {
+    let mut twists = [[0.0; WIDTH]; 6];
+    for lane in 0..WIDTH {
+        let twist = &at.nodes[nodes[lane]].twist;
+        for i in 0..6 {
+            twists[i][lane] = twist[i];
+        }
+    }
+    twists
+}
+
+/// The accelerations of eight nodes.
+#[inline]
+pub(super) fn gather_accelerations(at: &Kinematics, nodes: &[NodeId; WIDTH]) -> Screws {
+    let mut accelerations = [[0.0; WIDTH]; 6];
+    for lane in 0..WIDTH {
+        let acceleration = &at.nodes[nodes[lane]].acceleration;
+        for i in 0..6 {
+            accelerations[i][lane] = acceleration[i];
+        }
+    }
+    accelerations
+}

@@ -1,0 +1,93 @@
+//! Inertias eight to a block, see `blocks`.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use std::ops::Range;
+
+use lissom_motion::{Block, Lanes, Screw, Triple, WIDTH};
+use pulp::{Simd, WithSimd};
+
+use super::blocks::{
+    Blocks, Part, Screws, block_of, gather_accelerations, gather_frames, gather_twists, nodes_of,
+};
+use super::inertia::Inertia;
+use crate::system::{Kinematics, NodeId};
+
+/// Inertias eight to a block.
+pub(super) struct InertiaBlocks(Vec<InertiaBlock>);
+
+/// Eight inertias.
+struct InertiaBlock {
+    nodes: [NodeId; WIDTH],
+    /// Row after row.
+    mass: [Screws; 6],
+    gravity: [Block; 3],
+}
+
+impl InertiaBlocks {
+    pub(super) fn new(inertias: &[Inertia]) -> Self {
+        Self(inertias.chunks(WIDTH).map(InertiaBlock::new).collect())
+    }
+}
+
+impl InertiaBlock {
+    fn new(inertias: &[Inertia]) -> Self {
+        let mass = |i: usize, j: usize| block_of(inertias, |inertia| inertia.mass()[(i, j)]);
+        Self {
+            nodes: nodes_of(inertias, Inertia::node),
+            mass: std::array::from_fn(|i| std::array::from_fn(|j| mass(i, j))),
+            gravity: std::array::from_fn(|i| block_of(inertias, |inertia| inertia.gravity[i])),
+        }
+    }
+
+    #[inline(always)]
+    fn forces<S: Simd>(&self, simd: S, at: &Kinematics, results: &mut Screws) {
+        let frames = gather_frames(at, &self.nodes);
+        let twists = gather_twists(at, &self.nodes);
+        let accelerations = gather_accelerations(at, &self.nodes);
+        for index in 0..Lanes::<S>::PARTS {
+            let part = Part { simd, index };
+            let [x, y, z] = &self.gravity;
+            let gravity = Triple::new(part.number(x), part.number(y), part.number(z));
+            let twist = part.screw(&twists);
+            let acceleration = part.screw(&accelerations);
+            let against = Screw::new(
+                acceleration.translation - part.frame(&frames).rotation.apply_inverse(gravity),
+                acceleration.rotation,
+            );
+            let momentum = part.product(&self.mass, twist);
+            part.store(part.product(&self.mass, against) - twist.coadjoint_times(momentum), results);
+        }
+    }
+}
+
+impl Blocks for InertiaBlocks {
+    fn forces(
+        &self,
+        processor: pulp::Arch,
+        at: &Kinematics,
+        blocks: Range<usize>,
+        add: &mut dyn FnMut(usize, &[Block]),
+    ) {
+        processor.dispatch(Evaluation { inertias: &self.0, at, blocks, add });
+    }
+}
+
+struct Evaluation<'a> {
+    inertias: &'a [InertiaBlock],
+    at: &'a Kinematics,
+    blocks: Range<usize>,
+    add: &'a mut dyn FnMut(usize, &[Block]),
+}
+
+impl WithSimd for Evaluation<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        for index in self.blocks {
+            let mut results = [[0.0; WIDTH]; 6];
+            self.inertias[index].forces(simd, self.at, &mut results);
+            (self.add)(index, &results);
+        }
+    }
+}
