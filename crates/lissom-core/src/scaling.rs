@@ -9,13 +9,14 @@
 //!
 //! Elements and joints know none of this, schemes know unit steps only.
 
+use std::ops::Mul;
+
 use lissom_motion::{Motion, Vector6, lie_bracket, tangent_rate_times, tangent_times};
-use num_complex::Complex64;
 
 use crate::joints::Quantity;
 use crate::schemes::{Combination, Increments, Scheme, Stage, Tableau, Weights};
 use crate::system::{
-    Augmentation, CoordinateMotion, Kinematics, Layout, Linearization, MotionChange, State, System,
+    Augmentation, Blend, CoordinateMotion, Kinematics, Layout, Linearization, MotionChange, State, System,
 };
 
 /// How the equations are scaled.
@@ -217,33 +218,14 @@ impl Scaled {
         }
     }
 
-    /// Tangent of the scaled equations for a real scheme of one stage.
-    pub fn tangent(&self, linearization: &Linearization, weights: Weights<f64>, out: &mut [f64]) {
-        let damping = self.dynamic * weights.rate / self.h;
-        let mass = self.dynamic * weights.curvature / (self.h * self.h);
-        let Linearization { stiffness, damping: d, mass: m, gram, constraint, .. } = linearization;
-        for (i, value) in out.iter_mut().enumerate() {
-            *value = self.dynamic * stiffness[i]
-                + damping * d[i]
-                + mass * m[i]
-                + self.augmented * gram[i]
-                + self.s * constraint[i];
-        }
-    }
-
-    /// Tangent of the scaled equations in the complex form of a scheme of two stages.
-    pub fn complex_tangent(
-        &self,
-        linearization: &Linearization,
-        weights: Weights<Complex64>,
-        out: &mut [Complex64],
-    ) {
-        let damping = weights.rate * (self.dynamic / self.h);
-        let mass = weights.curvature * (self.dynamic / (self.h * self.h));
-        let Linearization { stiffness, damping: d, mass: m, gram, constraint, .. } = linearization;
-        for (i, value) in out.iter_mut().enumerate() {
-            let real = self.dynamic * stiffness[i] + self.augmented * gram[i] + self.s * constraint[i];
-            *value = damping * d[i] + mass * m[i] + real;
+    /// Factors of the derivatives in the tangent of the scaled equations, for a scheme with these weights.
+    pub fn blend<T: Mul<f64, Output = T>>(&self, weights: Weights<T>) -> Blend<T> {
+        Blend {
+            place: self.dynamic,
+            rate: weights.rate * (self.dynamic / self.h),
+            acceleration: weights.curvature * (self.dynamic / (self.h * self.h)),
+            augmented: self.augmented,
+            constraint: self.s,
         }
     }
 

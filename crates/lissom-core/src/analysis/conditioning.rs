@@ -10,7 +10,7 @@ use super::dynamics::Simulation;
 use crate::equilibration::Equilibration;
 use crate::scaling::{Scaled, ScalingChoice};
 use crate::schemes::Coupling;
-use crate::system::Linearization;
+use crate::system::{Receiver, Sum};
 
 /// Tangents with at most so many real unknowns are measured truly; a complex unknown counts twice.
 pub const MOST_MEASURED: usize = 120;
@@ -62,20 +62,30 @@ impl TangentValues {
         }
     }
 
-    /// The tangent of the scaled equations.
-    pub(crate) fn new(scaled: &Scaled, coupling: &Coupling, linearization: &Linearization) -> Self {
-        let entries = linearization.mass.len();
+    /// Room for the tangent of a scheme.
+    pub(crate) fn zeros(coupling: &Coupling, entries: usize) -> Self {
         match coupling {
-            Coupling::Single(weights) => {
-                let mut values = vec![0.0; entries];
-                scaled.tangent(linearization, *weights, &mut values);
-                Self::Real(values)
+            Coupling::Single(_) => Self::Real(vec![0.0; entries]),
+            Coupling::Pair { .. } => Self::Complex(vec![Complex64::default(); entries]),
+        }
+    }
+
+    /// What takes the derivatives for the tangent of the scaled equations; `stiffness`, if it has room, takes the
+    /// diagonal of those by place.
+    pub(crate) fn receiver<'a>(
+        &'a mut self,
+        scaled: &Scaled,
+        coupling: &Coupling,
+        stiffness: &'a mut [f64],
+    ) -> Receiver<'a> {
+        match (self, coupling) {
+            (Self::Real(values), Coupling::Single(weights)) => {
+                Receiver::Real(Sum { blend: scaled.blend(*weights), values, stiffness })
             }
-            Coupling::Pair { weights, .. } => {
-                let mut values = vec![Complex64::default(); entries];
-                scaled.complex_tangent(linearization, *weights, &mut values);
-                Self::Complex(values)
+            (Self::Complex(values), Coupling::Pair { weights, .. }) => {
+                Receiver::Complex(Sum { blend: scaled.blend(*weights), values, stiffness })
             }
+            _ => unreachable!("a tangent is made for its scheme's coupling"),
         }
     }
 
@@ -138,8 +148,7 @@ impl Simulation {
         let count = self.system().layout().coordinate_count();
         let tangent = |choice: &ScalingChoice| {
             let scaled = Scaled::new(choice, &representative, step_size);
-            let linearization = self.linearize_last_step(scaled)?;
-            let mut values = TangentValues::new(&scaled, &coupling, linearization);
+            let mut values = self.last_tangent(scaled, &coupling)?;
             if choice.equilibrates() {
                 values.equilibrate(&pattern, count);
             }

@@ -9,12 +9,14 @@
 use nalgebra::SMatrix;
 
 use super::coupled::{Coupled, STAGES};
-use crate::joints::attached::{AttachedJoint, Increments, LOCAL, LocalGradient};
+use crate::joints::attached::{AttachedJoint, Increments, LocalGradient};
+use crate::joints::derivatives::{LOCAL, OWN, TIP};
 use crate::joints::passage::Visit;
 use crate::joints::{Equations, MOST_EQUATIONS};
 use crate::scaling::Scaled;
 use crate::schemes::Tableau;
-use crate::system::{Course, LOCKED, System};
+use crate::system::places::Run;
+use crate::system::{Course, System};
 
 impl Coupled {
     /// Adds the rows and columns of all constraints.
@@ -25,16 +27,16 @@ impl Coupled {
         tableau: &Tableau,
         scaled: &Scaled,
     ) {
-        let (joints, drives) = system.joint_positions.split_at(system.joints().len());
-        for (joint, positions) in system.joints().iter().zip(joints) {
+        for (index, joint) in system.joints().iter().enumerate() {
             let mut before = Equations::default();
             let own = joint.first_multiplier..joint.first_multiplier + joint.equations();
             before[..joint.equations()].copy_from_slice(&course.violations[own]);
             let visits = joint.visits(&course.passage, &course.increments, &before);
             let derivatives = self.violation_derivatives(joint, course, &visits, tableau);
-            self.add_joint(joint, positions, course, &visits, &derivatives, scaled);
+            self.add_joint(joint, system.joint_places.of(index), course, &visits, &derivatives, scaled);
         }
-        for (drive, positions) in system.drives().iter().zip(drives) {
+        for drive in system.drives() {
+            let positions = drive.positions;
             let row = system.layout().coordinate_count() + drive.multiplier;
             let weight = course.augmentation.relative(system.layout().quantities()[row]);
             for stage in 0..STAGES {
@@ -54,12 +56,12 @@ impl Coupled {
         stage: usize,
     ) -> LocalGradient {
         let mut result = LocalGradient::zeros();
-        for (side, frame) in joint.frames.iter().enumerate() {
-            let columns = rows.fixed_columns::<6>(6 * side) * part(&self.transports[frame.node][stage]);
-            result.fixed_columns_mut::<6>(6 * side).copy_from(&columns);
+        for (frame, first) in joint.frames.iter().zip([0, TIP]) {
+            let columns = rows.fixed_columns::<6>(first) * part(&self.transports[frame.node][stage]);
+            result.fixed_columns_mut::<6>(first).copy_from(&columns);
         }
         let plain = part(&self.transports[self.transports.len() - 1][stage])[(0, 0)];
-        for k in 12..LOCAL {
+        for k in OWN..LOCAL {
             result.set_column(k, &(plain * rows.column(k)));
         }
         result
@@ -100,14 +102,12 @@ impl Coupled {
     fn add_joint(
         &mut self,
         joint: &AttachedJoint,
-        positions: &[u32],
+        runs: &[Run],
         course: &Course<'_>,
         visits: &[Visit; STAGES],
         derivatives: &[[LocalGradient; STAGES]; STAGES],
         scaled: &Scaled,
     ) {
-        let unknowns = 12 + joint.coordinates.len();
-        let size = unknowns + joint.equations();
         for stage in 0..STAGES {
             let rows = &visits[stage].rows;
             let mut weighted = *rows;
@@ -117,29 +117,21 @@ impl Coupled {
             }
             for (other, derivative) in derivatives[stage].iter().enumerate() {
                 let augmented: SMatrix<f64, LOCAL, LOCAL> = weighted.tr_mul(derivative);
-                for i in 0..unknowns {
-                    for j in 0..unknowns {
-                        self.add(positions[i * size + j], stage, other, augmented[(i, j)]);
-                    }
-                    for e in 0..joint.equations() {
-                        let position = positions[(unknowns + e) * size + i];
-                        self.add(position, stage, other, scaled.scale() * derivative[(e, i)]);
-                    }
-                }
-            }
-            for i in 0..unknowns {
-                for e in 0..joint.equations() {
-                    let position = positions[i * size + unknowns + e];
-                    self.add(position, stage, stage, scaled.scale() * rows[(e, i)]);
+                for (position, i, j) in runs.iter().flat_map(|run| run.entries()) {
+                    let value = match (i.checked_sub(LOCAL), j.checked_sub(LOCAL)) {
+                        (None, None) => augmented[(i, j)],
+                        (Some(equation), _) => scaled.scale() * derivative[(equation, j)],
+                        (None, Some(equation)) if other == stage => scaled.scale() * rows[(equation, i)],
+                        (None, Some(_)) => continue,
+                    };
+                    self.add(position, stage, other, value);
                 }
             }
         }
     }
 
-    fn add(&mut self, position: u32, stage: usize, other: usize, value: f64) {
-        if position != LOCKED {
-            self.values[self.places[position as usize][stage][other]] += value;
-        }
+    fn add(&mut self, position: usize, stage: usize, other: usize, value: f64) {
+        self.values[self.places[position][stage][other]] += value;
     }
 }
 
@@ -155,7 +147,7 @@ fn bending(
     for equation in 0..joint.equations().min(MOST_EQUATIONS) {
         let mut mu = Equations::default();
         mu[equation] = 1.0;
-        let (_, curvature) = joint.linearize(&configuration, &mu);
+        let curvature = joint.curvature(&configuration, &mu);
         rows.set_row(equation, &curvature.tr_mul(&speeds).transpose());
     }
     rows

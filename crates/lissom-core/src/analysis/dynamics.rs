@@ -2,6 +2,7 @@
 
 use lissom_solver::{FactorError, FactorReport, SolverKind};
 
+use super::conditioning::TangentValues;
 use super::equations::{StepEquations, Workspace};
 use super::initial::{Initial, InitialError};
 use super::phase::{Phase, Stopwatch, Unwatched};
@@ -201,10 +202,8 @@ impl Simulation {
         }
     }
 
-    /// Linearises anew at the solution of the last step; none before the first step and after one that
-    /// failed. `scaled` weighs the augmented term.
-    pub(super) fn linearize_last_step(&mut self, scaled: Scaled) -> Option<&Linearization> {
-        let work = &mut self.work;
+    /// The tangent at the solution of the last step; none before the first step and after one that failed.
+    pub(super) fn last_tangent(&mut self, scaled: Scaled, coupling: &Coupling) -> Option<TangentValues> {
         if !self.is_last_step_known {
             return None;
         }
@@ -214,11 +213,12 @@ impl Simulation {
             scaled,
             rescale: &|_| scaled,
             start: &self.next,
-            work,
+            work: &mut self.work,
             watch: &mut Unwatched,
         };
-        equations.linearize();
-        Some(&work.linearization)
+        let mut values = TangentValues::zeros(coupling, self.system.structure().pattern.entries());
+        equations.hand_derivatives(&mut values.receiver(&scaled, coupling, &mut []));
+        Some(values)
     }
 
     /// Estimates the condition number of the tangent factored last, in the 1-norm, if it is still in use.

@@ -10,11 +10,12 @@ use super::factorization::Factorization;
 use super::guess::Guess;
 use super::phase::{Phase, Stopwatch};
 use crate::equilibration::Equilibration;
+use crate::joints::derivatives::IncrementTangent;
 use crate::joints::{Quantity, attached};
 use crate::newton::{Correction, Equations, Failure};
 use crate::scaling::{Representative, Scaled, StageIncrements, StageMotion, UnitStart};
 use crate::schemes::{Coupling, Increments, Scheme};
-use crate::system::{Chart, Kinematics, LOCKED, Layout, Linearization, Point, State, System, Threads};
+use crate::system::{Chart, Kinematics, LOCKED, Layout, Point, Receiver, Scratch, State, System, Threads};
 
 /// Corrections of rotations larger than this are cut short [rad].
 const LARGEST_ROTATION: f64 = 1.0;
@@ -44,8 +45,8 @@ pub(crate) struct Workspace {
     pub(crate) extrapolates: bool,
     /// Departures from going straight on since the start of the step, by stage and coordinate row.
     pub(crate) increments: Vec<Vec<f64>>,
-    /// The increments by node, for the tangent.
-    node_increments: Vec<Vector6>,
+    /// Tangent operators of the nodes' increments, for schemes that measure them from the start.
+    node_tangents: Vec<IncrementTangent>,
     /// Multipliers by stage [N, N m].
     pub(crate) multipliers: Vec<Vec<f64>>,
     /// By stage; then at the end of the step, for schemes that integrate velocities.
@@ -75,7 +76,9 @@ pub(crate) struct Workspace {
     pub(super) coupled_next: usize,
     /// The solver that factors.
     pub(super) solver: &'static lissom_solver::SolverKind,
-    pub(crate) linearization: Linearization,
+    scratch: Option<Box<Scratch>>,
+    /// Diagonal of the derivatives by place, by row.
+    stiffness: Vec<f64>,
     pub(crate) factorization: Factorization,
     /// Scaled size of one unit of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
     pub(crate) sizes: Vec<f64>,
@@ -106,7 +109,10 @@ impl Workspace {
             guesses: [Guess::new(stages * count), Guess::new(stages * layout.multiplier_count)],
             extrapolates: false,
             increments: vec![vec![0.0; count]; stages],
-            node_increments: vec![Vector6::zeros(); state.kinematics.nodes.len()],
+            node_tangents: match scheme.increments {
+                Increments::FromStart => vec![IncrementTangent::none(); state.kinematics.nodes.len()],
+                Increments::Departure => Vec::new(),
+            },
             multipliers: vec![state.multipliers.clone(); stages],
             motions: vec![
                 StageMotion::new(&state.kinematics);
@@ -125,7 +131,8 @@ impl Workspace {
             coupled_steps: 0,
             coupled_next: FIRST_COUPLED,
             solver,
-            linearization: Linearization::new(system),
+            scratch: Some(Box::default()),
+            stiffness: vec![0.0; layout.size()],
             factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
             sizes,
             equilibration: equilibrated.then(|| Equilibration::new(layout.size(), count)),
@@ -264,38 +271,32 @@ impl StepEquations<'_> {
     /// Round-off of forces: strains come from places, which are rounded, times the largest stiffness.
     fn force_round_off(&self) -> f64 {
         let layout = self.system.layout();
-        let pattern = &self.system.structure().pattern;
         let stiffness = (0..layout.coordinate_count())
             .filter(|&row| layout.quantities()[row] == Quantity::Length)
-            .filter_map(|row| pattern.position(row, row))
-            .fold(0.0_f64, |most, position| most.max(self.work.linearization.stiffness[position].abs()));
+            .fold(0.0_f64, |most, row| most.max(self.work.stiffness[row].abs()));
         let nodes = &self.start.kinematics.nodes;
         let far = nodes.iter().fold(0.0_f64, |most, node| most.max(node.frame.position.amax()));
         ROUNDINGS * f64::EPSILON * far * stiffness
     }
 
-    /// Factors the tangent of the last linearisation.
-    fn factor(&mut self) -> Result<FactorReport, FactorError> {
-        let work = &mut *self.work;
-        work.factorization.factor(
-            &self.scaled,
-            &self.scheme.coupling,
-            &work.linearization,
-            &self.system.structure().pattern,
-            work.equilibration.as_mut(),
-            work.yielding.as_mut().map(|(compliance, _)| compliance),
-        )
+    /// Linearises at the last stage: the tangent's values before equilibration.
+    pub(crate) fn linearize(&mut self) {
+        let mut values = self.work.factorization.take_values();
+        let mut stiffness = std::mem::take(&mut self.work.stiffness);
+        self.hand_derivatives(&mut values.receiver(&self.scaled, &self.scheme.coupling, &mut stiffness));
+        self.work.factorization.set_values(values);
+        self.work.stiffness = stiffness;
     }
 
-    /// Linearises at the last stage.
-    pub(crate) fn linearize(&mut self) {
+    /// Hands the derivatives at the last stage to `out`.
+    pub(crate) fn hand_derivatives(&mut self, out: &mut Receiver<'_>) {
         let last = self.scheme.stages.len() - 1;
-        let mut linearization = std::mem::replace(&mut self.work.linearization, Linearization::empty());
-        let mut increments = std::mem::take(&mut self.work.node_increments);
+        let mut scratch = self.work.scratch.take().unwrap_or_default();
+        let mut tangents = std::mem::take(&mut self.work.node_tangents);
         let chart = match self.scheme.increments {
             Increments::FromStart => {
-                self.whole_increments(last, &mut increments);
-                Chart::Increments(&increments)
+                self.whole_increments(last, &mut tangents);
+                Chart::Increments(&tangents)
             }
             Increments::Departure => Chart::Departures(&self.start.kinematics.nodes),
         };
@@ -303,9 +304,9 @@ impl StepEquations<'_> {
         if self.is_far() {
             point.stressed = &self.start.kinematics;
         }
-        self.system.linearize(&point, chart, &mut linearization);
-        self.work.node_increments = increments;
-        self.work.linearization = linearization;
+        self.system.hand_derivatives(&point, chart, &mut scratch, out);
+        self.work.node_tangents = tangents;
+        self.work.scratch = Some(scratch);
     }
 
     /// Whether the iterate is far from equilibrium.
@@ -313,15 +314,17 @@ impl StepEquations<'_> {
         self.work.correction > FAR
     }
 
-    /// Increments of the nodes since the start of the step, straight motion included.
-    fn whole_increments(&self, stage: usize, nodes: &mut [Vector6]) {
+    /// Tangent operators of the nodes' increments since the start of the step, straight motion included.
+    fn whole_increments(&self, stage: usize, nodes: &mut [IncrementTangent]) {
         let work = &*self.work;
         let straight = if self.scheme.dynamic { self.scheme.stages[stage].abscissa } else { 0.0 };
-        for (rows, psi) in self.system.layout().node_rows.iter().zip(nodes) {
+        for (rows, tangent) in self.system.layout().node_rows.iter().zip(nodes) {
+            let mut psi = Vector6::zeros();
             for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
                 let row = row as usize;
                 psi[k] = straight * work.unit.rate[row] + work.increments[stage][row];
             }
+            *tangent = IncrementTangent::new(&psi);
         }
     }
 
@@ -488,23 +491,31 @@ impl Equations for StepEquations<'_> {
         self.linearize();
         self.work.force_round_off = self.force_round_off();
         self.watch.begin(Phase::Factorisation);
-        let mut result = self.factor();
-        let layout = self.system.layout();
+        let (system, scale) = (self.system, self.scaled.scale());
+        let (layout, pattern) = (system.layout(), &system.structure().pattern);
+        let work = &mut *self.work;
+        if let Some(equilibration) = &mut work.equilibration {
+            work.factorization.equilibrate(pattern, equilibration);
+        }
+        if let Some((compliance, _)) = &mut work.yielding {
+            work.factorization.relax(compliance, scale, work.equilibration.as_ref());
+        }
+        let mut result = work.factorization.factor();
         if let Err(FactorError::ZeroPivot { unknown, .. }) = result
             && unknown >= layout.coordinate_count()
-            && self.work.yielding.is_none()
+            && work.yielding.is_none()
         {
-            let pattern = &self.system.structure().pattern;
-            self.work.yielding = Some((Compliance::new(pattern, layout.coordinate_count()), unknown));
-            result = self.factor();
+            let mut compliance = Compliance::new(pattern, layout.coordinate_count());
+            work.factorization.relax(&mut compliance, scale, work.equilibration.as_ref());
+            work.yielding = Some((compliance, unknown));
+            result = work.factorization.factor();
         }
         if let Err(FactorError::ZeroPivot { unknown, pivot, .. }) = result
-            && let Some(kind) = self.work.fall_back.take()
+            && let Some(kind) = work.fall_back.take()
         {
-            self.work.fell_back = Some((unknown, pivot));
-            self.work.factorization =
-                Factorization::new(kind, self.system.structure(), &self.scheme.coupling);
-            result = self.factor();
+            work.fell_back = Some((unknown, pivot));
+            work.factorization.replace_solver(kind, system.structure());
+            result = work.factorization.factor();
         }
         self.work.report = Some(result?);
         self.watch.begin(Phase::Rest);

@@ -6,10 +6,9 @@ use lissom_solver::{
 use num_complex::Complex64;
 
 use super::compliance::Compliance;
+use super::conditioning::TangentValues;
 use crate::equilibration::Equilibration;
-use crate::scaling::Scaled;
 use crate::schemes::Coupling;
-use crate::system::Linearization;
 
 /// A solver with the values it factors.
 pub(crate) enum Factorization {
@@ -41,37 +40,57 @@ impl Factorization {
         }
     }
 
-    pub(crate) fn factor(
-        &mut self,
-        scaled: &Scaled,
-        coupling: &Coupling,
-        linearization: &Linearization,
-        pattern: &Pattern,
-        mut equilibration: Option<&mut Equilibration>,
-        compliance: Option<&mut Compliance>,
-    ) -> Result<FactorReport, FactorError> {
-        match (self, coupling) {
-            (Self::Single { solver, values }, Coupling::Single(weights)) => {
-                scaled.tangent(linearization, *weights, values);
-                if let Some(equilibration) = &mut equilibration {
-                    equilibration.apply(pattern, values);
-                }
-                if let Some(compliance) = compliance {
-                    compliance.enter(scaled.scale(), equilibration.as_deref(), values);
-                }
-                solver.factor(values)
-            }
-            (Self::Pair { solver, values, .. }, Coupling::Pair { weights, .. }) => {
-                scaled.complex_tangent(linearization, *weights, values);
-                if let Some(equilibration) = &mut equilibration {
-                    equilibration.apply(pattern, values);
-                }
-                if let Some(compliance) = compliance {
-                    compliance.enter(scaled.scale(), equilibration.as_deref(), values);
-                }
-                solver.factor(values)
-            }
+    /// Goes on with another solver and the same tangent.
+    pub(crate) fn replace_solver(&mut self, kind: &SolverKind, structure: &Structure) {
+        match self {
+            Self::Single { solver, .. } => *solver = (kind.real)(structure),
+            Self::Pair { solver, .. } => *solver = (kind.complex)(structure),
+        }
+    }
+
+    /// The tangent's values, to be given back.
+    pub(crate) fn take_values(&mut self) -> TangentValues {
+        match self {
+            Self::Single { values, .. } => TangentValues::Real(std::mem::take(values)),
+            Self::Pair { values, .. } => TangentValues::Complex(std::mem::take(values)),
+        }
+    }
+
+    /// Takes the values of a new tangent.
+    pub(crate) fn set_values(&mut self, tangent: TangentValues) {
+        match (self, tangent) {
+            (Self::Single { values, .. }, TangentValues::Real(tangent)) => *values = tangent,
+            (Self::Pair { values, .. }, TangentValues::Complex(tangent)) => *values = tangent,
             _ => unreachable!("a factorisation is made for its scheme's coupling"),
+        }
+    }
+
+    /// Brings rows and columns of a new tangent to one size.
+    pub(crate) fn equilibrate(&mut self, pattern: &Pattern, equilibration: &mut Equilibration) {
+        match self {
+            Self::Single { values, .. } => equilibration.apply(pattern, values),
+            Self::Pair { values, .. } => equilibration.apply(pattern, values),
+        }
+    }
+
+    /// Lets constraints yield, after equilibration.
+    pub(crate) fn relax(
+        &mut self,
+        compliance: &mut Compliance,
+        scale: f64,
+        equilibration: Option<&Equilibration>,
+    ) {
+        match self {
+            Self::Single { values, .. } => compliance.enter(scale, equilibration, values),
+            Self::Pair { values, .. } => compliance.enter(scale, equilibration, values),
+        }
+    }
+
+    /// Factors the tangent.
+    pub(crate) fn factor(&mut self) -> Result<FactorReport, FactorError> {
+        match self {
+            Self::Single { solver, values } => solver.factor(values),
+            Self::Pair { solver, values, .. } => solver.factor(values),
         }
     }
 

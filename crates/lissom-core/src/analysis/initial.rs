@@ -74,7 +74,7 @@ impl Initial {
 
     fn factor(&mut self, system: &System, state: &State) -> Result<(), InitialError> {
         let zero = vec![0.0; system.layout().multiplier_count];
-        let mut linearization = std::mem::replace(&mut self.linearization, Linearization::empty());
+        let mut linearization = std::mem::take(&mut self.linearization);
         system.linearize(&self.point(&state.kinematics, &zero), Chart::Body, &mut linearization);
         self.linearization = linearization;
         let layout = system.layout();

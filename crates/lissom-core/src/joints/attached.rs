@@ -6,9 +6,10 @@
 //! wrench on the tip's joint frame w, on the base's -Ad(G⁻¹)ᵀ w
 //! ```
 
-use lissom_motion::{Matrix6, Motion, Vector6, coadjoint_matrix};
+use lissom_motion::{Motion, Vector6};
 use nalgebra::{SMatrix, SVector};
 
+use super::derivatives::{Derivatives, IncrementTangent, Inner, LOCAL, OWN, Side, TIP};
 use super::{Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, Own, Relative};
 use crate::system::state::split;
 use crate::system::{CoordinateId, Kinematics, MotionChange, NodeId};
@@ -21,9 +22,6 @@ pub struct CarriedFrame {
     /// The frame in the node's frame.
     pub offset: Motion,
 }
-
-/// Local unknowns of a joint: six of the base, six of the tip, its coordinates.
-pub const LOCAL: usize = 12 + MOST_COORDINATES;
 
 /// Derivatives of the equations with respect to the local unknowns.
 pub type LocalGradient = SMatrix<f64, MOST_EQUATIONS, LOCAL>;
@@ -122,9 +120,8 @@ impl AttachedJoint {
     pub fn gradient_at(&self, (relative, own): &(Relative, Own)) -> LocalGradient {
         let mut gradient = Gradient::zeros();
         self.joint.gradient(relative, own, &mut gradient);
-        let mut rows = LocalGradient::zeros();
-        rows.fixed_columns_mut::<12>(0).copy_from(&(gradient.relative * self.variation(relative)));
-        rows.fixed_columns_mut::<MOST_COORDINATES>(12).copy_from(&gradient.own);
+        let mut rows = gradient.relative * self.variation(relative);
+        rows.fixed_columns_mut::<MOST_COORDINATES>(OWN).copy_from(&gradient.own);
         rows
     }
 
@@ -141,51 +138,70 @@ impl AttachedJoint {
         let tip = self.frames[1].offset.adjoint_inverse_transpose_times(&wrench);
         let mut out = SVector::<f64, LOCAL>::zeros();
         out.fixed_rows_mut::<6>(0).copy_from(&base);
-        out.fixed_rows_mut::<6>(6).copy_from(&tip);
-        out.fixed_rows_mut::<MOST_COORDINATES>(12).copy_from(&moments);
+        out.fixed_rows_mut::<6>(TIP).copy_from(&tip);
+        out.fixed_rows_mut::<MOST_COORDINATES>(OWN).copy_from(&moments);
         out
     }
 
-    /// Derivatives of the equations and of the forces at constant multipliers `mu`, with respect to the
-    /// local unknowns.
-    pub fn linearize(
+    /// Derivatives of the equations and of the forces at constant multipliers `mu`, with respect to the local
+    /// unknowns. `weights` are those of the equations in BᵀWB.
+    pub(crate) fn linearize(
         &self,
         (relative, own): &(Relative, Own),
         mu: &Equations,
-    ) -> (LocalGradient, SMatrix<f64, LOCAL, LOCAL>) {
+        weights: &[f64; MOST_EQUATIONS],
+        charts: Option<[&IncrementTangent; 2]>,
+        out: &mut Derivatives,
+    ) {
         let mut gradient = Gradient::zeros();
         self.joint.gradient(relative, own, &mut gradient);
         let mut curvature = Curvature::zeros();
         self.joint.curvature(relative, own, mu, &mut curvature);
-        let variation = self.variation(relative);
-        let rows = self.gradient_at(&(*relative, *own));
-
-        // Chain rule through (η, φ).
-        let mut chain = SMatrix::<f64, 8, LOCAL>::zeros();
-        chain.fixed_view_mut::<6, 12>(0, 0).copy_from(&variation);
-        chain.fixed_view_mut::<2, 2>(6, 12).fill_with_identity();
-        let mut geometric = chain.transpose() * (curvature * chain);
-        // The base's wrench -Aᵀ w, A = Ad(G⁻¹), turns with η: δ(Aᵀ) w = -Aᵀ X(w) η.
-        let wrench = gradient.relative.tr_mul(&SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu));
-        let [base, _] = self.offset_adjoints();
-        let turning =
-            (relative_adjoint(relative) * base).transpose() * (coadjoint_matrix(&wrench) * variation);
-        let mut view = geometric.fixed_view_mut::<6, 12>(0, 0);
-        view += turning;
-        (rows, geometric)
+        let (wrench, _) = self.joint.wrench(relative, own, mu);
+        let inner = Inner {
+            counts: (self.equations(), self.coordinates.len()),
+            gradient: &gradient,
+            curvature: &curvature,
+            wrench: &wrench,
+            weights,
+        };
+        out.fill(&self.sides(relative), charts, &inner);
     }
 
-    /// η as a linear map of the node variations.
-    pub(super) fn variation(&self, relative: &Relative) -> SMatrix<f64, 6, 12> {
-        let [base, tip] = self.offset_adjoints();
-        let mut variation = SMatrix::<f64, 6, 12>::zeros();
-        variation.fixed_columns_mut::<6>(0).copy_from(&(-relative_adjoint(relative) * base));
-        variation.fixed_columns_mut::<6>(6).copy_from(&tip);
+    /// Derivatives of the forces at constant multipliers `mu` with respect to the local unknowns, as body variations.
+    pub(crate) fn curvature(
+        &self,
+        configuration: &(Relative, Own),
+        mu: &Equations,
+    ) -> SMatrix<f64, LOCAL, LOCAL> {
+        let mut derivatives = Derivatives::new();
+        self.linearize(configuration, mu, &[0.0; MOST_EQUATIONS], None, &mut derivatives);
+        derivatives.sum(1.0, 0.0, 0.0);
+        SMatrix::from_fn(|i, j| derivatives.column(j)[i])
+    }
+
+    /// How the relative motion varies with base and tip.
+    fn sides(&self, relative: &Relative) -> [Side; 2] {
+        let [base, tip] = self.frames.map(|frame| (frame.offset.rotation.matrix(), frame.offset.position));
+        [
+            Side::adjoint_inverse(
+                -1.0,
+                &(base.0 * relative.rotation),
+                &(base.1 + base.0 * relative.position),
+            ),
+            Side::adjoint_inverse(1.0, &tip.0, &tip.1),
+        ]
+    }
+
+    /// η as a linear map of the local unknowns.
+    pub(super) fn variation(&self, relative: &Relative) -> SMatrix<f64, 6, LOCAL> {
+        let mut variation = SMatrix::<f64, 6, LOCAL>::zeros();
+        for (side, first) in self.sides(relative).iter().zip([0, TIP]) {
+            variation.fixed_view_mut::<3, 3>(0, first).copy_from(&side.turning);
+            variation.fixed_view_mut::<3, 3>(0, first + 3).copy_from(&side.shifting);
+            variation.fixed_view_mut::<3, 3>(3, first + 3).copy_from(&side.turning);
+        }
         variation
-    }
-
-    fn offset_adjoints(&self) -> [Matrix6; 2] {
-        self.frames.map(|frame| frame.offset.inverse().adjoint())
     }
 
     /// Wrench of the joint on the tip at the joint's point, in inertial axes [N, N m], for the
@@ -200,16 +216,6 @@ impl AttachedJoint {
         let (force, moment) = split(&wrench);
         lissom_motion::screw(&rotation.apply(&force), &rotation.apply(&moment))
     }
-}
-
-/// Ad(G⁻¹) = [[Rᵀ, -Rᵀ x̃], [0, Rᵀ]].
-fn relative_adjoint(relative: &Relative) -> Matrix6 {
-    let turned = relative.rotation.transpose();
-    let mut adjoint = Matrix6::zeros();
-    adjoint.fixed_view_mut::<3, 3>(0, 0).copy_from(&turned);
-    adjoint.fixed_view_mut::<3, 3>(3, 3).copy_from(&turned);
-    adjoint.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-turned * lissom_motion::skew(&relative.position)));
-    adjoint
 }
 
 /// Ad(G⁻¹)ᵀ w: the wrench moved from the tip's to the base's joint frame.

@@ -7,6 +7,7 @@
 pub mod attached;
 pub mod clamp;
 pub mod cylindrical;
+pub mod derivatives;
 pub mod distance;
 pub(crate) mod passage;
 pub mod prescribed;

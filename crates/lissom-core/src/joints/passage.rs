@@ -9,7 +9,8 @@
 
 use nalgebra::SVector;
 
-use super::attached::{AttachedJoint, Increments, LOCAL, LocalGradient};
+use super::attached::{AttachedJoint, Increments, LocalGradient};
+use super::derivatives::{LOCAL, OWN, TIP};
 use super::{Equations, MOST_EQUATIONS, Quantity};
 use crate::elements::passage::{Passage, STAGES, above_round_off, weigh};
 
@@ -50,17 +51,17 @@ impl AttachedJoint {
             let terms = rows[j].abs() * speeds.abs();
             way = way.max(passage.lasting[j].abs() * terms.max());
             let variation = self.variation(&configuration.0);
-            let relative = variation * speeds.fixed_rows::<12>(0);
+            let relative = variation * speeds;
             let weighted = weigh(&relative, passage.length);
-            weights[j].fixed_rows_mut::<12>(0).copy_from(&variation.tr_mul(&weighted));
+            weights[j] = variation.tr_mul(&weighted);
             squares[j] = relative.dot(&weighted);
             for (k, coordinate) in self.joint().coordinates().iter().enumerate() {
                 let unit = match coordinate.quantity {
                     Quantity::Length => 1.0,
                     Quantity::Angle => passage.length,
                 };
-                weights[j][12 + k] = unit * unit * speeds[12 + k];
-                squares[j] += weights[j][12 + k] * speeds[12 + k];
+                weights[j][OWN + k] = unit * unit * speeds[OWN + k];
+                squares[j] += weights[j][OWN + k] * speeds[OWN + k];
             }
         }
         let (relative, own) = self.configuration(&increments[STAGES]);
@@ -87,11 +88,11 @@ impl AttachedJoint {
     /// Velocities of the local unknowns.
     pub(crate) fn speeds(&self, at: &crate::system::Kinematics) -> SVector<f64, LOCAL> {
         let mut speeds = SVector::<f64, LOCAL>::zeros();
-        for (side, frame) in self.frames.iter().enumerate() {
-            speeds.fixed_rows_mut::<6>(6 * side).copy_from(&at.nodes[frame.node].twist);
+        for (frame, first) in self.frames.iter().zip([0, TIP]) {
+            speeds.fixed_rows_mut::<6>(first).copy_from(&at.nodes[frame.node].twist);
         }
         for (k, &coordinate) in self.coordinates.iter().enumerate() {
-            speeds[12 + k] = at.coordinates[coordinate].rate;
+            speeds[OWN + k] = at.coordinates[coordinate].rate;
         }
         speeds
     }

@@ -6,15 +6,14 @@
 //!
 //! where the weight w of the augmented Lagrangian term is somebody else's choice.
 
-use nalgebra::SMatrix;
-
-use super::batch::{Chart, scatter, through_chart};
-use super::layout::LOCKED;
+use super::batch::{Chart, scatter};
+use super::receiver::{Place, Receiver};
 use super::state::{Kinematics, MotionChange};
 use super::threads::Threads;
 use super::{Drive, System};
 use crate::elements::{MOST_UNKNOWNS, Tangents};
-use crate::joints::attached::{AttachedJoint, Increments, LOCAL};
+use crate::joints::attached::{AttachedJoint, Increments};
+use crate::joints::derivatives::{Derivatives, LOCAL};
 use crate::joints::{Equations, MOST_EQUATIONS, Quantity};
 
 /// Where residual and tangent are evaluated.
@@ -62,7 +61,7 @@ impl Augmentation {
 }
 
 /// Derivatives of the equations of motion in SI, each on the values of the tangent's pattern.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Linearization {
     /// ∂/∂ place, constraint forces at constant multipliers included.
     pub stiffness: Vec<f64>,
@@ -74,7 +73,20 @@ pub struct Linearization {
     pub gram: Vec<f64>,
     /// B and Bᵀ in the multipliers' rows and columns.
     pub constraint: Vec<f64>,
-    pub(super) scratch: Tangents,
+    pub(super) scratch: Option<Box<Scratch>>,
+}
+
+/// Room for derivatives of one element or joint after the other.
+#[derive(Clone, Debug)]
+pub struct Scratch {
+    pub(super) local: Tangents,
+    pub(super) joint: Derivatives,
+}
+
+impl Default for Scratch {
+    fn default() -> Self {
+        Self { local: Tangents::new(MOST_UNKNOWNS), joint: Derivatives::new() }
+    }
 }
 
 impl Linearization {
@@ -87,19 +99,7 @@ impl Linearization {
             mass: zeros.clone(),
             gram: zeros.clone(),
             constraint: zeros,
-            scratch: Tangents::new(MOST_UNKNOWNS),
-        }
-    }
-
-    /// A stand-in without room, to be replaced.
-    pub(crate) fn empty() -> Self {
-        Self {
-            stiffness: Vec::new(),
-            damping: Vec::new(),
-            mass: Vec::new(),
-            gram: Vec::new(),
-            constraint: Vec::new(),
-            scratch: Tangents::new(0),
+            scratch: None,
         }
     }
 
@@ -120,11 +120,11 @@ impl System {
         for batch in &self.batches {
             batch.forces(point.at, out);
         }
-        for (joint, rows) in self.joints.iter().zip(&self.joint_rows) {
+        for (index, joint) in self.joints.iter().enumerate() {
+            let rows = self.rows_of_joint(index);
             let mut local = [0.0; LOCAL + MOST_EQUATIONS];
-            let local = &mut local[..rows.len()];
-            joint_residual(joint, point, local);
-            add_joint(joint, rows, local, out);
+            joint_residual(joint, point, &mut local[..rows.len()]);
+            scatter(rows, &local, out);
         }
         self.add_drives(point, out);
     }
@@ -143,18 +143,28 @@ impl System {
                 joint_residual(&self.joints[joint], point, &mut locals[own]);
             }
         });
-        for (index, (joint, rows)) in self.joints.iter().zip(&self.joint_rows).enumerate() {
-            add_joint(joint, rows, &locals[starts[index]..starts[index + 1]], out);
-        }
+        scatter(&self.joint_rows, locals, out);
         self.add_drives(point, out);
     }
 
+    /// Rows of a joint's local unknowns and equations.
+    pub(crate) fn rows_of_joint(&self, joint: usize) -> &[u32] {
+        &self.joint_rows[self.joint_starts[joint]..self.joint_starts[joint + 1]]
+    }
+
+    /// Rows of a drive's coordinate and multiplier.
+    pub(super) fn rows_of_drive(&self, drive: &Drive) -> [usize; 2] {
+        let coordinate = self.layout.row_of_coordinate(drive.prescribed.coordinate);
+        [coordinate, self.layout.coordinate_count + drive.multiplier]
+    }
+
     fn add_drives(&self, point: &Point<'_>, out: &mut [f64]) {
-        for (drive, rows) in self.drives.iter().zip(&self.joint_rows[self.joints.len()..]) {
+        for drive in &self.drives {
+            let rows = self.rows_of_drive(drive);
             let violation = drive_violation(drive, point);
-            out[rows[1] as usize] = violation;
+            out[rows[1]] = violation;
             let weight = point.augmentation.weight * self.relative_weight(point, drive.multiplier);
-            out[rows[0] as usize] += point.multipliers[drive.multiplier] + weight * violation;
+            out[rows[0]] += point.multipliers[drive.multiplier] + weight * violation;
         }
     }
 
@@ -179,26 +189,41 @@ impl System {
 
     /// Linearisation at `point` with respect to the unknowns of `chart`.
     pub fn linearize(&self, point: &Point<'_>, chart: Chart<'_>, out: &mut Linearization) {
+        let mut scratch = out.scratch.take().unwrap_or_default();
+        self.hand_derivatives(point, chart, &mut scratch, &mut Receiver::Apart(out));
+        out.scratch = Some(scratch);
+    }
+
+    /// Hands the derivatives at `point` with respect to the unknowns of `chart` to `out`.
+    pub fn hand_derivatives(
+        &self,
+        point: &Point<'_>,
+        chart: Chart<'_>,
+        scratch: &mut Scratch,
+        out: &mut Receiver<'_>,
+    ) {
         out.clear();
-        let mut scratch = std::mem::replace(&mut out.scratch, Tangents::new(0));
         for batch in &self.batches {
-            batch.linearize((point.at, point.stressed), chart, &mut scratch, out);
+            batch.linearize((point.at, point.stressed), chart, &mut scratch.local, out);
         }
-        out.scratch = scratch;
-        self.linearize_constraints(point, chart, out);
+        self.linearize_constraints(point, chart, &mut scratch.joint, out);
     }
 
     /// Adds what constraints do.
-    pub(super) fn linearize_constraints(&self, point: &Point<'_>, chart: Chart<'_>, out: &mut Linearization) {
-        for ((joint, rows), positions) in self.joints.iter().zip(&self.joint_rows).zip(&self.joint_positions)
-        {
-            let free = Local { equations: joint.equations(), size: rows.len() };
-            joint_linearization(joint, positions, free, point, chart, out);
+    pub(super) fn linearize_constraints(
+        &self,
+        point: &Point<'_>,
+        chart: Chart<'_>,
+        scratch: &mut Derivatives,
+        out: &mut Receiver<'_>,
+    ) {
+        for (index, joint) in self.joints.iter().enumerate() {
+            linearize_joint(joint, point, chart, scratch);
+            let place = Place { rows: self.rows_of_joint(index), runs: self.joint_places.of(index) };
+            out.add_joint(place, scratch);
         }
-        for (drive, positions) in self.drives.iter().zip(&self.joint_positions[self.joints.len()..]) {
-            out.gram[positions[0] as usize] += self.relative_weight(point, drive.multiplier);
-            out.constraint[positions[1] as usize] = 1.0;
-            out.constraint[positions[2] as usize] = 1.0;
+        for drive in &self.drives {
+            out.add_drive(drive.positions, self.relative_weight(point, drive.multiplier));
         }
     }
 
@@ -214,7 +239,7 @@ impl System {
                 let mut mu = Equations::default();
                 mu[equation] = 1.0;
                 // d/dt (B_eᵀ) = (∂(B_eᵀ)/∂q) v
-                let (_, curvature) = joint.linearize(&configuration, &mu);
+                let curvature = joint.curvature(&configuration, &mu);
                 out[joint.first_multiplier + equation] = speeds.dot(&(curvature * speeds));
             }
         }
@@ -260,34 +285,12 @@ fn joint_residual(joint: &AttachedJoint, point: &Point<'_>, local: &mut [f64]) {
     let configuration = joint.configuration(&point.increments);
     let (violation, mu) = joint_multipliers(joint, &configuration, point);
     let forces = joint.forces(&configuration, &mu);
-    let (own, equations) = local.split_at_mut(local.len() - joint.equations());
-    own.copy_from_slice(&forces.as_slice()[..own.len()]);
+    let (own, equations) = local.split_at_mut(LOCAL);
+    own.copy_from_slice(forces.as_slice());
     equations.copy_from_slice(&violation[..equations.len()]);
 }
 
-fn add_joint(joint: &AttachedJoint, rows: &[u32], local: &[f64], out: &mut [f64]) {
-    let unknowns = rows.len() - joint.equations();
-    scatter(&rows[..unknowns], local, out);
-    for (&row, &value) in rows[unknowns..].iter().zip(&local[unknowns..]) {
-        out[row as usize] = value;
-    }
-}
-
-/// Sizes of a joint's local matrix: its last `equations` rows belong to the multipliers.
-#[derive(Clone, Copy)]
-struct Local {
-    equations: usize,
-    size: usize,
-}
-
-fn joint_linearization(
-    joint: &AttachedJoint,
-    positions: &[u32],
-    local: Local,
-    point: &Point<'_>,
-    chart: Chart<'_>,
-    out: &mut Linearization,
-) {
+fn linearize_joint(joint: &AttachedJoint, point: &Point<'_>, chart: Chart<'_>, out: &mut Derivatives) {
     let configuration = joint.configuration(&point.increments);
     // The curvature of the augmented term, w c ∂²c/∂q², is left out: it vanishes at the solution, and far
     // from it, with w c much larger than the multipliers, it would spoil the correction.
@@ -295,50 +298,10 @@ fn joint_linearization(
     mu[..joint.equations()].copy_from_slice(
         &point.multipliers[joint.first_multiplier..joint.first_multiplier + joint.equations()],
     );
-    let (rows, curvature) = joint.linearize(&configuration, &mu);
-    let unknowns = local.size - local.equations;
-    let mut weighted = rows;
-    for k in 0..local.equations {
-        weighted.row_mut(k).scale_mut(point.augmentation.relative(joint.joint().equation_quantity(k)));
-    }
-    let gram: SMatrix<f64, LOCAL, LOCAL> = rows.transpose() * weighted;
-    // Row-major copies, through the charts where asked.
-    let mut gradient = [0.0; MOST_EQUATIONS * LOCAL];
-    let mut stiffness = [0.0; LOCAL * LOCAL];
-    let mut augmented = [0.0; LOCAL * LOCAL];
-    for i in 0..LOCAL {
-        for j in 0..LOCAL {
-            stiffness[i * LOCAL + j] = curvature[(i, j)];
-            augmented[i * LOCAL + j] = gram[(i, j)];
-        }
-    }
-    for i in 0..MOST_EQUATIONS {
-        for j in 0..LOCAL {
-            gradient[i * LOCAL + j] = rows[(i, j)];
-        }
-    }
-    if let Chart::Increments(increments) = chart {
-        for (side, frame) in joint.frames.iter().enumerate() {
-            for matrix in [&mut gradient[..], &mut stiffness[..], &mut augmented[..]] {
-                through_chart(matrix, LOCAL, 6 * side, &increments[frame.node]);
-            }
-        }
-    }
-    for i in 0..unknowns {
-        for j in 0..unknowns {
-            let position = positions[i * local.size + j];
-            if position != LOCKED {
-                out.stiffness[position as usize] += stiffness[i * LOCAL + j];
-                out.gram[position as usize] += augmented[i * LOCAL + j];
-            }
-        }
-        for e in 0..local.equations {
-            let column = positions[i * local.size + unknowns + e];
-            let row = positions[(unknowns + e) * local.size + i];
-            if column != LOCKED {
-                out.constraint[column as usize] = rows[(e, i)];
-                out.constraint[row as usize] = gradient[e * LOCAL + i];
-            }
-        }
-    }
+    let weights = std::array::from_fn(|k| point.augmentation.relative(joint.joint().equation_quantity(k)));
+    let charts = match chart {
+        Chart::Increments(tangents) => Some(joint.frames.map(|frame| &tangents[frame.node])),
+        Chart::Body | Chart::Departures(_) => None,
+    };
+    joint.linearize(&configuration, &mu, &weights, charts, out);
 }

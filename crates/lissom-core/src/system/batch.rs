@@ -3,16 +3,18 @@
 use std::any::Any;
 use std::ops::Range;
 
-use lissom_motion::{Matrix6, Vector6, WIDTH, lie_bracket_matrix};
+use lissom_motion::{Matrix6, WIDTH, lie_bracket_matrix};
 use lissom_solver::Pattern;
 
-use super::assembly::Linearization;
 use super::layout::{LOCKED, Layout};
+use super::places::{Places, free_rows};
+use super::receiver::{Place, Receiver};
 use super::state::{Kinematics, NodeMotion};
 use super::threads::Threads;
 use crate::elements::blocks::Blocks;
 use crate::elements::passage::{Passage, STAGES, Variation};
 use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
+use crate::joints::derivatives::IncrementTangent;
 
 /// Most nodes of an element.
 const MOST_NODES: usize = 4;
@@ -24,9 +26,8 @@ pub(crate) struct Batch<E> {
     rows: Vec<u32>,
     /// Where each item's rows begin.
     starts: Vec<usize>,
-    /// Position in the pattern of every local matrix entry, item after item.
-    positions: Vec<u32>,
-    position_starts: Vec<usize>,
+    /// Where each item's local matrix lies in the pattern.
+    places: Places,
     /// The items laid out for evaluation several at a time, for kinds that are.
     blocks: Option<Box<dyn Blocks>>,
     processor: pulp::Arch,
@@ -49,7 +50,7 @@ pub(crate) trait AnyBatch: Send + Sync {
         at_stressed: (&Kinematics, &Kinematics),
         chart: Chart<'_>,
         scratch: &mut Tangents,
-        out: &mut Linearization,
+        out: &mut Receiver<'_>,
     );
     fn passage_forces(&self, passage: &Passage<'_>, out: &mut [Vec<f64>]);
     fn linearize_stage(
@@ -58,7 +59,7 @@ pub(crate) trait AnyBatch: Send + Sync {
         stage: usize,
         stressed: Option<&Kinematics>,
         scratch: &mut Tangents,
-        out: &mut Linearization,
+        out: &mut Receiver<'_>,
     );
     fn linearize_integrated(
         &self,
@@ -76,8 +77,8 @@ pub(crate) trait AnyBatch: Send + Sync {
 pub enum Chart<'a> {
     /// Body variations at the point of linearisation.
     Body,
-    /// Increments ψ of each node from the start of the step, H = H_start exp ψ: δh = T(ψ) δψ.
-    Increments(&'a [Vector6]),
+    /// Increments ψ of each node from the start of the step, H = H_start exp ψ: δh = T(ψ) δψ, T given by node.
+    Increments(&'a [IncrementTangent]),
     /// Departures ψ̂ from going on with each node's twist V, at ψ̂ = 0: δV = δψ̂' + ad_V δψ̂ and
     /// δV̇ = δψ̂'' + ad_V δψ̂'.
     Departures(&'a [NodeMotion]),
@@ -89,8 +90,7 @@ impl<E: Element> Batch<E> {
             items: Vec::new(),
             rows: Vec::new(),
             starts: Vec::new(),
-            positions: Vec::new(),
-            position_starts: Vec::new(),
+            places: Places::new(),
             blocks: None,
             processor: pulp::Arch::new(),
         }
@@ -100,14 +100,8 @@ impl<E: Element> Batch<E> {
         self.items.push(item);
     }
 
-    fn scatter_tangents(&self, item: usize, local: &Tangents, out: &mut Linearization) {
-        let positions = &self.positions[self.position_starts[item]..self.position_starts[item + 1]];
-        for (entry, &position) in positions.iter().enumerate().filter(|&(_, &position)| position != LOCKED) {
-            let position = position as usize;
-            out.stiffness[position] += local.stiffness[entry];
-            out.damping[position] += local.damping[entry];
-            out.mass[position] += local.mass[entry];
-        }
+    fn place(&self, item: usize) -> Place<'_> {
+        Place { rows: self.item_rows(item), runs: self.places.of(item) }
     }
 
     /// Items in a block of those that are evaluated several at a time.
@@ -141,13 +135,12 @@ impl<E: Element> AnyBatch for Batch<E> {
     }
 
     fn locate(&mut self, pattern: &Pattern) {
-        self.positions.clear();
-        self.position_starts = vec![0];
+        self.places = Places::new();
         for item in 0..self.items.len() {
-            let positions = positions_of(pattern, self.item_rows(item));
-            self.positions.extend(positions);
-            self.position_starts.push(self.positions.len());
+            let rows = &self.rows[self.starts[item]..self.starts[item + 1]];
+            self.places.push(pattern, rows, rows.len());
         }
+        self.places.shrink();
     }
 
     fn cliques(&self) -> Vec<Vec<usize>> {
@@ -220,12 +213,12 @@ impl<E: Element> AnyBatch for Batch<E> {
         stage: usize,
         stressed: Option<&Kinematics>,
         scratch: &mut Tangents,
-        out: &mut Linearization,
+        out: &mut Receiver<'_>,
     ) {
         for (index, item) in self.items.iter().enumerate() {
             scratch.clear(self.item_rows(index).len());
             item.linearize_stage(passage, stage, stressed, scratch);
-            self.scatter_tangents(index, scratch, out);
+            out.add_element(self.place(index), scratch);
         }
     }
 
@@ -248,11 +241,10 @@ impl<E: Element> AnyBatch for Batch<E> {
                 *own = variations[node];
             }
             item.linearize_integrated(passage, &own[..item.nodes().len()], scratch);
-            let positions = &self.positions[self.position_starts[index]..self.position_starts[index + 1]];
             for (stage, row) in scratch.iter().enumerate() {
                 for (other, values) in row.iter().enumerate() {
-                    for (&position, &value) in positions.iter().zip(values).filter(|&(&p, _)| p != LOCKED) {
-                        add(position as usize, stage, other, value);
+                    for (position, i, j) in self.places.of(index).iter().flat_map(|run| run.entries()) {
+                        add(position, stage, other, values[i * size + j]);
                     }
                 }
             }
@@ -264,7 +256,7 @@ impl<E: Element> AnyBatch for Batch<E> {
         (at, stressed): (&Kinematics, &Kinematics),
         chart: Chart<'_>,
         scratch: &mut Tangents,
-        out: &mut Linearization,
+        out: &mut Receiver<'_>,
     ) {
         for (index, item) in self.items.iter().enumerate() {
             let rows = self.item_rows(index);
@@ -284,7 +276,7 @@ impl<E: Element> AnyBatch for Batch<E> {
                     }
                 }
             }
-            self.scatter_tangents(index, scratch, out);
+            out.add_element(self.place(index), scratch);
         }
     }
 
@@ -313,42 +305,28 @@ pub(super) fn scatter(rows: &[u32], local: &[f64], out: &mut [f64]) {
 /// Adds to six columns of `matrix` those of `other` times `factor`.
 fn add_columns(matrix: &mut [f64], other: &[f64], size: usize, column: usize, factor: &Matrix6) {
     for (row, source) in matrix.chunks_exact_mut(size).zip(other.chunks_exact(size)) {
-        for j in 0..6 {
-            row[column + j] += (0..6).map(|i| source[column + i] * factor[(i, j)]).sum::<f64>();
+        let (row, source) = (&mut row[column..column + 6], &source[column..column + 6]);
+        for (i, &value) in source.iter().enumerate().filter(|&(_, &value)| value != 0.0) {
+            for j in 0..6 {
+                row[j] += value * factor[(i, j)];
+            }
         }
     }
-}
-
-/// Positions in the pattern of the dense local matrix over `rows`, row by row.
-pub(crate) fn positions_of(pattern: &Pattern, rows: &[u32]) -> Vec<u32> {
-    let mut positions = Vec::with_capacity(rows.len() * rows.len());
-    for &row in rows {
-        for &column in rows {
-            let position = if row == LOCKED || column == LOCKED {
-                LOCKED
-            } else {
-                pattern.position(row as usize, column as usize).expect("the pattern was made from these rows")
-                    as u32
-            };
-            positions.push(position);
-        }
-    }
-    positions
-}
-
-pub(crate) fn free_rows(rows: &[u32]) -> Vec<usize> {
-    rows.iter().filter(|&&row| row != LOCKED).map(|&row| row as usize).collect()
 }
 
 /// Multiplies the six columns from `column` of a row-major local matrix by T(ψ): from body variations to
 /// variations of the increment ψ.
-pub(crate) fn through_chart(matrix: &mut [f64], size: usize, column: usize, increment: &Vector6) {
-    let chart: Matrix6 = lissom_motion::tangent(increment);
+fn through_chart(matrix: &mut [f64], size: usize, column: usize, chart: &IncrementTangent) {
+    let IncrementTangent { turning, shifting } = chart;
     for row in matrix.chunks_exact_mut(size) {
+        let row = &mut row[column..column + 6];
         let mut turned = [0.0; 6];
-        for (j, value) in turned.iter_mut().enumerate() {
-            *value = (0..6).map(|i| row[column + i] * chart[(i, j)]).sum();
+        for j in 0..3 {
+            for i in 0..3 {
+                turned[j] += row[i] * turning[(i, j)];
+                turned[3 + j] += row[i] * shifting[(i, j)] + row[3 + i] * turning[(i, j)];
+            }
         }
-        row[column..column + 6].copy_from_slice(&turned);
+        row.copy_from_slice(&turned);
     }
 }

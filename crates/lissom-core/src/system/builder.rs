@@ -6,13 +6,15 @@ use std::sync::Arc;
 use lissom_motion::{Matrix6, Motion, Rotation, Vector3, Vector6};
 use lissom_solver::{Group, Pattern, Structure};
 
-use super::batch::{AnyBatch, Batch, free_rows, positions_of};
+use super::batch::{AnyBatch, Batch};
 use super::layout::{Freedoms, LOCKED, Layout};
+use super::places::{Places, free_rows, position_of};
 use super::state::{CoordinateId, CoordinateMotion, Kinematics, NodeId, NodeMotion, State};
 use super::{Drive, GROUND, System};
 use crate::elements::Element;
 use crate::elements::inertia::Inertia;
 use crate::joints::attached::{AttachedJoint, CarriedFrame};
+use crate::joints::derivatives::{LOCAL, OWN, TIP};
 use crate::joints::prescribed::Prescribed;
 use crate::joints::{Build, Frames, Geometry, JointKind, Quantity};
 use crate::registry::{ParameterError, Parameters};
@@ -222,7 +224,12 @@ impl Builder {
         };
         self.check_quantity(coordinate, wanted)?;
         let prescribed = Prescribed { coordinate, value: build(parameters)? };
-        self.drives.push(Drive { name: name.to_owned(), prescribed, multiplier: self.multipliers.len() });
+        self.drives.push(Drive {
+            name: name.to_owned(),
+            prescribed,
+            multiplier: self.multipliers.len(),
+            positions: [0; 3],
+        });
         self.multipliers.push((name.to_owned(), wanted.relative()));
         self.multiplier_quantities.push(wanted);
         Ok(())
@@ -271,21 +278,37 @@ impl Builder {
         for batch in &mut self.batches {
             batch.connect(&layout);
         }
-        let joint_rows = self.joint_rows(&layout);
+        let joint_rows: Vec<Vec<u32>> = self.joints.iter().map(|joint| rows_of(joint, &layout)).collect();
+        let of_drive = |drive: &Drive| {
+            let coordinate = layout.row_of_coordinate(drive.prescribed.coordinate);
+            (coordinate, layout.coordinate_count + drive.multiplier)
+        };
         let cliques: Vec<Vec<usize>> = self
             .batches
             .iter()
             .flat_map(|batch| batch.cliques())
             .chain(joint_rows.iter().map(|rows| free_rows(rows)))
+            .chain(
+                self.drives.iter().map(of_drive).map(|(coordinate, multiplier)| vec![coordinate, multiplier]),
+            )
             .collect();
         let pattern = Arc::new(Pattern::from_cliques(layout.size(), cliques.iter().map(Vec::as_slice)));
         for batch in &mut self.batches {
             batch.locate(&pattern);
         }
-        let joint_positions = joint_rows.iter().map(|rows| positions_of(&pattern, rows)).collect();
+        let mut joint_places = Places::new();
+        for rows in &joint_rows {
+            joint_places.push(&pattern, rows, LOCAL);
+        }
+        joint_places.shrink();
+        for drive in &mut self.drives {
+            let (coordinate, multiplier) = of_drive(drive);
+            drive.positions = [(coordinate, coordinate), (coordinate, multiplier), (multiplier, coordinate)]
+                .map(|(row, column)| position_of(&pattern, row, column));
+        }
         let structure = Structure::new(pattern, self.groups(&layout))
             .map_err(|error| BuildError::Structure(error.to_string()))?;
-        let joint_starts = starts(joint_rows[..self.joints.len()].iter().map(Vec::len));
+        let joint_starts = starts(joint_rows.iter().map(Vec::len));
         let state = self.initial_state(&layout, time);
         let element_count = self.batches.iter().map(|batch| batch.len()).sum();
         let system = System {
@@ -295,9 +318,9 @@ impl Builder {
             joints: self.joints,
             drives: self.drives,
             structure,
-            joint_positions,
+            joint_places,
             joint_starts,
-            joint_rows,
+            joint_rows: joint_rows.concat(),
             inertias,
             gravity: self.gravity,
             element_count,
@@ -335,22 +358,6 @@ impl Builder {
         layout.multiplier_count = self.multipliers.len();
         layout.multiplier_names = std::mem::take(&mut self.multipliers);
         layout
-    }
-
-    /// Rows of each joint's local unknowns and multipliers, then of each drive's.
-    fn joint_rows(&self, layout: &Layout) -> Vec<Vec<u32>> {
-        let first = layout.coordinate_count;
-        let joints = self.joints.iter().map(|joint| {
-            let mut rows: Vec<u32> =
-                joint.frames.iter().flat_map(|frame| layout.node_rows[frame.node]).collect();
-            rows.extend(joint.coordinates.iter().map(|&coordinate| layout.coordinate_rows[coordinate]));
-            rows.extend((0..joint.equations()).map(|k| (first + joint.first_multiplier + k) as u32));
-            rows
-        });
-        let drives = self.drives.iter().map(|drive| {
-            vec![layout.coordinate_rows[drive.prescribed.coordinate], (first + drive.multiplier) as u32]
-        });
-        joints.chain(drives).collect()
     }
 
     /// One group per node and per coordinate, then one per joint and drive, after all that it acts on.
@@ -413,6 +420,20 @@ impl Builder {
     pub fn ground(&self) -> NodeId {
         GROUND
     }
+}
+
+/// Rows of a joint's local unknowns, locked where there are none, and of its multipliers.
+fn rows_of(joint: &AttachedJoint, layout: &Layout) -> Vec<u32> {
+    let mut rows = vec![LOCKED; LOCAL];
+    for (frame, first) in joint.frames.iter().zip([0, TIP]) {
+        rows[first..first + 6].copy_from_slice(&layout.node_rows[frame.node]);
+    }
+    for (row, &coordinate) in rows[OWN..].iter_mut().zip(&joint.coordinates) {
+        *row = layout.coordinate_rows[coordinate];
+    }
+    let first = layout.coordinate_count + joint.first_multiplier;
+    rows.extend((first..first + joint.equations()).map(|row| row as u32));
+    rows
 }
 
 /// Where each of several lengths begins when they are laid in a row, and where the last one ends.

@@ -5,16 +5,19 @@ mod batch;
 mod builder;
 mod layout;
 mod passage;
+pub(crate) mod places;
+mod receiver;
 pub(crate) mod state;
 mod threads;
 
 use std::sync::Arc;
 
-pub use assembly::{Augmentation, Linearization, Point};
+pub use assembly::{Augmentation, Linearization, Point, Scratch};
 pub use batch::Chart;
 pub use builder::{BuildError, Builder, Placement};
 pub use layout::{Freedoms, LOCKED, Layout};
 pub use passage::Course;
+pub use receiver::{Blend, Receiver, Sum};
 pub use state::{CoordinateId, CoordinateMotion, Kinematics, MotionChange, NodeId, NodeMotion, State};
 pub(crate) use threads::Threads;
 pub use threads::WORTH_WHILE;
@@ -27,6 +30,7 @@ use crate::elements::inertia::Inertia;
 use crate::joints::attached::AttachedJoint;
 use crate::joints::prescribed::Prescribed;
 use batch::AnyBatch;
+use places::Places;
 
 /// The ground: node 0 of every system, without freedoms.
 pub const GROUND: NodeId = 0;
@@ -40,6 +44,8 @@ pub struct Drive {
     pub prescribed: Prescribed,
     /// Its multiplier, the drive's moment or force, among all multipliers.
     pub multiplier: usize,
+    /// In the tangent's pattern: the coordinate's diagonal entry, and its entries in the multiplier's column and row.
+    pub(crate) positions: [usize; 3],
 }
 
 /// Nodes, elements and joints with their numbering. Does not change during a simulation and knows
@@ -50,10 +56,10 @@ pub struct System {
     pub(crate) joints: Vec<AttachedJoint>,
     pub(crate) drives: Vec<Drive>,
     pub(crate) structure: Structure,
-    /// Positions of every joint's local matrix in the pattern, then of every drive's.
-    pub(crate) joint_positions: Vec<Vec<u32>>,
-    pub(crate) joint_rows: Vec<Vec<u32>>,
-    /// Where each joint's local unknowns and equations begin, all joints in a row.
+    /// Where every joint's local matrix lies in the pattern.
+    pub(crate) joint_places: Places,
+    /// Rows of every joint's local unknowns and equations, all joints in a row, and where each joint's begin.
+    pub(crate) joint_rows: Vec<u32>,
     pub(crate) joint_starts: Vec<usize>,
     pub(crate) inertias: Vec<Inertia>,
     pub(crate) gravity: Vector3,

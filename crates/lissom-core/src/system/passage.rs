@@ -4,10 +4,10 @@
 use nalgebra::SVector;
 
 use super::layout::LOCKED;
-use super::{Augmentation, Chart, Drive, Kinematics, Linearization, Point, System};
-use crate::elements::Tangents;
+use super::{Augmentation, Chart, Drive, Kinematics, Linearization, Point, Receiver, System};
 use crate::elements::passage::{Passage, STAGES, Variation};
 use crate::joints::attached::{AttachedJoint, Increments};
+use crate::joints::derivatives::LOCAL;
 use crate::joints::{Equations, MOST_EQUATIONS};
 
 /// Where the residuals of a passage are evaluated.
@@ -35,12 +35,12 @@ impl System {
         stressed: Option<&Kinematics>,
         out: &mut Linearization,
     ) {
-        out.clear();
-        let mut scratch = std::mem::replace(&mut out.scratch, Tangents::new(0));
+        let mut scratch = out.scratch.take().unwrap_or_default();
+        let mut receiver = Receiver::Apart(out);
+        receiver.clear();
         for batch in &self.batches {
-            batch.linearize_stage(&course.passage, stage, stressed, &mut scratch, out);
+            batch.linearize_stage(&course.passage, stage, stressed, &mut scratch.local, &mut receiver);
         }
-        out.scratch = scratch;
         let at = course.passage.stages[stage];
         let point = Point {
             at,
@@ -50,7 +50,8 @@ impl System {
             violations: course.violations,
             augmentation: course.augmentation,
         };
-        self.linearize_constraints(&point, Chart::Body, out);
+        self.linearize_constraints(&point, Chart::Body, &mut scratch.joint, &mut receiver);
+        out.scratch = Some(scratch);
         out.constraint.fill(0.0);
         out.gram.fill(0.0);
     }
@@ -78,16 +79,16 @@ impl System {
         for batch in &self.batches {
             batch.passage_forces(&course.passage, out);
         }
-        for (joint, rows) in self.joints.iter().zip(&self.joint_rows) {
-            joint_residuals(joint, rows, course, out);
+        for (index, joint) in self.joints.iter().enumerate() {
+            joint_residuals(joint, self.rows_of_joint(index), course, out);
         }
-        for (drive, rows) in self.drives.iter().zip(&self.joint_rows[self.joints.len()..]) {
+        for drive in &self.drives {
+            let rows = self.rows_of_drive(drive);
             let quantity = self.layout.quantities[self.layout.coordinate_count + drive.multiplier];
             let weight = course.augmentation.weight * course.augmentation.relative(quantity);
             for (stage, violation) in drive_violations(drive, course).into_iter().enumerate() {
-                out[stage][rows[1] as usize] = violation;
-                out[stage][rows[0] as usize] +=
-                    course.multipliers[stage][drive.multiplier] + weight * violation;
+                out[stage][rows[1]] = violation;
+                out[stage][rows[0]] += course.multipliers[stage][drive.multiplier] + weight * violation;
             }
         }
     }
@@ -98,7 +99,6 @@ fn joint_residuals(joint: &AttachedJoint, rows: &[u32], course: &Course<'_>, out
     let mut before = Equations::default();
     before[..joint.equations()].copy_from_slice(&course.violations[own.clone()]);
     let visits = joint.visits(&course.passage, &course.increments, &before);
-    let unknowns = rows.len() - joint.equations();
     for (stage, visit) in visits.iter().enumerate() {
         let mut mu = SVector::<f64, MOST_EQUATIONS>::zeros();
         for (k, multiplier) in course.multipliers[stage][own.clone()].iter().enumerate() {
@@ -106,12 +106,12 @@ fn joint_residuals(joint: &AttachedJoint, rows: &[u32], course: &Course<'_>, out
             mu[k] = multiplier + course.augmentation.weight * relative * visit.violation[k];
         }
         let forces = visit.rows.tr_mul(&mu);
-        for (&row, force) in rows[..unknowns].iter().zip(forces.iter()) {
+        for (&row, force) in rows[..LOCAL].iter().zip(forces.iter()) {
             if row != LOCKED {
                 out[stage][row as usize] += force;
             }
         }
-        for (&row, value) in rows[unknowns..].iter().zip(visit.violation.iter()) {
+        for (&row, value) in rows[LOCAL..].iter().zip(visit.violation.iter()) {
             out[stage][row as usize] = *value;
         }
     }

@@ -5,8 +5,11 @@ mod configuration;
 use configuration::{Configuration, Random, difference, sample_parameters};
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
+use lissom_core::joints::derivatives::IncrementTangent;
 use lissom_core::joints::{self, Build, JointKind, Quantity};
-use lissom_core::system::{Builder, Chart, Freedoms, Linearization, Placement, State, System};
+use lissom_core::system::{
+    Blend, Builder, Chart, Freedoms, Linearization, Placement, Receiver, Scratch, State, Sum, System,
+};
 use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
 
 /// Compares all blocks of the linearisation with differences of the residual.
@@ -17,8 +20,12 @@ fn check(name: &str, system: &System, state: &State, size: f64, random: &mut Ran
     let pattern = system.pattern();
     for chart in [false, true] {
         let mut linearization = Linearization::new(system);
-        let unknowns = if chart { Chart::Increments(&here.node_increments) } else { Chart::Body };
+        let tangents: Vec<_> = here.node_increments.iter().map(IncrementTangent::new).collect();
+        let unknowns = if chart { Chart::Increments(&tangents) } else { Chart::Body };
         system.linearize(&here.point(0.0), unknowns, &mut linearization);
+        check_sum(name, &linearization, |receiver| {
+            system.hand_derivatives(&here.point(0.0), unknowns, &mut Scratch::default(), receiver);
+        });
         for column in 0..layout.size() {
             let by_place =
                 difference(|step| here.displaced(system, column, step, chart).residual(system, 0.0));
@@ -59,6 +66,21 @@ fn check(name: &str, system: &System, state: &State, size: f64, random: &mut Ran
                 assert!((product - gram).abs() < 1e-12 * (1.0 + gram.abs()), "{name}: BᵀWB");
             }
         }
+    }
+}
+
+/// Derivatives summed at once are those kept apart, summed.
+fn check_sum(name: &str, apart: &Linearization, hand: impl Fn(&mut Receiver<'_>)) {
+    let blend = Blend { place: 0.7, rate: 1.9, acceleration: -0.6, augmented: 0.3, constraint: 1.3 };
+    let mut values = vec![f64::NAN; apart.mass.len()];
+    hand(&mut Receiver::Real(Sum { blend, values: &mut values, stiffness: &mut [] }));
+    for (k, found) in values.iter().enumerate() {
+        let wanted = blend.place * apart.stiffness[k]
+            + blend.rate * apart.damping[k]
+            + blend.acceleration * apart.mass[k]
+            + blend.augmented * apart.gram[k]
+            + blend.constraint * apart.constraint[k];
+        assert!((found - wanted).abs() < 1e-12 * (1.0 + wanted.abs()), "{name}: sum {found}, {wanted} apart");
     }
 }
 

@@ -1,0 +1,88 @@
+//! Where dense local matrices lie in the tangent's pattern: as runs of entries that follow each other in a column.
+
+use lissom_solver::Pattern;
+
+use super::layout::LOCKED;
+
+/// Entries of a local column that follow each other in the pattern.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Run {
+    /// Local column.
+    pub(crate) column: u8,
+    /// First local row.
+    pub(crate) row: u8,
+    /// Number of rows.
+    pub(crate) length: u8,
+    /// Position of the first entry in the pattern.
+    position: u32,
+}
+
+impl Run {
+    /// Positions in the pattern.
+    pub(crate) fn positions(self) -> std::ops::Range<usize> {
+        self.position as usize..self.position as usize + usize::from(self.length)
+    }
+
+    /// Position in the pattern, local row and local column of each entry.
+    pub(crate) fn entries(self) -> impl Iterator<Item = (usize, usize, usize)> {
+        (0..usize::from(self.length))
+            .map(move |k| (self.position as usize + k, usize::from(self.row) + k, usize::from(self.column)))
+    }
+}
+
+/// Runs of several local matrices, one after the other.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Places {
+    runs: Vec<Run>,
+    starts: Vec<u32>,
+}
+
+impl Places {
+    /// None yet.
+    pub(crate) fn new() -> Self {
+        Self { runs: Vec::new(), starts: vec![0] }
+    }
+
+    /// Adds the local matrix over `rows`, [`LOCKED`] where there is none. The square of the rows from `filled` on is
+    /// left out: it stays zero.
+    pub(crate) fn push(&mut self, pattern: &Pattern, rows: &[u32], filled: usize) {
+        for (j, &column) in rows.iter().enumerate().filter(|&(_, &column)| column != LOCKED) {
+            let mut last = LOCKED;
+            let seen = if j < filled { rows } else { &rows[..filled] };
+            for (i, &row) in seen.iter().enumerate() {
+                if row == LOCKED {
+                    last = LOCKED;
+                    continue;
+                }
+                let position = position_of(pattern, row as usize, column as usize) as u32;
+                match self.runs.last_mut() {
+                    Some(run) if last != LOCKED && position == last + 1 => run.length += 1,
+                    _ => self.runs.push(Run { column: j as u8, row: i as u8, length: 1, position }),
+                }
+                last = position;
+            }
+        }
+        self.starts.push(self.runs.len() as u32);
+    }
+
+    /// Gives back room that was not needed.
+    pub(crate) fn shrink(&mut self) {
+        self.runs.shrink_to_fit();
+        self.starts.shrink_to_fit();
+    }
+
+    /// Runs of a local matrix.
+    pub(crate) fn of(&self, item: usize) -> &[Run] {
+        &self.runs[self.starts[item] as usize..self.starts[item + 1] as usize]
+    }
+}
+
+/// Position of an entry that the pattern was made to hold.
+pub(crate) fn position_of(pattern: &Pattern, row: usize, column: usize) -> usize {
+    pattern.position(row, column).expect("the pattern was made from these rows")
+}
+
+/// Rows that are not locked.
+pub(crate) fn free_rows(rows: &[u32]) -> Vec<usize> {
+    rows.iter().filter(|&&row| row != LOCKED).map(|&row| row as usize).collect()
+}

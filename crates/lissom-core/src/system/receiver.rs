@@ -1,0 +1,166 @@
+//! What takes the derivatives of elements and joints: each kind of derivative on its own, or their weighted sum, the
+//! tangent, at once. Knows no scheme: the weights are somebody else's.
+
+use lissom_solver::Scalar;
+use num_complex::Complex64;
+
+use super::assembly::Linearization;
+use super::places::Run;
+use crate::elements::Tangents;
+use crate::joints::derivatives::{Derivatives, OWN, TIP};
+
+/// Factors of the derivatives in a tangent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blend<T> {
+    /// Of ∂/∂ place.
+    pub place: f64,
+    /// Of ∂/∂ twist.
+    pub rate: T,
+    /// Of ∂/∂ acceleration.
+    pub acceleration: T,
+    /// Of BᵀWB.
+    pub augmented: f64,
+    /// Of B and Bᵀ.
+    pub constraint: f64,
+}
+
+/// A tangent in the making.
+#[derive(Debug)]
+pub struct Sum<'a, T> {
+    /// Factors of the derivatives.
+    pub blend: Blend<T>,
+    /// The tangent, on its pattern.
+    pub values: &'a mut [T],
+    /// Takes the diagonal of ∂/∂ place by row, of translations at least; may have no room.
+    pub stiffness: &'a mut [f64],
+}
+
+/// What takes the derivatives.
+#[derive(Debug)]
+pub enum Receiver<'a> {
+    /// Each on its own.
+    Apart(&'a mut Linearization),
+    /// Their sum with real factors.
+    Real(Sum<'a, f64>),
+    /// Their sum with complex factors.
+    Complex(Sum<'a, Complex64>),
+}
+
+/// An element's or joint's place in the system.
+#[derive(Clone, Copy)]
+pub(super) struct Place<'a> {
+    /// Row of each local unknown, or locked.
+    pub(super) rows: &'a [u32],
+    /// Where its local matrix lies.
+    pub(super) runs: &'a [Run],
+}
+
+impl Receiver<'_> {
+    /// Sets everything to zero.
+    pub(super) fn clear(&mut self) {
+        match self {
+            Self::Apart(linearization) => linearization.clear(),
+            Self::Real(sum) => sum.clear(),
+            Self::Complex(sum) => sum.clear(),
+        }
+    }
+
+    /// Adds an element's derivatives.
+    pub(super) fn add_element(&mut self, place: Place<'_>, local: &Tangents) {
+        match self {
+            Self::Apart(out) => {
+                for (position, i, j) in place.runs.iter().flat_map(|run| run.entries()) {
+                    let entry = i * local.size() + j;
+                    out.stiffness[position] += local.stiffness[entry];
+                    out.damping[position] += local.damping[entry];
+                    out.mass[position] += local.mass[entry];
+                }
+            }
+            Self::Real(sum) => sum.add_element(place, local),
+            Self::Complex(sum) => sum.add_element(place, local),
+        }
+    }
+
+    /// Adds a joint's derivatives.
+    pub(super) fn add_joint(&mut self, place: Place<'_>, joint: &mut Derivatives) {
+        match self {
+            Self::Apart(out) => {
+                let Linearization { stiffness, gram, constraint, .. } = &mut **out;
+                for (values, [place_, augmented, constraint]) in
+                    [(stiffness, [1.0, 0.0, 0.0]), (gram, [0.0, 1.0, 0.0]), (constraint, [0.0, 0.0, 1.0])]
+                {
+                    joint.sum(place_, augmented, constraint);
+                    scatter(place.runs, joint, values);
+                }
+            }
+            Self::Real(sum) => sum.add_joint(place, joint),
+            Self::Complex(sum) => sum.add_joint(place, joint),
+        }
+    }
+
+    /// Adds a drive's derivatives: `weight` to BᵀWB, 1 to B and Bᵀ, at these positions.
+    pub(super) fn add_drive(&mut self, [gram, column, row]: [usize; 3], weight: f64) {
+        match self {
+            Self::Apart(out) => {
+                out.gram[gram] += weight;
+                out.constraint[column] = 1.0;
+                out.constraint[row] = 1.0;
+            }
+            Self::Real(sum) => sum.add_drive([gram, column, row], weight),
+            Self::Complex(sum) => sum.add_drive([gram, column, row], weight),
+        }
+    }
+}
+
+impl<T: Scalar> Sum<'_, T> {
+    fn clear(&mut self) {
+        self.values.fill(T::zero());
+        self.stiffness.fill(0.0);
+    }
+
+    fn add_element(&mut self, place: Place<'_>, local: &Tangents) {
+        let (size, blend) = (local.size(), self.blend);
+        for run in place.runs {
+            let first = usize::from(run.row) * size + usize::from(run.column);
+            for (k, value) in self.values[run.positions()].iter_mut().enumerate() {
+                let entry = first + k * size;
+                *value += T::from_real(blend.place * local.stiffness[entry])
+                    + blend.rate * T::from_real(local.damping[entry])
+                    + blend.acceleration * T::from_real(local.mass[entry]);
+            }
+        }
+        for (i, &row) in place.rows.iter().enumerate() {
+            // Locked rows are beyond all.
+            if let Some(sum) = self.stiffness.get_mut(row as usize) {
+                *sum += local.stiffness[i * size + i];
+            }
+        }
+    }
+
+    fn add_joint(&mut self, place: Place<'_>, joint: &mut Derivatives) {
+        joint.sum(self.blend.place, self.blend.augmented, self.blend.constraint);
+        scatter(place.runs, joint, self.values);
+        for i in (0..3).chain(TIP..TIP + 3).chain(OWN..TIP + 8) {
+            if let Some(sum) = self.stiffness.get_mut(place.rows[i] as usize) {
+                *sum += joint.stiffness(i);
+            }
+        }
+    }
+
+    fn add_drive(&mut self, [gram, column, row]: [usize; 3], weight: f64) {
+        self.values[gram] += T::from_real(self.blend.augmented * weight);
+        self.values[column] += T::from_real(self.blend.constraint);
+        self.values[row] += T::from_real(self.blend.constraint);
+    }
+}
+
+fn scatter<T: Scalar>(runs: &[Run], joint: &Derivatives, values: &mut [T]) {
+    for run in runs {
+        let column = joint.column(usize::from(run.column));
+        let row = usize::from(run.row);
+        let own = &column[row..row + usize::from(run.length)];
+        for (value, own) in values[run.positions()].iter_mut().zip(own) {
+            *value += T::from_real(*own);
+        }
+    }
+}
