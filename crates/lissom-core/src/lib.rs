@@ -8,6 +8,7 @@ pub mod elements;
 pub mod equilibration;
 pub mod joints;
 pub mod newton;
+mod node_motion;
 pub mod registry;
 pub mod scaling;
 pub mod schemes;

@@ -11,9 +11,10 @@
 
 use std::ops::Mul;
 
-use lissom_motion::{Motion, Vector6, lie_bracket, tangent_rate_times, tangent_times};
+use lissom_motion::{Motion, Vector6};
 
 use crate::joints::Quantity;
+use crate::node_motion::{Known, Meaning, Nodes, StageTable};
 use crate::schemes::{Combination, Increments, Scheme, Stage, Tableau, Weights};
 use crate::system::{
     Augmentation, Blend, CoordinateMotion, Kinematics, Layout, Linearization, MotionChange, State, System,
@@ -229,8 +230,25 @@ impl Scaled {
         }
     }
 
-    /// Unit-step rates q' = h v, curvatures q'' = h² v̇ and scheme memory of a state, by row.
-    pub fn enter(&self, layout: &Layout, state: &State, out: &mut UnitStart) {
+    /// What a stage of a scheme says about nodes, in SI.
+    fn stage_table(&self, scheme: &Scheme, stage: &Stage) -> StageTable {
+        let meaning = match scheme.increments {
+            Increments::FromStart => Meaning::FromStart,
+            Increments::Departure if scheme.tableau.is_some() => Meaning::Gain,
+            Increments::Departure => Meaning::Departure,
+        };
+        StageTable {
+            meaning,
+            ahead: if scheme.dynamic { stage.abscissa * self.h } else { 0.0 },
+            rate: stage.rate.increments.map(|weight| weight / self.h),
+            curvature: stage.curvature.increments.map(|weight| weight / (self.h * self.h)),
+            gain: 1.0 / self.h,
+        }
+    }
+
+    /// Unit-step rates q' = h v, curvatures q'' = h² v̇ and scheme memory of a state, by row, and what the stages'
+    /// motions have from the start of the step.
+    pub fn enter(&self, layout: &Layout, scheme: &Scheme, state: &State, out: &mut UnitStart) {
         let square = self.h * self.h;
         for (rows, node) in layout.node_rows.iter().zip(&state.kinematics.nodes) {
             for (k, &row) in rows.iter().enumerate() {
@@ -246,6 +264,14 @@ impl Scaled {
         }
         for (value, algorithmic) in out.algorithmic.iter_mut().zip(&state.algorithmic) {
             *value = square * algorithmic;
+        }
+        for (index, stage) in scheme.stages.iter().enumerate() {
+            for row in 0..out.rate.len() {
+                out.known_rate[row] = out.combine(&stage.rate, &[], row) / self.h;
+                out.known_curvature[row] = out.combine(&stage.curvature, &[], row) / square;
+            }
+            let known = Known { rate: &out.known_rate, curvature: &out.known_curvature };
+            out.nodes.enter(index, &self.stage_table(scheme, stage), &state.kinematics, known);
         }
     }
 
@@ -271,67 +297,15 @@ impl Scaled {
         increments: &StageIncrements<'_>,
         reached: &mut StageMotion,
     ) {
-        let (stage, kind) = (&scheme.stages[increments.stage], scheme.increments);
+        let stage = &scheme.stages[increments.stage];
         // Load steps have no rates to go on with.
         let straight = if scheme.dynamic { 1.0 } else { 0.0 };
         let square = self.h * self.h;
         let StageMotion { at: out, changes, coordinate_changes } = reached;
         (out.time, out.elapsed) = self.instant(start.kinematics.time, stage);
         let own = &increments.all[increments.stage];
-        for (node, rows) in layout.node_rows.iter().enumerate() {
-            let from = &start.kinematics.nodes[node];
-            let to = &mut out.nodes[node];
-            if rows.iter().all(|&row| row == crate::system::LOCKED) {
-                *to = *from;
-                continue;
-            }
-            let (mut psi, mut rate, mut curvature) = (Vector6::zeros(), Vector6::zeros(), Vector6::zeros());
-            if let Some(first) = consecutive(rows) {
-                psi.copy_from_slice(&own[first..first + 6]);
-                rate = unit.combine_six(&stage.rate, increments.all, first);
-                curvature = unit.combine_six(&stage.curvature, increments.all, first);
-            } else {
-                for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != crate::system::LOCKED) {
-                    let row = row as usize;
-                    psi[k] = own[row];
-                    rate[k] = unit.combine(&stage.rate, increments.all, row);
-                    curvature[k] = unit.combine(&stage.curvature, increments.all, row);
-                }
-            }
-            match kind {
-                Increments::FromStart => {
-                    psi += straight * out.elapsed * from.twist;
-                    let motion = Motion::exponential(&psi);
-                    to.frame = from.frame * motion;
-                    changes[node] = MotionChange::of(&motion);
-                    to.twist = straight * from.twist + rate / self.h;
-                    to.acceleration = curvature / square;
-                }
-                Increments::Departure if scheme.tableau.is_some() => {
-                    let motion = Motion::exponential(&psi);
-                    let change = MotionChange::of(&motion);
-                    let gained = change.seen_differently(&from.twist) + tangent_times(&psi, &rate) / self.h;
-                    to.twist = from.twist + gained;
-                    to.acceleration = gained / self.h;
-                    let ahead = Motion::exponential(&(out.elapsed * from.twist));
-                    to.frame = from.frame * ahead * motion;
-                    changes[node] = MotionChange::of(&ahead).then(&change);
-                }
-                // V = Ad(exp(-ψ)) V₀ + W with W = T ψ', and V̇ = T ψ'' + Ṫ ψ' - ad_W Ad(exp(-ψ)) V₀.
-                Increments::Departure => {
-                    let motion = Motion::exponential(&psi);
-                    let carried = motion.adjoint_inverse_times(&from.twist);
-                    let own = tangent_times(&psi, &rate) / self.h;
-                    to.twist = carried + own;
-                    to.acceleration =
-                        (tangent_times(&psi, &curvature) + tangent_rate_times(&psi, &rate, &rate)) / square
-                            - lie_bracket(&own, &carried);
-                    let ahead = Motion::exponential(&(out.elapsed * from.twist));
-                    to.frame = from.frame * ahead * motion;
-                    changes[node] = MotionChange::of(&ahead).then(&MotionChange::of(&motion));
-                }
-            }
-        }
+        let table = self.stage_table(scheme, stage);
+        unit.nodes.reach(increments.stage, &table, &start.kinematics, increments.all, (out, changes));
         for (coordinate, &row) in layout.coordinate_rows.iter().enumerate() {
             let row = row as usize;
             let from = &start.kinematics.coordinates[coordinate];
@@ -419,12 +393,6 @@ impl Scaled {
     }
 }
 
-/// The first of six rows in a row: those of a node whose freedoms are all free.
-fn consecutive(rows: &[u32; 6]) -> Option<usize> {
-    let all = rows[5] != crate::system::LOCKED && rows[5] == rows[0].wrapping_add(5);
-    all.then_some(rows[0] as usize)
-}
-
 /// Motion at a stage, and what has changed since the start of the step.
 #[derive(Clone, Debug)]
 pub struct StageMotion {
@@ -457,7 +425,7 @@ pub struct StageIncrements<'a> {
 }
 
 /// The start of a step of unit length, by coordinate row.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct UnitStart {
     /// q'.
     pub rate: Vec<f64>,
@@ -465,24 +433,24 @@ pub struct UnitStart {
     pub curvature: Vec<f64>,
     /// The scheme's memory, like q''.
     pub algorithmic: Vec<f64>,
+    /// What the rate and the curvature at a stage have from the start, in SI.
+    known_rate: Vec<f64>,
+    known_curvature: Vec<f64>,
+    nodes: Nodes,
 }
 
 impl UnitStart {
-    /// Room for `count` rows.
-    pub fn new(count: usize) -> Self {
-        Self { rate: vec![0.0; count], curvature: vec![0.0; count], algorithmic: vec![0.0; count] }
-    }
-
-    /// A scheme's linear combination for the six rows from `first` on.
-    fn combine_six(&self, combination: &Combination, increments: &[Vec<f64>], first: usize) -> Vector6 {
-        let six = |values: &[f64]| Vector6::from_column_slice(&values[first..first + 6]);
-        let mut sum = combination.rate * six(&self.rate)
-            + combination.algorithmic * six(&self.algorithmic)
-            + combination.curvature * six(&self.curvature);
-        for (weight, increment) in combination.increments.iter().zip(increments) {
-            sum += *weight * six(increment);
+    /// Room for the coordinates of a system.
+    pub fn new(layout: &Layout, scheme: &Scheme) -> Self {
+        let zeros = vec![0.0; layout.coordinate_count()];
+        Self {
+            rate: zeros.clone(),
+            curvature: zeros.clone(),
+            algorithmic: zeros.clone(),
+            known_rate: zeros.clone(),
+            known_curvature: zeros,
+            nodes: Nodes::new(layout, scheme.stages.len()),
         }
-        sum
     }
 
     /// A scheme's linear combination of the increments and the start, for one row.

@@ -103,6 +103,17 @@ impl<R: Real> Pose<R> {
         )
     }
 
+    /// `Ad_H⁻¹ v - v`, without cancellation where the motion is small.
+    #[inline(always)]
+    pub fn adjoint_inverse_gain(self, twist: Screw<R>) -> Screw<R> {
+        let Screw { translation: u, rotation: theta } = twist;
+        let carried = theta.cross(self.position);
+        Screw::new(
+            self.rotation.apply_inverse_gain(u + carried) + carried,
+            self.rotation.apply_inverse_gain(theta),
+        )
+    }
+
     /// `Ad_Hᵀ w` of the base wrench `w = (n; m)`: `(Rᵀ n; Rᵀ (m - x × n))`.
     #[inline(always)]
     pub fn adjoint_transpose_times(self, wrench: Screw<R>) -> Screw<R> {

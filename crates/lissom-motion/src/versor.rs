@@ -99,6 +99,25 @@ impl<R: Real> Versor<R> {
         let t = v.cross(self.vector).scaled(2.0);
         v.plus_scaled(t, self.scalar).plus_cross(t, self.vector)
     }
+
+    /// `Rᵀ v - v`, without cancellation where the angle is small.
+    #[inline(always)]
+    pub fn apply_inverse_gain(self, v: Triple<R>) -> Triple<R> {
+        let t = v.cross(self.vector).scaled(2.0);
+        (t * self.scalar).plus_cross(t, self.vector)
+    }
+
+    /// The matrix `R - I`, row after row, without cancellation where the angle is small: with the quaternion
+    /// `(w, v)` it is `2 (w ṽ + ṽ²)`.
+    #[inline(always)]
+    pub fn minus_identity(self) -> [R; 9] {
+        let double = self.vector.scaled(2.0);
+        let Triple { x, y, z } = self.vector;
+        let (wx, wy, wz) = (self.scalar * double.x, self.scalar * double.y, self.scalar * double.z);
+        let (xx, yy, zz) = (x * double.x, y * double.y, z * double.z);
+        let (xy, xz, yz) = (x * double.y, x * double.z, y * double.z);
+        [-(yy + zz), xy - wz, xz + wy, xy + wz, -(xx + zz), yz - wx, xz - wy, yz + wx, -(xx + yy)]
+    }
 }
 
 impl<R: Real> Mul for Versor<R> {

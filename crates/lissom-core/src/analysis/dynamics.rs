@@ -297,7 +297,7 @@ impl Simulation {
 
     fn collocate(&mut self, watch: &mut dyn Stopwatch) -> Result<newton::Outcome, StepError> {
         let work = &mut *self.work;
-        self.scaled.enter(self.system.layout(), &self.state, &mut work.unit);
+        self.scaled.enter(self.system.layout(), &self.settings.scheme, &self.state, &mut work.unit);
         work.extrapolates = self.settings.scheme.dynamic;
         let Settings { scaling, step_size, .. } = &self.settings;
         let rescale = |share: f64| Scaled::new(scaling, &self.representative, share * step_size);

@@ -105,7 +105,7 @@ impl Workspace {
         let count = layout.coordinate_count();
         let sizes = sizes(layout, representative);
         Self {
-            unit: UnitStart::new(count),
+            unit: UnitStart::new(layout, scheme),
             guesses: [Guess::new(stages * count), Guess::new(stages * layout.multiplier_count)],
             extrapolates: false,
             increments: vec![vec![0.0; count]; stages],
@@ -551,7 +551,7 @@ impl Equations for StepEquations<'_> {
 impl Approachable for StepEquations<'_> {
     fn set_share(&mut self, share: f64) {
         self.scaled = (self.rescale)(share);
-        self.scaled.enter(self.system.layout(), self.start, &mut self.work.unit);
+        self.scaled.enter(self.system.layout(), self.scheme, self.start, &mut self.work.unit);
     }
 
     fn couple(&mut self) -> bool {

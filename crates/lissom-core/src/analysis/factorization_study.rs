@@ -106,7 +106,7 @@ fn examine(
     let equilibrated = choice.equilibrates();
     let mut work = Workspace::new(system, state, &settings.scheme, representative, kind, equilibrated);
     let scaled = Scaled::new(choice, representative, settings.step_size);
-    scaled.enter(layout, state, &mut work.unit);
+    scaled.enter(layout, &settings.scheme, state, &mut work.unit);
     let mut equations = StepEquations {
         system,
         scheme: &settings.scheme,

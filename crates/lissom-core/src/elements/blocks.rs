@@ -37,26 +37,26 @@ pub(super) fn nodes_of<E>(elements: &[E], node: impl Fn(&E) -> NodeId) -> [NodeI
 }
 
 /// Components of a motion, see [`Pose::components`].
-pub(super) type Frames = [Block; 7];
+pub(crate) type Frames = [Block; 7];
 
 /// Components of twists or wrenches.
-pub(super) type Screws = [Block; 6];
+pub(crate) type Screws = [Block; 6];
 
 /// A part of every block: as much of it as the processor's vectors hold.
 #[derive(Clone, Copy)]
-pub(super) struct Part<S> {
-    pub(super) simd: S,
-    pub(super) index: usize,
+pub(crate) struct Part<S> {
+    pub(crate) simd: S,
+    pub(crate) index: usize,
 }
 
 impl<S: Simd> Part<S> {
     #[inline(always)]
-    pub(super) fn number(self, block: &Block) -> Lanes<S> {
+    pub(crate) fn number(self, block: &Block) -> Lanes<S> {
         Lanes::load(self.simd, block, self.index)
     }
 
     #[inline(always)]
-    pub(super) fn frame(self, frames: &Frames) -> Pose<Lanes<S>> {
+    pub(crate) fn frame(self, frames: &Frames) -> Pose<Lanes<S>> {
         let mut components = [self.number(&frames[0]); 7];
         for i in 1..7 {
             components[i] = self.number(&frames[i]);
@@ -65,7 +65,7 @@ impl<S: Simd> Part<S> {
     }
 
     #[inline(always)]
-    pub(super) fn screw(self, screws: &Screws) -> Screw<Lanes<S>> {
+    pub(crate) fn screw(self, screws: &Screws) -> Screw<Lanes<S>> {
         let mut components = [self.number(&screws[0]); 6];
         for i in 1..6 {
             components[i] = self.number(&screws[i]);
@@ -88,7 +88,15 @@ impl<S: Simd> Part<S> {
     }
 
     #[inline(always)]
-    pub(super) fn store(self, screw: Screw<Lanes<S>>, screws: &mut Screws) {
+    pub(crate) fn store_frame(self, frame: Pose<Lanes<S>>, frames: &mut Frames) {
+        let components = frame.components();
+        for i in 0..7 {
+            components[i].store(&mut frames[i], self.index);
+        }
+    }
+
+    #[inline(always)]
+    pub(crate) fn store(self, screw: Screw<Lanes<S>>, screws: &mut Screws) {
         let components = screw.components();
         for i in 0..6 {
             components[i].store(&mut screws[i], self.index);
@@ -98,7 +106,7 @@ impl<S: Simd> Part<S> {
 
 /// The frames of eight nodes.
 #[inline]
-pub(super) fn gather_frames(at: &Kinematics, nodes: &[NodeId; WIDTH]) -> Frames {
+pub(crate) fn gather_frames(at: &Kinematics, nodes: &[NodeId; WIDTH]) -> Frames {
     let mut frames = [[0.0; WIDTH]; 7];
     for lane in 0..WIDTH {
         let components = Pose::from(&at.nodes[nodes[lane]].frame).components();
@@ -111,7 +119,7 @@ pub(super) fn gather_frames(at: &Kinematics, nodes: &[NodeId; WIDTH]) -> Frames 
 
 /// The twists of eight nodes.
 #[inline]
-pub(super) fn gather_twists(at: &Kinematics, nodes: &[NodeId; WIDTH]) -> Screws {
+pub(crate) fn gather_twists(at: &Kinematics, nodes: &[NodeId; WIDTH]) -> Screws {
     let mut twists = [[0.0; WIDTH]; 6];
     for lane in 0..WIDTH {
         let twist = &at.nodes[nodes[lane]].twist;

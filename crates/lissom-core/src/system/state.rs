@@ -92,14 +92,6 @@ impl MotionChange {
         }
     }
 
-    /// Ad(H⁻¹) V - V without cancellation: how the twist of a fixed observer changes when the frame moves by this.
-    #[must_use]
-    pub fn seen_differently(&self, twist: &Vector6) -> Vector6 {
-        let (v, w) = split(twist);
-        let carried = w.cross(&self.shift);
-        lissom_motion::screw(&(self.turn.tr_mul(&(v + carried)) + carried), &self.turn.tr_mul(&w))
-    }
-
     /// H_base⁻¹ H for two changes (E, p).
     #[must_use]
     pub fn relative_to(&self, base: &Self) -> Self {

@@ -1,0 +1,489 @@
+//! Motion of the nodes at a stage, from their increments since the start of the step, eight nodes side by side.
+//! Knows neither how long a step is nor what the increments are found from: weights come with them.
+//!
+//! ```text
+//! from the start:  H = H₀ exp(V₀ t + z),          V = rate,                        V̇ = curvature
+//! departures:      H = H₀ exp(V₀ t) exp z,        V = Ad(exp(-z)) V₀ + W,  W = T(z) rate,
+//!                                                 V̇ = T(z) curvature + Ṫ(z) rate - ad_W Ad(exp(-z)) V₀
+//! ```
+//!
+//! H₀, V₀ frame and twist at the start, t time since then, z increment, rate and curvature linear combinations of
+//! the increments of all stages and of what is known at the start. All that depends on the start alone is computed
+//! once per step.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use lissom_motion::{
+    Block, Lanes, Matrix3, Motion, Pose, Real, Screw, TangentOperator, Vector3, Vector6, WIDTH,
+};
+use pulp::{Simd, WithSimd};
+
+use crate::elements::blocks::{Frames, Part, Screws, gather_frames, gather_twists};
+use crate::schemes::MOST_STAGES;
+use crate::system::{Kinematics, LOCKED, Layout, MotionChange, NodeId};
+
+/// What increments mean.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Meaning {
+    /// See the formulas.
+    FromStart,
+    /// See the formulas.
+    Departure,
+    /// Departures, where V - V₀ is asked for without cancellation: times [`StageTable::gain`] it stands in place of
+    /// the acceleration.
+    Gain,
+}
+
+/// What a scheme says about a stage, in SI.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct StageTable {
+    /// What the increments mean.
+    pub(crate) meaning: Meaning,
+    /// Time since the start of the step that nodes go straight on [s].
+    pub(crate) ahead: f64,
+    /// Weights of all stages' increments in the rate [1/s].
+    pub(crate) rate: [f64; MOST_STAGES],
+    /// The same in the curvature [1/s²].
+    pub(crate) curvature: [f64; MOST_STAGES],
+    /// See [`Meaning::Gain`] [1/s].
+    pub(crate) gain: f64,
+}
+
+/// What is known at the start of a step, by row.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Known<'a> {
+    /// Part of the rate that does not depend on increments; without the twist itself [m/s, rad/s].
+    pub(crate) rate: &'a [f64],
+    /// The same of the curvature [m/s², rad/s²].
+    pub(crate) curvature: &'a [f64],
+}
+
+/// Which nodes move, and what is known of them at the start of a step.
+#[derive(Clone, Debug)]
+pub(crate) struct Nodes {
+    processor: pulp::Arch,
+    blocks: Vec<NodeBlock>,
+    fixed: Vec<NodeId>,
+    /// By stage, then by block.
+    starts: Vec<Vec<BlockStart>>,
+}
+
+/// Eight nodes; the last block repeats its last node.
+#[derive(Clone, Debug)]
+struct NodeBlock {
+    count: usize,
+    nodes: [NodeId; WIDTH],
+    rows: [[u32; 6]; WIDTH],
+    /// Whether each node's rows are six in a row.
+    consecutive: bool,
+}
+
+/// What is known of eight nodes at the start of a step.
+#[derive(Clone, Debug)]
+struct BlockStart {
+    frame: Frames,
+    /// exp(V₀ t), for departures.
+    ahead: Frames,
+    /// V₀ t, for increments from the start.
+    straight: Screws,
+    twist: Screws,
+    rate: Screws,
+    curvature: Screws,
+}
+
+/// The same of as many nodes as stand side by side.
+#[derive(Clone, Copy)]
+struct Start<R> {
+    frame: Pose<R>,
+    ahead: Pose<R>,
+    straight: Screw<R>,
+    twist: Screw<R>,
+}
+
+/// Where nodes have come.
+#[derive(Clone, Copy)]
+struct Reached<R> {
+    change: Pose<R>,
+    frame: Pose<R>,
+    twist: Screw<R>,
+    acceleration: Screw<R>,
+}
+
+impl Nodes {
+    pub(crate) fn new(layout: &Layout, stages: usize) -> Self {
+        let is_fixed = |&node: &NodeId| layout.node_rows[node].iter().all(|&row| row == LOCKED);
+        let (fixed, moving): (Vec<_>, Vec<_>) = (0..layout.node_rows.len()).partition(is_fixed);
+        let blocks: Vec<_> = moving.chunks(WIDTH).map(|nodes| NodeBlock::new(nodes, layout)).collect();
+        let start = BlockStart {
+            frame: [[0.0; WIDTH]; 7],
+            ahead: [[0.0; WIDTH]; 7],
+            straight: [[0.0; WIDTH]; 6],
+            twist: [[0.0; WIDTH]; 6],
+            rate: [[0.0; WIDTH]; 6],
+            curvature: [[0.0; WIDTH]; 6],
+        };
+        let starts = vec![vec![start; blocks.len()]; stages];
+        Self { processor: pulp::Arch::new(), blocks, fixed, starts }
+    }
+
+    /// Computes what depends on the start of a step only, for one stage.
+    pub(crate) fn enter(&mut self, stage: usize, table: &StageTable, start: &Kinematics, known: Known<'_>) {
+        self.processor.dispatch(Entry {
+            blocks: &self.blocks,
+            starts: &mut self.starts[stage],
+            table,
+            start,
+            known,
+        });
+    }
+
+    /// Where the nodes are at a stage, with the increments of all stages by row, and how their frames have changed.
+    pub(crate) fn reach(
+        &self,
+        stage: usize,
+        table: &StageTable,
+        start: &Kinematics,
+        increments: &[Vec<f64>],
+        (at, changes): (&mut Kinematics, &mut [MotionChange]),
+    ) {
+        for &node in &self.fixed {
+            at.nodes[node] = start.nodes[node];
+        }
+        self.processor.dispatch(Travel {
+            blocks: &self.blocks,
+            starts: &self.starts[stage],
+            stage,
+            table,
+            increments,
+            at,
+            changes,
+        });
+    }
+}
+
+impl NodeBlock {
+    fn new(nodes: &[NodeId], layout: &Layout) -> Self {
+        let nodes_of_lanes = std::array::from_fn(|lane| nodes[lane.min(nodes.len() - 1)]);
+        let rows = nodes_of_lanes.map(|node: NodeId| layout.node_rows[node]);
+        let in_a_row = |rows: &[u32; 6]| rows[5] != LOCKED && (1..6).all(|k| rows[k] == rows[k - 1] + 1);
+        let consecutive = rows.iter().all(in_a_row);
+        Self { count: nodes.len(), nodes: nodes_of_lanes, rows, consecutive }
+    }
+
+    /// Values by row, zero where there is none.
+    #[inline]
+    fn gather(&self, values: &[f64]) -> Screws {
+        let mut screws = [[0.0; WIDTH]; 6];
+        for lane in 0..WIDTH {
+            if self.consecutive {
+                let first = self.rows[lane][0] as usize;
+                let own = &values[first..first + 6];
+                for k in 0..6 {
+                    screws[k][lane] = own[k];
+                }
+            } else {
+                for k in 0..6 {
+                    let row = self.rows[lane][k];
+                    if row != LOCKED {
+                        screws[k][lane] = values[row as usize];
+                    }
+                }
+            }
+        }
+        screws
+    }
+}
+
+struct Entry<'a> {
+    blocks: &'a [NodeBlock],
+    starts: &'a mut [BlockStart],
+    table: &'a StageTable,
+    start: &'a Kinematics,
+    known: Known<'a>,
+}
+
+impl WithSimd for Entry<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        for (block, start) in self.blocks.iter().zip(self.starts) {
+            start.frame = gather_frames(self.start, &block.nodes);
+            start.twist = gather_twists(self.start, &block.nodes);
+            start.rate = block.gather(self.known.rate);
+            start.curvature = block.gather(self.known.curvature);
+            for index in 0..Lanes::<S>::PARTS {
+                let part = Part { simd, index };
+                let twist = part.screw(&start.twist);
+                let straight = twist.scaled(self.table.ahead);
+                if self.table.meaning == Meaning::FromStart {
+                    part.store(straight, &mut start.straight);
+                    part.store(twist + part.screw(&start.rate), &mut start.rate);
+                } else {
+                    part.store_frame(Pose::exponential(straight), &mut start.ahead);
+                }
+            }
+        }
+    }
+}
+
+struct Travel<'a> {
+    blocks: &'a [NodeBlock],
+    starts: &'a [BlockStart],
+    stage: usize,
+    table: &'a StageTable,
+    increments: &'a [Vec<f64>],
+    at: &'a mut Kinematics,
+    changes: &'a mut [MotionChange],
+}
+
+impl WithSimd for Travel<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let mut places = Places::new();
+        for (block, start) in self.blocks.iter().zip(self.starts) {
+            let mut increments = [[[0.0; WIDTH]; 6]; MOST_STAGES];
+            for stage in 0..self.increments.len() {
+                increments[stage] = block.gather(&self.increments[stage]);
+            }
+            for index in 0..Lanes::<S>::PARTS {
+                let part = Part { simd, index };
+                let mut rate = part.screw(&start.rate);
+                let mut curvature = part.screw(&start.curvature);
+                for stage in 0..self.increments.len() {
+                    let increment = part.screw(&increments[stage]);
+                    rate = rate.plus_scaled(increment, Lanes::splat(simd, self.table.rate[stage]));
+                    let weight = Lanes::splat(simd, self.table.curvature[stage]);
+                    curvature = curvature.plus_scaled(increment, weight);
+                }
+                let own = part.screw(&increments[self.stage]);
+                let start = Start {
+                    frame: part.frame(&start.frame),
+                    ahead: part.frame(&start.ahead),
+                    straight: part.screw(&start.straight),
+                    twist: part.screw(&start.twist),
+                };
+                places.store(part, &travel(self.table, &start, own, [rate, curvature]));
+            }
+            places.scatter(block, self.at, self.changes);
+        }
+    }
+}
+
+#[inline(always)]
+fn travel<R: Real>(
+    table: &StageTable,
+    start: &Start<R>,
+    own: Screw<R>,
+    [rate, curvature]: [Screw<R>; 2],
+) -> Reached<R> {
+    if table.meaning == Meaning::FromStart {
+        let change = Pose::exponential(own + start.straight);
+        return Reached { change, frame: start.frame * change, twist: rate, acceleration: curvature };
+    }
+    let motion = Pose::exponential(own);
+    let change = start.ahead * motion;
+    let frame = start.frame * change;
+    if table.meaning == Meaning::Gain {
+        let gained = motion.adjoint_inverse_gain(start.twist) + own.tangent_times(rate);
+        return Reached {
+            change,
+            frame,
+            twist: start.twist + gained,
+            acceleration: gained.scaled(table.gain),
+        };
+    }
+    let tangent = TangentOperator::new(own);
+    let carried = motion.adjoint_inverse_times(start.twist);
+    let gained = tangent.times(rate);
+    let acceleration =
+        tangent.times(curvature) + tangent.rate_times(rate, rate) - gained.lie_bracket(carried);
+    Reached { change, frame, twist: carried + gained, acceleration }
+}
+
+/// What is reached, lane by lane.
+struct Places {
+    frame: Frames,
+    twist: Screws,
+    acceleration: Screws,
+    /// E - I, row after row.
+    turn: [Block; 9],
+    shift: [Block; 3],
+}
+
+impl Places {
+    fn new() -> Self {
+        Self {
+            frame: [[0.0; WIDTH]; 7],
+            twist: [[0.0; WIDTH]; 6],
+            acceleration: [[0.0; WIDTH]; 6],
+            turn: [[0.0; WIDTH]; 9],
+            shift: [[0.0; WIDTH]; 3],
+        }
+    }
+
+    #[inline(always)]
+    fn store<S: Simd>(&mut self, part: Part<S>, reached: &Reached<Lanes<S>>) {
+        part.store_frame(reached.frame, &mut self.frame);
+        part.store(reached.twist, &mut self.twist);
+        part.store(reached.acceleration, &mut self.acceleration);
+        let turn = reached.change.rotation.minus_identity();
+        for i in 0..9 {
+            turn[i].store(&mut self.turn[i], part.index);
+        }
+        let shift = reached.change.position;
+        shift.x.store(&mut self.shift[0], part.index);
+        shift.y.store(&mut self.shift[1], part.index);
+        shift.z.store(&mut self.shift[2], part.index);
+    }
+
+    /// To the nodes.
+    fn scatter(&self, block: &NodeBlock, at: &mut Kinematics, changes: &mut [MotionChange]) {
+        for lane in 0..block.count {
+            let to = &mut at.nodes[block.nodes[lane]];
+            to.frame = Motion::from(Pose::from_components(self.frame.map(|values| values[lane])));
+            to.twist = Vector6::from_fn(|i, _| self.twist[i][lane]);
+            to.acceleration = Vector6::from_fn(|i, _| self.acceleration[i][lane]);
+            changes[block.nodes[lane]] = MotionChange {
+                turn: Matrix3::from_fn(|i, j| self.turn[3 * i + j][lane]),
+                shift: Vector3::from_fn(|i, _| self.shift[i][lane]),
+            };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use lissom_motion::{lie_bracket, tangent_rate_times, tangent_times};
+
+    use super::*;
+    use crate::system::NodeMotion;
+
+    /// Numbers between -1 and 1 that look random.
+    fn numbers(seed: u64) -> impl FnMut() -> f64 {
+        let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
+        move || {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        }
+    }
+
+    /// A fixed node, then nodes with all freedoms, but one with translations only.
+    fn layout(count: usize, point_mass: usize) -> Layout {
+        let mut next = 0;
+        let mut layout = Layout { node_rows: vec![[LOCKED; 6]], ..Layout::default() };
+        for node in 1..=count {
+            let free = if node == point_mass { 3 } else { 6 };
+            let mut rows = [LOCKED; 6];
+            for row in &mut rows[..free] {
+                *row = next;
+                next += 1;
+            }
+            layout.node_rows.push(rows);
+        }
+        layout.coordinate_count = next as usize;
+        layout
+    }
+
+    /// The formulas one node at a time, with the motion's change.
+    fn reference(
+        table: &StageTable,
+        from: &NodeMotion,
+        own: &Vector6,
+        [rate, curvature]: [Vector6; 2],
+    ) -> (NodeMotion, Motion) {
+        let straight = from.twist * table.ahead;
+        if table.meaning == Meaning::FromStart {
+            let change = Motion::exponential(&(straight + own));
+            let to =
+                NodeMotion { frame: from.frame * change, twist: from.twist + rate, acceleration: curvature };
+            return (to, change);
+        }
+        let motion = Motion::exponential(own);
+        let change = Motion::exponential(&straight) * motion;
+        let carried = motion.adjoint_inverse_times(&from.twist);
+        let gained = tangent_times(own, &rate);
+        let acceleration = if table.meaning == Meaning::Gain {
+            (carried - from.twist + gained) * table.gain
+        } else {
+            tangent_times(own, &curvature) + tangent_rate_times(own, &rate, &rate)
+                - lie_bracket(&gained, &carried)
+        };
+        (NodeMotion { frame: from.frame * change, twist: carried + gained, acceleration }, change)
+    }
+
+    fn is_near<'a>(
+        left: impl IntoIterator<Item = &'a f64>,
+        right: impl IntoIterator<Item = &'a f64>,
+    ) -> bool {
+        left.into_iter().zip(right).all(|(left, right)| (left - right).abs() < 1e-13 * (1.0 + right.abs()))
+    }
+
+    fn agrees(processor: pulp::Arch, count: usize, point_mass: usize, meaning: Meaning, size: f64) {
+        let mut number = numbers(7);
+        let mut vector = || Vector6::from_fn(|_, _| number());
+        let layout = layout(count, point_mass);
+        let mut nodes: Vec<_> = (0..=count)
+            .map(|_| NodeMotion {
+                frame: Motion::exponential(&(vector() * 2.0)),
+                twist: vector(),
+                acceleration: vector(),
+            })
+            .collect();
+        for (node, rows) in nodes.iter_mut().zip(&layout.node_rows) {
+            for k in (0..6).filter(|&k| rows[k] == LOCKED) {
+                node.twist[k] = 0.0;
+            }
+        }
+        let start = Kinematics { time: 0.0, elapsed: 0.0, nodes, coordinates: Vec::new() };
+        let mut list = || (0..layout.coordinate_count).map(|_| vector()[0] * size).collect::<Vec<f64>>();
+        let (rates, curvatures, increments) = (list(), list(), [list(), list()]);
+        let table = StageTable { meaning, ahead: 0.1, rate: [0.7, -1.5], curvature: [-3.0, 0.2], gain: 4.0 };
+        let mut moving = Nodes::new(&layout, 2);
+        moving.processor = processor;
+        moving.enter(1, &table, &start, Known { rate: &rates, curvature: &curvatures });
+        let mut at = start.clone();
+        let mut changes = vec![MotionChange::none(); start.nodes.len()];
+        moving.reach(1, &table, &start, &increments, (&mut at, &mut changes));
+        assert_eq!((at.nodes[0], changes[0]), (start.nodes[0], MotionChange::none()));
+        for (node, rows) in layout.node_rows.iter().enumerate().skip(1) {
+            let pick =
+                |values: &[f64]| Vector6::from_fn(|k, _| values.get(rows[k] as usize).map_or(0.0, |v| *v));
+            let [first, second] = [pick(&increments[0]), pick(&increments[1])];
+            let combine =
+                |known: &[f64], weights: [f64; 2]| pick(known) + first * weights[0] + second * weights[1];
+            let linear = [combine(&rates, table.rate), combine(&curvatures, table.curvature)];
+            let (to, change) = reference(&table, &start.nodes[node], &second, linear);
+            let (reached, change) = (&at.nodes[node], MotionChange::of(&change));
+            let error = reached.frame.relative_to(&to.frame).logarithm();
+            assert!(error.amax() < 1e-14, "{processor:?}, {meaning:?}, node {node}: {error}");
+            assert!(is_near(&reached.twist, &to.twist), "{processor:?}, {meaning:?}, node {node}");
+            assert!(
+                is_near(&reached.acceleration, &to.acceleration),
+                "{processor:?}, {meaning:?}, node {node}"
+            );
+            assert!(
+                is_near(&changes[node].turn, &change.turn) && is_near(&changes[node].shift, &change.shift)
+            );
+        }
+    }
+
+    #[test]
+    fn nodes_side_by_side_move_as_one_by_one() {
+        let mut processors = vec![pulp::Arch::Scalar, pulp::Arch::new()];
+        #[cfg(target_arch = "x86_64")]
+        processors.extend(pulp::x86::V3::try_new().map(pulp::Arch::V3));
+        for processor in processors {
+            for (count, point_mass) in [(1, 0), (8, 0), (21, 18), (9, 9)] {
+                for meaning in [Meaning::FromStart, Meaning::Departure, Meaning::Gain] {
+                    for size in [0.0, 1e-3, 0.1, 1.0] {
+                        agrees(processor, count, point_mass, meaning, size);
+                    }
+                }
+            }
+        }
+    }
+}
