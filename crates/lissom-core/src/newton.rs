@@ -61,6 +61,8 @@ pub struct Memory {
     contraction: Option<f64>,
     /// Size of correction at which iterations have stalled for round-off [-].
     round_off: f64,
+    /// What the tangent has cost.
+    account: Account,
 }
 
 impl Memory {
@@ -68,6 +70,35 @@ impl Memory {
     fn forget_tangent(&mut self) {
         self.has_tangent = false;
         self.contraction = None;
+    }
+
+    /// Takes note of a solution, and gives the tangent up if it has become too dear.
+    fn keep_account(&mut self, outcome: &Outcome) {
+        if outcome.factorizations > 0 {
+            self.account = Account { spent: TANGENT_COST, ..Account::default() };
+        } else if self.account.is_too_dear(outcome.iterations as f64) {
+            self.forget_tangent();
+        }
+    }
+}
+
+/// What a tangent and the solutions found with it have cost, in iterations. An old tangent needs more of them: it is best
+/// renewed when a solution costs more than all since it was made have cost on average, its making included.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+struct Account {
+    spent: f64,
+    solutions: f64,
+    /// Of a solution, lately.
+    recent: f64,
+}
+
+impl Account {
+    fn is_too_dear(&mut self, iterations: f64) -> bool {
+        self.spent += iterations;
+        self.solutions += 1.0;
+        let weight = (1.0 / self.solutions).max(NOVELTY);
+        self.recent += weight * (iterations - self.recent);
+        self.recent * self.solutions > self.spent
     }
 }
 
@@ -103,17 +134,20 @@ pub enum Failure {
     Factor(FactorError),
 }
 
-/// A tangent is renewed when it would need more iterations than this: about what a new one costs.
-const PATIENCE: f64 = 6.0;
+/// What a new tangent costs, in iterations.
+const TANGENT_COST: f64 = 15.0;
+/// A tangent is renewed within a solution when it would still need more iterations than this.
+const PATIENCE: f64 = 8.0;
+/// Weight of the last solution in what solutions cost lately.
+const NOVELTY: f64 = 0.1;
 /// A contraction that has not been seen for a solution is trusted this much less.
 const DISTRUST: f64 = 3.0;
 /// The best contraction that is remembered: a last correction that happens to vanish says nothing about the
 /// next solution.
 const BEST_REMEMBERED: f64 = 1e-3;
 /// A better contraction than this is not believed of a tangent made for another solution: the largest part of
-/// a correction may vanish at once and hide a small part that shrinks slowly. A tenth costs no iteration where
-/// the contraction is as good as it looks.
-const CREDIBLE: f64 = 0.1;
+/// a correction may vanish at once and hide a small part that shrinks slowly.
+const CREDIBLE: f64 = 0.03;
 /// A correction is halved at most this often.
 const MOST_HALVINGS: usize = 12;
 /// Corrections that shrink by less than this are round-off, once they are small.
@@ -168,7 +202,10 @@ pub fn solve<E: Equations>(
         outcome.correction = correction.size;
         age += 1;
         match judge(&correction, previous, fresh, limits, memory) {
-            Verdict::Converged => return Ok(outcome),
+            Verdict::Converged => {
+                memory.keep_account(&outcome);
+                return Ok(outcome);
+            }
             Verdict::Stalled if stalls > 0 && correction.size > EXACT_ROUND_OFF => {
                 stalls -= 1;
                 halvings = 0;
@@ -184,6 +221,7 @@ pub fn solve<E: Equations>(
                     memory.round_off = memory.round_off.min(EXACT_REMEMBERED);
                 }
                 outcome.stagnated = true;
+                memory.keep_account(&outcome);
                 return Ok(outcome);
             }
             // Seen through the same tangent the next correction must be smaller (natural monotonicity

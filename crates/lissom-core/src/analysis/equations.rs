@@ -9,6 +9,7 @@ use super::coupled::{Coupled, FIRST_COUPLED};
 use super::factorization::Factorization;
 use super::guess::Guess;
 use super::phase::{Phase, Stopwatch};
+use super::secants::Secants;
 use crate::equilibration::Equilibration;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::{Quantity, attached};
@@ -89,6 +90,7 @@ pub(crate) struct Workspace {
     /// For evaluation on several threads, where that pays.
     pub(crate) threads: Option<Threads>,
     pub(crate) report: Option<FactorReport>,
+    pub(crate) secants: Secants,
 }
 
 impl Workspace {
@@ -134,6 +136,7 @@ impl Workspace {
             scratch: Some(Box::default()),
             stiffness: vec![0.0; layout.size()],
             factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
+            secants: Secants::new(stages, layout.size(), &sizes),
             sizes,
             equilibration: equilibrated.then(|| Equilibration::new(layout.size(), count)),
             length: representative.length,
@@ -338,6 +341,9 @@ impl StepEquations<'_> {
             return places;
         }
         let cut = if places.size > LARGEST_ROTATION { LARGEST_ROTATION / places.size } else { 1.0 };
+        if cut < 1.0 {
+            self.work.secants.interrupt();
+        }
         let count = self.system.layout().coordinate_count();
         let factor = self.scaled.multiplier_factor();
         for residual in &mut self.work.residuals {
@@ -458,6 +464,7 @@ impl Equations for StepEquations<'_> {
             && let Some(coupled) = &mut work.coupled
         {
             coupled.solve(&mut work.residuals);
+            work.secants.forget();
             self.watch.begin(Phase::Rest);
             let correction = self.add_corrections();
             self.update_motions();
@@ -473,6 +480,7 @@ impl Equations for StepEquations<'_> {
         equilibrate(&mut work.residuals);
         work.factorization.solve(&self.scheme.coupling, &mut work.residuals);
         equilibrate(&mut work.residuals);
+        work.secants.improve(&mut work.residuals);
         self.watch.begin(Phase::Rest);
         let correction = self.add_corrections();
         self.update_motions();
@@ -488,6 +496,7 @@ impl Equations for StepEquations<'_> {
             return result;
         }
         self.watch.begin(Phase::Linearisation);
+        self.work.secants.forget();
         self.linearize();
         self.work.force_round_off = self.force_round_off();
         self.watch.begin(Phase::Factorisation);
@@ -523,6 +532,7 @@ impl Equations for StepEquations<'_> {
     }
 
     fn restart(&mut self) {
+        self.work.secants.interrupt();
         self.predict();
     }
 
@@ -531,6 +541,7 @@ impl Equations for StepEquations<'_> {
     }
 
     fn back_off(&mut self) {
+        self.work.secants.forget();
         let last = std::mem::take(&mut self.work.residuals);
         let mut before = std::mem::take(&mut self.work.before);
         // A correction that is not finite was not applied.

@@ -14,6 +14,7 @@ mod guess;
 pub mod initial;
 pub mod mobility;
 pub mod phase;
+mod secants;
 mod step_error;
 
 pub use conditioning::{Condition, ConditionMethod};
