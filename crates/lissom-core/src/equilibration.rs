@@ -39,14 +39,19 @@ impl Equilibration {
         let (starts, rows) = (pattern.column_starts(), pattern.row_indices());
         let count = self.coordinate_count;
         for column in 0..pattern.size() {
-            let entries = || (starts[column]..starts[column + 1]).map(|k| (rows[k], values[k].magnitude()));
+            let entries = (starts[column]..starts[column + 1]).map(|k| (rows[k], values[k].magnitude()));
             let square = if column < count {
-                let diagonal = entries().find(|&(row, _)| row == column).map_or(0.0, |(_, value)| value);
-                let largest = entries().fold(0.0, |most, (_, value)| value.max(most));
+                let (mut diagonal, mut largest) = (0.0, 0.0_f64);
+                for (row, value) in entries {
+                    largest = if value > largest { value } else { largest };
+                    if row == column {
+                        diagonal = value;
+                    }
+                }
                 // A coordinate that only constraints see has no diagonal without the augmented term.
                 if diagonal > NOTHING * largest { diagonal } else { largest }
             } else {
-                let own = entries().filter(|&(row, _)| row < count);
+                let own = entries.filter(|&(row, _)| row < count);
                 own.map(|(row, value)| (value * self.factors[row]).powi(2)).sum()
             };
             self.factors[column] = power_of_two(square);
@@ -67,14 +72,36 @@ impl Equilibration {
     }
 }
 
-/// The power of two next to the inverse root of `square`; 1 where there is nothing to go by.
+/// The power of two next to the inverse root of `square`, which is m 2ᵉ with m from 1 to 2: 2^-⌈e/2⌉; 1 where there is
+/// nothing to go by.
 fn power_of_two(square: f64) -> f64 {
-    if square > 0.0 && square.is_finite() { (-0.5 * square.log2()).round().exp2() } else { 1.0 }
+    /// Bits of a number's fraction, and what its exponent is counted from.
+    const FRACTION: u32 = 52;
+    const BIAS: i64 = 1023;
+    if !(square > 0.0 && square.is_normal()) {
+        return 1.0;
+    }
+    let exponent = (square.to_bits() >> FRACTION) as i64 - BIAS;
+    f64::from_bits(((BIAS - (exponent + 1).div_euclid(2)) as u64) << FRACTION)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn powers_are_those_next_to_the_inverse_root() {
+        for exponent in -1000..1000 {
+            for fraction in [1.0001, 1.3, 1.5, 1.9999] {
+                let square = fraction * 2.0_f64.powi(exponent);
+                let nearest = (-0.5 * square.log2()).round().exp2();
+                assert_eq!(power_of_two(square), nearest, "{fraction} 2^{exponent}");
+            }
+        }
+        for nothing in [0.0, -1.0, f64::INFINITY, f64::NAN, 1e-310] {
+            assert_eq!(power_of_two(nothing), 1.0);
+        }
+    }
 
     #[test]
     fn units_do_not_show_in_the_equilibrated_tangent() {

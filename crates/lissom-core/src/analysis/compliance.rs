@@ -50,7 +50,8 @@ impl Compliance {
         }
     }
 
-    /// Lets scaled residuals of the constraints yield to the multipliers, in units of `factor`.
+    /// Lets residuals of the constraints yield to the multipliers; `factor` is what a scaled residual times a unit of
+    /// the scaled multipliers is in SI.
     pub(crate) fn relax(&self, factor: f64, multipliers: &[f64], constraints: &mut [f64]) {
         for ((value, multiplier), of) in constraints.iter_mut().zip(multipliers).zip(&self.of) {
             *value -= of * multiplier / factor;

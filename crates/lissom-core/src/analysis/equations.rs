@@ -5,6 +5,7 @@ use lissom_solver::{FactorError, FactorReport};
 
 use super::approach::Approachable;
 use super::compliance::Compliance;
+use super::corrections::{Add, Measure, Multiply};
 use super::coupled::{Coupled, FIRST_COUPLED};
 use super::factorization::Factorization;
 use super::guess::Guess;
@@ -83,8 +84,13 @@ pub(crate) struct Workspace {
     pub(crate) factorization: Factorization,
     /// Scaled size of one unit of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
     pub(crate) sizes: Vec<f64>,
+    /// Scaled size of one unit of each multiplier: moments as forces at the length that stands for a radian.
+    multiplier_sizes: Vec<f64>,
     /// Of the tangent, if it is wanted.
     pub(crate) equilibration: Option<Equilibration>,
+    /// From residuals in SI to right-hand sides of the tangent in use.
+    row_factors: Vec<f64>,
+    processor: pulp::Arch,
     /// Representative length [m].
     pub(super) length: f64,
     /// For evaluation on several threads, where that pays.
@@ -138,6 +144,9 @@ impl Workspace {
             factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
             secants: Secants::new(stages, layout.size(), &sizes),
             sizes,
+            multiplier_sizes: vec![1.0; layout.multiplier_count],
+            row_factors: vec![1.0; layout.size()],
+            processor: pulp::Arch::new(),
             equilibration: equilibrated.then(|| Equilibration::new(layout.size(), count)),
             length: representative.length,
             threads: None,
@@ -340,71 +349,76 @@ impl StepEquations<'_> {
         if !places.size.is_finite() {
             return places;
         }
-        let cut = if places.size > LARGEST_ROTATION { LARGEST_ROTATION / places.size } else { 1.0 };
-        if cut < 1.0 {
+        if places.size > LARGEST_ROTATION {
             self.work.secants.interrupt();
-        }
-        let count = self.system.layout().coordinate_count();
-        let factor = self.scaled.multiplier_factor();
-        for residual in &mut self.work.residuals {
-            for value in residual.iter_mut() {
-                *value *= -cut;
-            }
+            let cut = LARGEST_ROTATION / places.size;
+            self.work.residuals.iter_mut().flatten().for_each(|value| *value *= cut);
         }
         let corrections = std::mem::take(&mut self.work.residuals);
-        self.apply(&corrections, 1.0);
+        self.apply(&corrections, -1.0);
         self.work.residuals = corrections;
+        let work = &*self.work;
         let (mut change, mut largest) = (0.0_f64, 0.0_f64);
-        let quantities = &self.system.layout().quantities()[count..];
-        for (corrections, multipliers) in self.work.residuals.iter().zip(&self.work.multipliers) {
-            for ((value, correction), &quantity) in
-                multipliers.iter().zip(&corrections[count..]).zip(quantities)
-            {
-                // Moments as forces at the length that stands for a radian.
-                let unit = self.scaled.unit(quantity);
-                change = change.max((factor * correction / unit).abs());
-                largest = largest.max(value.abs() / unit);
-            }
+        for (corrections, multipliers) in work.residuals.iter().zip(&work.multipliers) {
+            let Correction { size, reference } = work.processor.dispatch(Measure {
+                sizes: &work.multiplier_sizes,
+                corrections: &corrections[work.sizes.len()..],
+                increments: multipliers,
+            });
+            change = change.max(self.scaled.multiplier_factor() * size);
+            largest = largest.max(reference);
         }
         let Correction { size, reference } = places;
         // Where nothing bears a load yet, as before the first wave arrives, multipliers are nothing but round-off.
-        let is_known = largest > 0.0 && change > self.work.force_round_off;
+        let is_known = largest > 0.0 && change > work.force_round_off;
         let multipliers = if is_known { MULTIPLIER_WEIGHT * change / largest * reference } else { 0.0 };
         Correction { size: size.max(multipliers), reference }
     }
 
     /// Adds corrections of all stages, times `share`.
     fn apply(&mut self, corrections: &[Vec<f64>], share: f64) {
-        let count = self.system.layout().coordinate_count();
         let factor = self.scaled.multiplier_factor();
-        let work = &mut *self.work;
+        let Workspace { increments, multipliers, processor, sizes, .. } = &mut *self.work;
         for (stage, corrections) in corrections.iter().enumerate() {
-            let (motion, constraints) = corrections.split_at(count);
-            for (value, correction) in work.increments[stage].iter_mut().zip(motion) {
-                *value += share * correction;
-            }
-            for (value, correction) in work.multipliers[stage].iter_mut().zip(constraints) {
-                *value += share * factor * correction;
-            }
+            let (motion, constraints) = corrections.split_at(sizes.len());
+            processor.dispatch(Add { share, corrections: motion, values: &mut increments[stage] });
+            processor.dispatch(Add {
+                share: share * factor,
+                corrections: constraints,
+                values: &mut multipliers[stage],
+            });
         }
     }
 
     fn measure_places(&self) -> Correction {
-        let count = self.system.layout().coordinate_count();
-        let (mut size, mut reference) = (0.0_f64, 0.0_f64);
         let work = &*self.work;
-        for i in 0..self.scheme.stages.len() {
-            for row in 0..count {
-                let correction = work.sizes[row] * work.residuals[i][row].abs();
-                if !correction.is_finite() {
-                    return Correction { size: f64::NAN, reference };
-                }
-                size = size.max(correction);
-                // What the step has to find out: how far it departs from going straight on.
-                reference = reference.max(work.sizes[row] * work.increments[i][row].abs());
+        let mut largest = Correction { size: 0.0, reference: 0.0 };
+        for (corrections, increments) in work.residuals.iter().zip(&work.increments) {
+            let sizes = &work.sizes;
+            let corrections = &corrections[..sizes.len()];
+            let found = work.processor.dispatch(Measure { sizes, corrections, increments });
+            if found.size.is_nan() {
+                return found;
             }
+            largest.size = largest.size.max(found.size);
+            largest.reference = largest.reference.max(found.reference);
         }
-        Correction { size, reference }
+        largest
+    }
+
+    /// Takes note of how the tangent in use is scaled.
+    fn note_scales(&mut self) {
+        let Workspace { row_factors, multiplier_sizes, equilibration, .. } = &mut *self.work;
+        let layout = self.system.layout();
+        row_factors.fill(1.0);
+        self.scaled.scale_residual(layout, row_factors);
+        if let Some(equilibration) = equilibration {
+            equilibration.scale(row_factors);
+        }
+        let quantities = &layout.quantities()[layout.coordinate_count()..];
+        for (size, &quantity) in multiplier_sizes.iter_mut().zip(quantities) {
+            *size = 1.0 / self.scaled.unit(quantity);
+        }
     }
 
     /// A failure that a pivoting solver could not help, as the vanished pivot that called for it.
@@ -449,13 +463,9 @@ impl Equations for StepEquations<'_> {
         self.evaluate();
         self.watch.begin(Phase::Rest);
         let layout = self.system.layout();
-        for residual in &mut self.work.residuals {
-            self.scaled.scale_residual(layout, residual);
-        }
-        self.watch.begin(Phase::Solve);
         let work = &mut *self.work;
         if let Some((compliance, _)) = &work.yielding {
-            let factor = self.scaled.multiplier_factor();
+            let factor = self.scaled.multiplier_factor() * self.scaled.scale();
             for (residual, multipliers) in work.residuals.iter_mut().zip(&work.multipliers) {
                 compliance.relax(factor, multipliers, &mut residual[layout.multiplier_rows()]);
             }
@@ -463,24 +473,27 @@ impl Equations for StepEquations<'_> {
         if work.coupled_steps > 0
             && let Some(coupled) = &mut work.coupled
         {
+            for residual in &mut work.residuals {
+                self.scaled.scale_residual(layout, residual);
+            }
+            self.watch.begin(Phase::Solve);
             coupled.solve(&mut work.residuals);
             work.secants.forget();
+        } else {
+            for values in &mut work.residuals {
+                work.processor.dispatch(Multiply { values, factors: &work.row_factors });
+            }
+            self.watch.begin(Phase::Solve);
+            work.factorization.solve(&self.scheme.coupling, &mut work.residuals);
             self.watch.begin(Phase::Rest);
-            let correction = self.add_corrections();
-            self.update_motions();
-            return correction;
-        }
-        let equilibrate = |residuals: &mut Vec<Vec<f64>>| {
             if let Some(equilibration) = &work.equilibration {
-                for residual in residuals.iter_mut() {
-                    equilibration.scale(residual);
+                let factors = equilibration.factors();
+                for values in &mut work.residuals {
+                    work.processor.dispatch(Multiply { values, factors });
                 }
             }
-        };
-        equilibrate(&mut work.residuals);
-        work.factorization.solve(&self.scheme.coupling, &mut work.residuals);
-        equilibrate(&mut work.residuals);
-        work.secants.improve(&mut work.residuals);
+            work.secants.improve(&mut work.residuals);
+        }
         self.watch.begin(Phase::Rest);
         let correction = self.add_corrections();
         self.update_motions();
@@ -527,6 +540,7 @@ impl Equations for StepEquations<'_> {
             result = work.factorization.factor();
         }
         self.work.report = Some(result?);
+        self.note_scales();
         self.watch.begin(Phase::Rest);
         Ok(())
     }
@@ -546,9 +560,9 @@ impl Equations for StepEquations<'_> {
         let mut before = std::mem::take(&mut self.work.before);
         // A correction that is not finite was not applied.
         if last.iter().flatten().all(|value| value.is_finite()) {
-            self.apply(&last, -1.0);
+            self.apply(&last, 1.0);
         }
-        self.apply(&before, -0.5);
+        self.apply(&before, 0.5);
         for value in before.iter_mut().flatten() {
             *value *= 0.5;
         }

@@ -3,6 +3,7 @@
 mod approach;
 mod compliance;
 pub mod conditioning;
+mod corrections;
 mod coupled;
 mod coupled_joints;
 pub mod dynamics;

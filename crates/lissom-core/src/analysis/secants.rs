@@ -9,6 +9,10 @@
 //!
 //! Where the tangent is exact, P = 0 and nothing changes.
 
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use super::corrections::product;
+
 /// Most secants in use.
 const MOST: usize = 5;
 /// Secants that are less independent of newer ones are left out.
@@ -38,6 +42,7 @@ pub(crate) struct Secants {
     last_weighted: Vec<f64>,
     last_made: Vec<f64>,
     weighted: Vec<f64>,
+    processor: pulp::Arch,
 }
 
 impl Secants {
@@ -56,6 +61,7 @@ impl Secants {
             last_weighted: vec![0.0; coordinates],
             last_made: vec![0.0; rows],
             weighted: vec![0.0; coordinates],
+            processor: pulp::Arch::new(),
         }
     }
 
@@ -73,6 +79,11 @@ impl Secants {
 
     /// Improves the corrections of all stages.
     pub(crate) fn improve(&mut self, corrections: &mut [Vec<f64>]) {
+        self.processor.dispatch(Improve { secants: self, corrections });
+    }
+
+    #[inline(always)]
+    fn run(&mut self, corrections: &mut [Vec<f64>]) {
         self.weigh(corrections);
         if self.goes_on {
             self.note(corrections);
@@ -94,6 +105,7 @@ impl Secants {
         gather(corrections, &mut self.last_made);
     }
 
+    #[inline(always)]
     fn weigh(&mut self, corrections: &[Vec<f64>]) {
         let count = self.sizes.len();
         for (stage, corrections) in corrections.iter().enumerate() {
@@ -105,32 +117,35 @@ impl Secants {
     }
 
     /// Takes note of the secant from the last correction to this one.
+    #[inline(always)]
     fn note(&mut self, corrections: &[Vec<f64>]) {
         let slot = self.next;
         let change = &mut self.changes[slot];
         for ((change, value), last) in change.iter_mut().zip(&self.weighted).zip(&self.last_weighted) {
             *change = value - last;
         }
-        let mut row = 0;
-        let (mut change, mut departure) = (0.0, 0.0);
-        let count = self.sizes.len();
-        let into = &mut self.departures[slot];
-        for corrections in corrections {
-            for (local, value) in corrections.iter().enumerate() {
-                into[row] = self.last_made[row] + (value - self.last[row]);
-                if local < count {
-                    departure += (self.sizes[local] * into[row]).powi(2);
-                }
-                row += 1;
+        let mut departure = 0.0;
+        let (count, rows) = (self.sizes.len(), corrections[0].len());
+        for (stage, corrections) in corrections.iter().enumerate() {
+            let own = stage * rows..(stage + 1) * rows;
+            let into = &mut self.departures[slot][own.clone()];
+            let before = self.last_made[own.clone()].iter().zip(&self.last[own]);
+            for ((departure, (made, last)), value) in into.iter_mut().zip(before).zip(corrections) {
+                *departure = made + (value - last);
             }
+            // The weights are used up: room for the departure's own.
+            let weighted = &mut self.last_weighted[stage * count..(stage + 1) * count];
+            for ((weighted, value), size) in weighted.iter_mut().zip(&*into).zip(&self.sizes) {
+                *weighted = size * value;
+            }
+            departure += product(weighted, weighted);
         }
         for other in 0..MOST {
             let product = product(&self.changes[slot], &self.changes[other]);
             self.products[slot][other] = product;
             self.products[other][slot] = product;
         }
-        change += self.products[slot][slot];
-        if departure < CREDIBLE * CREDIBLE * change {
+        if departure < CREDIBLE * CREDIBLE * self.products[slot][slot] {
             self.next = (slot + 1) % MOST;
             self.known = (self.known + 1).min(MOST);
         } else if self.known == MOST {
@@ -140,6 +155,7 @@ impl Secants {
     }
 
     /// γ by slot: least squares through a Cholesky factorisation of the products, newest first.
+    #[inline(always)]
     fn shares(&self) -> [f64; MOST] {
         let mut shares = [0.0; MOST];
         let mut lower = [[0.0; MOST]; MOST];
@@ -173,6 +189,21 @@ impl Secants {
     }
 }
 
+struct Improve<'a> {
+    secants: &'a mut Secants,
+    corrections: &'a mut [Vec<f64>],
+}
+
+impl pulp::WithSimd for Improve<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) {
+        self.secants.run(self.corrections);
+    }
+}
+
+#[inline(always)]
 fn gather(stages: &[Vec<f64>], into: &mut [f64]) {
     let mut into = into;
     for stage in stages {
@@ -180,20 +211,6 @@ fn gather(stages: &[Vec<f64>], into: &mut [f64]) {
         own.copy_from_slice(stage);
         into = others;
     }
-}
-
-/// Eight sums at a time, so that they need not wait for each other.
-fn product(a: &[f64], b: &[f64]) -> f64 {
-    let (a_eights, a_rest) = a.as_chunks::<8>();
-    let (b_eights, b_rest) = b.as_chunks::<8>();
-    let mut sums = [0.0; 8];
-    for (a, b) in a_eights.iter().zip(b_eights) {
-        for k in 0..8 {
-            sums[k] += a[k] * b[k];
-        }
-    }
-    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
 }
 
 #[cfg(test)]

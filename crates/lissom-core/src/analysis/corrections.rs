@@ -1,0 +1,128 @@
+//! Corrections of an iterate: how large they are, and adding them up. Loops over all unknowns for the widest registers
+//! the processor has.
+
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use crate::newton::Correction;
+
+/// Numbers side by side in a sum or a maximum, so that they need not wait for each other.
+const SIDE_BY_SIDE: usize = 8;
+
+/// Σ aᵢ bᵢ.
+#[inline(always)]
+pub(super) fn product(a: &[f64], b: &[f64]) -> f64 {
+    let (a_blocks, a_rest) = a.as_chunks::<SIDE_BY_SIDE>();
+    let (b_blocks, b_rest) = b.as_chunks::<SIDE_BY_SIDE>();
+    let mut sums = [0.0; SIDE_BY_SIDE];
+    for (a, b) in a_blocks.iter().zip(b_blocks) {
+        for k in 0..SIDE_BY_SIDE {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
+    sums.iter().sum::<f64>() + rest
+}
+
+/// max |wᵢ vᵢ|, and whether all are finite.
+#[inline(always)]
+pub(super) fn largest(weights: &[f64], values: &[f64]) -> (f64, bool) {
+    let (w_blocks, w_rest) = weights.as_chunks::<SIDE_BY_SIDE>();
+    let (v_blocks, v_rest) = values.as_chunks::<SIDE_BY_SIDE>();
+    let mut most = [0.0_f64; SIDE_BY_SIDE];
+    // 0 · v is 0 or not a number.
+    let mut nothing = [0.0; SIDE_BY_SIDE];
+    for (w, v) in w_blocks.iter().zip(v_blocks) {
+        for k in 0..SIDE_BY_SIDE {
+            let value = (w[k] * v[k]).abs();
+            nothing[k] += 0.0 * value;
+            most[k] = if value > most[k] { value } else { most[k] };
+        }
+    }
+    let (mut nothing, mut most) =
+        (nothing.iter().sum::<f64>(), most.iter().fold(0.0_f64, |most, &value| most.max(value)));
+    for (w, v) in w_rest.iter().zip(v_rest) {
+        let value = (w * v).abs();
+        nothing += 0.0 * value;
+        most = most.max(value);
+    }
+    (most, nothing == 0.0)
+}
+
+/// Multiplies by factors, one by one.
+pub(super) struct Multiply<'a> {
+    pub(super) values: &'a mut [f64],
+    pub(super) factors: &'a [f64],
+}
+
+impl pulp::WithSimd for Multiply<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) {
+        for (value, factor) in self.values.iter_mut().zip(self.factors) {
+            *value *= factor;
+        }
+    }
+}
+
+/// Size of the corrections of one stage's places; its reference is what the step has to find out: how far it departs from
+/// going straight on. Not a number where one is not finite.
+pub(super) struct Measure<'a> {
+    /// Scaled size of one unit.
+    pub(super) sizes: &'a [f64],
+    pub(super) corrections: &'a [f64],
+    pub(super) increments: &'a [f64],
+}
+
+impl pulp::WithSimd for Measure<'_> {
+    type Output = Correction;
+
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) -> Correction {
+        let (size, is_finite) = largest(self.sizes, self.corrections);
+        let (reference, _) = largest(self.sizes, self.increments);
+        Correction { size: if is_finite { size } else { f64::NAN }, reference }
+    }
+}
+
+/// Adds corrections, times a share.
+pub(super) struct Add<'a> {
+    pub(super) share: f64,
+    pub(super) corrections: &'a [f64],
+    pub(super) values: &'a mut [f64],
+}
+
+impl pulp::WithSimd for Add<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) {
+        for (value, correction) in self.values.iter_mut().zip(self.corrections) {
+            *value += self.share * correction;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sums_and_maxima_miss_no_number() {
+        for count in 0..20 {
+            let a: Vec<f64> = (0..count).map(|k| f64::from(k) - 5.0).collect();
+            let b: Vec<f64> = (0..count).map(|k| 2.0 + f64::from(k)).collect();
+            let expected: f64 = a.iter().zip(&b).map(|(a, b)| a * b).sum();
+            assert_eq!(product(&a, &b), expected);
+            let most = a.iter().zip(&b).fold(0.0_f64, |most, (a, b)| most.max((a * b).abs()));
+            assert_eq!(largest(&a, &b), (most, true));
+            for wrong in 0..count as usize {
+                for value in [f64::NAN, f64::INFINITY] {
+                    let mut b = b.clone();
+                    b[wrong] = value;
+                    assert!(!largest(&vec![1.0; b.len()], &b).1, "{wrong} of {count}");
+                }
+            }
+        }
+    }
+}
