@@ -81,8 +81,8 @@ fn power_of_two(square: f64) -> f64 {
     if !(square > 0.0 && square.is_normal()) {
         return 1.0;
     }
-    let exponent = (square.to_bits() >> FRACTION) as i64 - BIAS;
-    f64::from_bits(((BIAS - (exponent + 1).div_euclid(2)) as u64) << FRACTION)
+    let exponent = (square.to_bits() >> FRACTION).cast_signed() - BIAS;
+    f64::from_bits((BIAS - (exponent + 1).div_euclid(2)).cast_unsigned() << FRACTION)
 }
 
 #[cfg(test)]

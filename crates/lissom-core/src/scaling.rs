@@ -453,6 +453,15 @@ impl UnitStart {
         }
     }
 
+    /// A scheme's first guess, which knows no increments yet, for all rows.
+    pub(crate) fn predict(&self, combination: &Combination, out: &mut [f64]) {
+        let Combination { rate, curvature, algorithmic, .. } = combination;
+        let memory = self.curvature.iter().zip(&self.algorithmic);
+        for ((value, own), (second, third)) in out.iter_mut().zip(&self.rate).zip(memory) {
+            *value = rate * own + algorithmic * third + curvature * second;
+        }
+    }
+
     /// A scheme's linear combination of the increments and the start, for one row.
     pub fn combine(&self, combination: &Combination, increments: &[Vec<f64>], row: usize) -> f64 {
         let mut sum = combination.rate * self.rate[row]

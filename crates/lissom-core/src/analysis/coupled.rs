@@ -17,8 +17,9 @@ use lissom_solver::{
     FactorError, FactorReport, Group, LinearSolver, Pattern, SolverKind, Structure, condition_estimate,
 };
 
-use super::equations::{StepEquations, Workspace, joint_changes};
+use super::equations::{StepEquations, joint_changes};
 use super::phase::Phase;
+use super::workspace::Workspace;
 use crate::elements::passage::{Passage, Variation};
 use crate::scaling::Scaled;
 use crate::schemes::Tableau;

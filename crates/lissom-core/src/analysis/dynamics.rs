@@ -3,10 +3,11 @@
 use lissom_solver::{FactorError, FactorReport, SolverKind};
 
 use super::conditioning::TangentValues;
-use super::equations::{StepEquations, Workspace};
+use super::equations::StepEquations;
 use super::initial::{Initial, InitialError};
 use super::phase::{Phase, Stopwatch, Unwatched};
 use super::step_error::{StepError, pivot_hint};
+use super::workspace::Workspace;
 use super::{approach, equilibrium};
 use crate::newton::{self, Failure, Limits, Memory};
 use crate::scaling::{Representative, Scaled, ScalingChoice};

@@ -1,23 +1,19 @@
 //! The equations of one step as Newton's method sees them.
 
 use lissom_motion::Vector6;
-use lissom_solver::{FactorError, FactorReport};
+use lissom_solver::FactorError;
 
 use super::approach::Approachable;
 use super::compliance::Compliance;
 use super::corrections::{Add, Measure, Multiply};
-use super::coupled::{Coupled, FIRST_COUPLED};
-use super::factorization::Factorization;
-use super::guess::Guess;
 use super::phase::{Phase, Stopwatch};
-use super::secants::Secants;
-use crate::equilibration::Equilibration;
+use super::workspace::Workspace;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::{Quantity, attached};
 use crate::newton::{Correction, Equations, Failure};
-use crate::scaling::{Representative, Scaled, StageIncrements, StageMotion, UnitStart};
+use crate::scaling::{Scaled, StageIncrements, StageMotion};
 use crate::schemes::{Coupling, Increments, Scheme};
-use crate::system::{Chart, Kinematics, LOCKED, Layout, Point, Receiver, Scratch, State, System, Threads};
+use crate::system::{Chart, Kinematics, LOCKED, Point, Receiver, State, System};
 
 /// Corrections of rotations larger than this are cut short [rad].
 const LARGEST_ROTATION: f64 = 1.0;
@@ -30,130 +26,6 @@ const ROUNDINGS: f64 = 16.0;
 
 /// Multipliers are wanted to fewer digits than places, from which the motion goes on.
 const MULTIPLIER_WEIGHT: f64 = 1e-2;
-
-impl Workspace {
-    /// Makes the next first guess from the scheme alone.
-    pub(crate) fn forget_guesses(&mut self) {
-        self.guesses.iter_mut().for_each(Guess::forget);
-    }
-}
-
-/// Everything a step needs besides system and state, allocated once.
-pub(crate) struct Workspace {
-    pub(crate) unit: UnitStart,
-    /// What first guesses of the increments have missed, and of the multipliers; stage after stage.
-    guesses: [Guess; 2],
-    /// Whether the next first guess is to make use of them.
-    pub(crate) extrapolates: bool,
-    /// Departures from going straight on since the start of the step, by stage and coordinate row.
-    pub(crate) increments: Vec<Vec<f64>>,
-    /// Tangent operators of the nodes' increments, for schemes that measure them from the start.
-    node_tangents: Vec<IncrementTangent>,
-    /// Multipliers by stage [N, N m].
-    pub(crate) multipliers: Vec<Vec<f64>>,
-    /// By stage; then at the end of the step, for schemes that integrate velocities.
-    pub(crate) motions: Vec<StageMotion>,
-    /// Residuals, then corrections, by stage.
-    pub(crate) residuals: Vec<Vec<f64>>,
-    /// The correction before, as far as it stands.
-    before: Vec<Vec<f64>>,
-    /// Whether that one was just halved.
-    backed_off: bool,
-    /// Size of the last correction of places.
-    correction: f64,
-    /// Increments of a smaller step, see `approach`.
-    saved: Vec<Vec<f64>>,
-    /// The solver to go on with where a pivot vanishes, until it is needed.
-    pub(crate) fall_back: Option<&'static lissom_solver::SolverKind>,
-    /// The unknown whose pivot vanished, and the pivot, once it was needed.
-    pub(crate) fell_back: Option<(usize, f64)>,
-    /// Forces below this are round-off of the stiffest elements' strains [N].
-    pub(crate) force_round_off: f64,
-    /// Where constraints repeat each other: what lets them yield, and the multiplier whose pivot vanished.
-    pub(crate) yielding: Option<(Compliance, usize)>,
-    /// The tangent of both stages, once it was needed.
-    pub(super) coupled: Option<Box<Coupled>>,
-    /// For how many more steps it is used, and for how many it will be when it is needed again.
-    pub(super) coupled_steps: usize,
-    pub(super) coupled_next: usize,
-    /// The solver that factors.
-    pub(super) solver: &'static lissom_solver::SolverKind,
-    scratch: Option<Box<Scratch>>,
-    /// Diagonal of the derivatives by place, by row.
-    stiffness: Vec<f64>,
-    pub(crate) factorization: Factorization,
-    /// Scaled size of one unit of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
-    pub(crate) sizes: Vec<f64>,
-    /// Scaled size of one unit of each multiplier: moments as forces at the length that stands for a radian.
-    multiplier_sizes: Vec<f64>,
-    /// Of the tangent, if it is wanted.
-    pub(crate) equilibration: Option<Equilibration>,
-    /// From residuals in SI to right-hand sides of the tangent in use.
-    row_factors: Vec<f64>,
-    processor: pulp::Arch,
-    /// Representative length [m].
-    pub(super) length: f64,
-    /// For evaluation on several threads, where that pays.
-    pub(crate) threads: Option<Threads>,
-    pub(crate) report: Option<FactorReport>,
-    pub(crate) secants: Secants,
-}
-
-impl Workspace {
-    pub(crate) fn new(
-        system: &System,
-        state: &State,
-        scheme: &Scheme,
-        representative: &Representative,
-        solver: &'static lissom_solver::SolverKind,
-        equilibrated: bool,
-    ) -> Self {
-        let layout = system.layout();
-        let stages = scheme.stages.len();
-        let count = layout.coordinate_count();
-        let sizes = sizes(layout, representative);
-        Self {
-            unit: UnitStart::new(layout, scheme),
-            guesses: [Guess::new(stages * count), Guess::new(stages * layout.multiplier_count)],
-            extrapolates: false,
-            increments: vec![vec![0.0; count]; stages],
-            node_tangents: match scheme.increments {
-                Increments::FromStart => vec![IncrementTangent::none(); state.kinematics.nodes.len()],
-                Increments::Departure => Vec::new(),
-            },
-            multipliers: vec![state.multipliers.clone(); stages],
-            motions: vec![
-                StageMotion::new(&state.kinematics);
-                stages + usize::from(scheme.tableau.is_some())
-            ],
-            residuals: vec![vec![0.0; layout.size()]; stages],
-            before: vec![vec![0.0; layout.size()]; stages],
-            backed_off: false,
-            correction: f64::INFINITY,
-            saved: Vec::new(),
-            fall_back: None,
-            fell_back: None,
-            force_round_off: 0.0,
-            yielding: None,
-            coupled: None,
-            coupled_steps: 0,
-            coupled_next: FIRST_COUPLED,
-            solver,
-            scratch: Some(Box::default()),
-            stiffness: vec![0.0; layout.size()],
-            factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
-            secants: Secants::new(stages, layout.size(), &sizes),
-            sizes,
-            multiplier_sizes: vec![1.0; layout.multiplier_count],
-            row_factors: vec![1.0; layout.size()],
-            processor: pulp::Arch::new(),
-            equilibration: equilibrated.then(|| Equilibration::new(layout.size(), count)),
-            length: representative.length,
-            threads: None,
-            report: None,
-        }
-    }
-}
 
 /// One step from `start`.
 pub(crate) struct StepEquations<'a> {
@@ -173,35 +45,27 @@ impl StepEquations<'_> {
         let work = &mut *self.work;
         work.correction = f64::INFINITY;
         let extrapolates = std::mem::take(&mut work.extrapolates);
-        let [of_increments, of_multipliers] = &work.guesses;
         for (i, stage) in self.scheme.stages.iter().enumerate() {
-            let (increments, multipliers) = (&mut work.increments[i], &mut work.multipliers[i]);
-            for (row, value) in increments.iter_mut().enumerate() {
-                *value = work.unit.combine(&stage.prediction, &[], row);
-            }
-            multipliers.copy_from_slice(&self.start.multipliers);
-            if extrapolates {
-                of_increments.improve(i * increments.len(), increments);
-                of_multipliers.improve(i * multipliers.len(), multipliers);
-            }
+            work.unit.predict(&stage.prediction, &mut work.increments[i]);
+            work.multipliers[i].copy_from_slice(&self.start.multipliers);
+        }
+        if extrapolates {
+            let [of_increments, of_multipliers] = &work.guesses;
+            of_increments.improve(&mut work.increments);
+            of_multipliers.improve(&mut work.multipliers);
         }
         self.update_motions();
     }
 
     /// Takes note of what the scheme's first guess has missed.
     pub(crate) fn learn(&mut self) {
-        let Workspace { guesses, unit, increments, multipliers, sizes, .. } = &mut *self.work;
+        let Workspace { guesses, unit, predicted, increments, multipliers, .. } = &mut *self.work;
+        for (stage, predicted) in self.scheme.stages.iter().zip(&mut *predicted) {
+            unit.predict(&stage.prediction, predicted);
+        }
         let [of_increments, of_multipliers] = guesses;
-        let count = sizes.len();
-        let missed = self.scheme.stages.iter().zip(&*increments).flat_map(|(stage, increments)| {
-            let predicted = |row| unit.combine(&stage.prediction, &[], row);
-            increments.iter().enumerate().map(move |(row, value)| value - predicted(row))
-        });
-        of_increments.learn(missed, |number| sizes[number % count]);
-        let missed = multipliers.iter().flat_map(|multipliers| {
-            multipliers.iter().zip(&self.start.multipliers).map(|(value, start)| value - start)
-        });
-        of_multipliers.learn(missed, |_| 1.0);
+        of_increments.learn(increments, |stage| &predicted[stage]);
+        of_multipliers.learn(multipliers, |_| &self.start.multipliers);
     }
 
     /// Motions at all stages from the increments.
@@ -598,15 +462,6 @@ impl Approachable for StepEquations<'_> {
         work.correction = f64::INFINITY;
         self.update_motions();
     }
-}
-
-/// Scaled size of one unit of each coordinate row: 1/ℓ_r for lengths, 1 for angles.
-pub(crate) fn sizes(layout: &Layout, representative: &Representative) -> Vec<f64> {
-    let size = |quantity: &Quantity| match quantity {
-        Quantity::Length => 1.0 / representative.length,
-        Quantity::Angle => 1.0,
-    };
-    layout.quantities()[..layout.coordinate_count()].iter().map(size).collect()
 }
 
 /// What joints see of a stage.

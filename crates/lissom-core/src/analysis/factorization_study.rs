@@ -4,9 +4,10 @@
 use lissom_solver::{FactorError, FactorReport, LinearSolver, Pattern, Scalar, SolverKind, refined_solution};
 
 use super::dynamics::Simulation;
-use super::equations::{StepEquations, Workspace};
+use super::equations::StepEquations;
 use super::factorization::Factorization;
 use super::phase::Unwatched;
+use super::workspace::Workspace;
 use crate::newton::Equations;
 use crate::scaling::{ScaleBy, Scaled, ScalingChoice};
 use crate::system::Layout;

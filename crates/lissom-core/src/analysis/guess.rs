@@ -6,26 +6,42 @@
 //! guess of order k:  d_{n+1} ≈ Σ_{j<k} ∇^j d_n,    which misses ∇^k d_{n+1}
 //! ```
 
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use super::corrections::Add;
+
 /// Highest order of extrapolation.
 const MOST: usize = 4;
 /// What is left of an error at the next step, when orders are compared: one lucky step decides nothing.
 const FADING: f64 = 0.5;
 
+/// Numbers that are looked at side by side.
+const SIDE_BY_SIDE: usize = 8;
+
 /// Numbers that are guessed together.
 #[derive(Clone, Debug)]
 pub(crate) struct Guess {
+    /// Weight of each number's error.
+    weights: Vec<f64>,
     /// ∇^j d of the last step, by number.
     differences: [Vec<f64>; MOST],
     /// What each order has missed of late; the order zero is the scheme's own guess.
     missed: [f64; MOST + 1],
     /// Steps in memory.
     known: usize,
+    processor: pulp::Arch,
 }
 
 impl Guess {
-    /// Nothing in memory, for `count` numbers.
-    pub(crate) fn new(count: usize) -> Self {
-        Self { differences: std::array::from_fn(|_| vec![0.0; count]), missed: [0.0; MOST + 1], known: 0 }
+    /// Nothing in memory, for numbers whose errors have these weights.
+    pub(crate) fn new(weights: &[f64]) -> Self {
+        Self {
+            weights: weights.to_vec(),
+            differences: std::array::from_fn(|_| vec![0.0; weights.len()]),
+            missed: [0.0; MOST + 1],
+            known: 0,
+            processor: pulp::Arch::new(),
+        }
     }
 
     /// Forgets everything: the step size changes, or the motion is interrupted.
@@ -40,27 +56,30 @@ impl Guess {
         orders.fold(0, |best, order| if self.missed[order] < self.missed[best] { order } else { best })
     }
 
-    /// Adds to the scheme's guess, given from number `first` on, what it is expected to miss.
-    pub(crate) fn improve(&self, first: usize, guess: &mut [f64]) {
+    /// Adds to the scheme's guess, given stage by stage, what it is expected to miss.
+    pub(crate) fn improve(&self, guess: &mut [Vec<f64>]) {
         for differences in &self.differences[..self.order()] {
-            for (value, difference) in guess.iter_mut().zip(&differences[first..]) {
-                *value += difference;
+            let mut first = 0;
+            for stage in guess.iter_mut() {
+                let corrections = &differences[first..first + stage.len()];
+                self.processor.dispatch(Add { share: 1.0, corrections, values: stage });
+                first += stage.len();
             }
         }
     }
 
-    /// Takes note of what the scheme's guess has missed; `weigh` gives the weight of a number's error.
-    pub(crate) fn learn(&mut self, missed: impl Iterator<Item = f64>, weigh: impl Fn(usize) -> f64) {
-        let mut errors = [0.0_f64; MOST + 1];
+    /// Takes note of what was found, and so of what the scheme's guess, given by stage, has missed.
+    pub(crate) fn learn<'a>(&mut self, found: &[Vec<f64>], guessed: impl Fn(usize) -> &'a [f64]) {
         let depth = self.known.min(MOST);
-        for (number, mut difference) in missed.enumerate() {
-            let weight = weigh(number);
-            for order in 0..MOST {
-                errors[order] = errors[order].max(weight * difference.abs());
-                let before = std::mem::replace(&mut self.differences[order][number], difference);
-                difference -= before;
+        let mut errors = [0.0_f64; MOST + 1];
+        let mut first = 0;
+        for (stage, found) in found.iter().enumerate() {
+            let guessed = guessed(stage);
+            let missed = self.processor.dispatch(Learn { memory: self, first, found, guessed });
+            for (error, missed) in errors.iter_mut().zip(missed) {
+                *error = error.max(missed);
             }
-            errors[MOST] = errors[MOST].max(weight * difference.abs());
+            first += found.len();
         }
         for (order, missed) in self.missed.iter_mut().enumerate() {
             // Orders that had no full memory yet are not to be chosen at the next step by their luck.
@@ -69,6 +88,65 @@ impl Guess {
         }
         self.known += 1;
     }
+
+    /// Differences of the numbers from `number` on; raises the errors of each order to theirs.
+    #[inline(always)]
+    fn note<const COUNT: usize>(
+        &mut self,
+        number: usize,
+        mut difference: [f64; COUNT],
+        errors: &mut [[f64; COUNT]; MOST + 1],
+    ) {
+        let weights: &[f64; COUNT] = numbers(&self.weights, number);
+        for order in 0..=MOST {
+            for k in 0..COUNT {
+                let error = weights[k] * difference[k].abs();
+                errors[order][k] = if error > errors[order][k] { error } else { errors[order][k] };
+            }
+            if order < MOST {
+                let kept: &mut [f64; COUNT] =
+                    self.differences[order][number..].first_chunk_mut().expect("numbers are counted");
+                for k in 0..COUNT {
+                    let before = std::mem::replace(&mut kept[k], difference[k]);
+                    difference[k] -= before;
+                }
+            }
+        }
+    }
+}
+
+#[inline(always)]
+fn numbers<const COUNT: usize>(of: &[f64], first: usize) -> &[f64; COUNT] {
+    of[first..].first_chunk().expect("numbers are counted")
+}
+
+/// Takes note of one stage, whose first number is `first`; gives the largest error of each order.
+struct Learn<'a> {
+    memory: &'a mut Guess,
+    first: usize,
+    found: &'a [f64],
+    guessed: &'a [f64],
+}
+
+impl pulp::WithSimd for Learn<'_> {
+    type Output = [f64; MOST + 1];
+
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) -> Self::Output {
+        let Learn { memory, first, found, guessed } = self;
+        let mut errors = [[0.0; SIDE_BY_SIDE]; MOST + 1];
+        let mut last = [[0.0]; MOST + 1];
+        let whole = found.len() - found.len() % SIDE_BY_SIDE;
+        for k in (0..whole).step_by(SIDE_BY_SIDE) {
+            let (found, guessed): (&[f64; SIDE_BY_SIDE], _) = (numbers(found, k), numbers(guessed, k));
+            let guessed: &[f64; SIDE_BY_SIDE] = guessed;
+            memory.note(first + k, std::array::from_fn(|i| found[i] - guessed[i]), &mut errors);
+        }
+        for k in whole..found.len() {
+            memory.note(first + k, [found[k] - guessed[k]], &mut last);
+        }
+        std::array::from_fn(|order| errors[order].iter().fold(last[order][0], |most, &error| most.max(error)))
+    }
 }
 
 #[cfg(test)]
@@ -76,13 +154,13 @@ mod tests {
     use super::*;
 
     fn guessed(of: impl Fn(usize) -> f64, steps: usize) -> f64 {
-        let mut guess = Guess::new(1);
+        let mut guess = Guess::new(&[1.0]);
         for step in 0..steps {
-            guess.learn(std::iter::once(of(step)), |_| 1.0);
+            guess.learn(&[vec![of(step)]], |_| &[0.0]);
         }
-        let mut value = [0.0];
-        guess.improve(0, &mut value);
-        value[0]
+        let mut value = [vec![0.0]];
+        guess.improve(&mut value);
+        value[0][0]
     }
 
     #[test]
@@ -90,6 +168,27 @@ mod tests {
         let cubic = |step: usize| 1.0 + 0.1 * (step as f64).powi(3);
         assert!((guessed(cubic, 12) - cubic(12)).abs() < 1e-9);
         assert!((guessed(|step| step as f64, 6) - 6.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn each_number_is_continued_alone() {
+        let of = |number: usize, step: usize| (number * step) as f64;
+        for stages in [1, 2] {
+            for count in [1, 7, 8, 19] {
+                let values = |step: usize| -> Vec<Vec<f64>> {
+                    (0..stages)
+                        .map(|stage| (0..count).map(|k| of(stage * count + k, step)).collect())
+                        .collect()
+                };
+                let mut guess = Guess::new(&vec![1.0; stages * count]);
+                for step in 0..6 {
+                    guess.learn(&values(step), |_| &[0.0; 19][..count]);
+                }
+                let mut next = vec![vec![0.0; count]; stages];
+                guess.improve(&mut next);
+                assert_eq!(next, values(6), "{stages} {count}");
+            }
+        }
     }
 
     #[test]
@@ -101,13 +200,13 @@ mod tests {
     #[test]
     fn nothing_is_known_at_the_start() {
         assert_eq!(guessed(|_| 1.0, 0), 0.0);
-        let mut guess = Guess::new(1);
+        let mut guess = Guess::new(&[1.0]);
         for _ in 0..5 {
-            guess.learn(std::iter::once(1.0), |_| 1.0);
+            guess.learn(&[vec![1.0]], |_| &[0.0]);
         }
         guess.forget();
-        let mut value = [0.0];
-        guess.improve(0, &mut value);
-        assert_eq!(value, [0.0]);
+        let mut value = [vec![0.0]];
+        guess.improve(&mut value);
+        assert_eq!(value[0], [0.0]);
     }
 }

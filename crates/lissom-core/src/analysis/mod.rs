@@ -17,6 +17,7 @@ pub mod mobility;
 pub mod phase;
 mod secants;
 mod step_error;
+mod workspace;
 
 pub use conditioning::{Condition, ConditionMethod};
 pub use dynamics::{Settings, Simulation, StepReport, Totals};

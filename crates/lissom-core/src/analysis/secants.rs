@@ -171,7 +171,8 @@ impl Secants {
                 row[k] = (self.products[slot][slots[k]] - sum) / lower[k][k];
                 pivot -= row[k] * row[k];
             }
-            if !(pivot > DEPENDENT * self.products[slot][slot]) {
+            let is_independent = pivot > DEPENDENT * self.products[slot][slot];
+            if !is_independent {
                 continue;
             }
             row[used] = pivot.sqrt();

@@ -1,0 +1,152 @@
+//! What a step works with, allocated once.
+
+use lissom_solver::FactorReport;
+
+use super::compliance::Compliance;
+use super::coupled::{Coupled, FIRST_COUPLED};
+use super::factorization::Factorization;
+use super::guess::Guess;
+use super::secants::Secants;
+use crate::equilibration::Equilibration;
+use crate::joints::Quantity;
+use crate::joints::derivatives::IncrementTangent;
+use crate::scaling::{Representative, StageMotion, UnitStart};
+use crate::schemes::{Increments, Scheme};
+use crate::system::{Layout, Scratch, State, System, Threads};
+
+/// Everything a step needs besides system and state, allocated once.
+pub(crate) struct Workspace {
+    pub(crate) unit: UnitStart,
+    /// The scheme's first guess of the increments, by stage.
+    pub(super) predicted: Vec<Vec<f64>>,
+    /// What first guesses of the increments have missed, and of the multipliers; stage after stage.
+    pub(super) guesses: [Guess; 2],
+    /// Whether the next first guess is to make use of them.
+    pub(crate) extrapolates: bool,
+    /// Departures from going straight on since the start of the step, by stage and coordinate row.
+    pub(crate) increments: Vec<Vec<f64>>,
+    /// Tangent operators of the nodes' increments, for schemes that measure them from the start.
+    pub(super) node_tangents: Vec<IncrementTangent>,
+    /// Multipliers by stage [N, N m].
+    pub(crate) multipliers: Vec<Vec<f64>>,
+    /// By stage; then at the end of the step, for schemes that integrate velocities.
+    pub(crate) motions: Vec<StageMotion>,
+    /// Residuals, then corrections, by stage.
+    pub(crate) residuals: Vec<Vec<f64>>,
+    /// The correction before, as far as it stands.
+    pub(super) before: Vec<Vec<f64>>,
+    /// Whether that one was just halved.
+    pub(super) backed_off: bool,
+    /// Size of the last correction of places.
+    pub(super) correction: f64,
+    /// Increments of a smaller step, see `approach`.
+    pub(super) saved: Vec<Vec<f64>>,
+    /// The solver to go on with where a pivot vanishes, until it is needed.
+    pub(crate) fall_back: Option<&'static lissom_solver::SolverKind>,
+    /// The unknown whose pivot vanished, and the pivot, once it was needed.
+    pub(crate) fell_back: Option<(usize, f64)>,
+    /// Forces below this are round-off of the stiffest elements' strains [N].
+    pub(crate) force_round_off: f64,
+    /// Where constraints repeat each other: what lets them yield, and the multiplier whose pivot vanished.
+    pub(crate) yielding: Option<(Compliance, usize)>,
+    /// The tangent of both stages, once it was needed.
+    pub(super) coupled: Option<Box<Coupled>>,
+    /// For how many more steps it is used, and for how many it will be when it is needed again.
+    pub(super) coupled_steps: usize,
+    pub(super) coupled_next: usize,
+    /// The solver that factors.
+    pub(super) solver: &'static lissom_solver::SolverKind,
+    pub(super) scratch: Option<Box<Scratch>>,
+    /// Diagonal of the derivatives by place, by row.
+    pub(super) stiffness: Vec<f64>,
+    pub(crate) factorization: Factorization,
+    /// Scaled size of one unit of each coordinate row: 1/ℓ_r for translations, 1 for rotations.
+    pub(crate) sizes: Vec<f64>,
+    /// Scaled size of one unit of each multiplier: moments as forces at the length that stands for a radian.
+    pub(super) multiplier_sizes: Vec<f64>,
+    /// Of the tangent, if it is wanted.
+    pub(crate) equilibration: Option<Equilibration>,
+    /// From residuals in SI to right-hand sides of the tangent in use.
+    pub(super) row_factors: Vec<f64>,
+    pub(super) processor: pulp::Arch,
+    /// Representative length [m].
+    pub(super) length: f64,
+    /// For evaluation on several threads, where that pays.
+    pub(crate) threads: Option<Threads>,
+    pub(crate) report: Option<FactorReport>,
+    pub(crate) secants: Secants,
+}
+
+impl Workspace {
+    pub(crate) fn new(
+        system: &System,
+        state: &State,
+        scheme: &Scheme,
+        representative: &Representative,
+        solver: &'static lissom_solver::SolverKind,
+        equilibrated: bool,
+    ) -> Self {
+        let layout = system.layout();
+        let stages = scheme.stages.len();
+        let count = layout.coordinate_count();
+        let sizes = sizes(layout, representative);
+        Self {
+            unit: UnitStart::new(layout, scheme),
+            predicted: vec![vec![0.0; count]; stages],
+            guesses: [
+                Guess::new(&sizes.repeat(stages)),
+                Guess::new(&vec![1.0; stages * layout.multiplier_count]),
+            ],
+            extrapolates: false,
+            increments: vec![vec![0.0; count]; stages],
+            node_tangents: match scheme.increments {
+                Increments::FromStart => vec![IncrementTangent::none(); state.kinematics.nodes.len()],
+                Increments::Departure => Vec::new(),
+            },
+            multipliers: vec![state.multipliers.clone(); stages],
+            motions: vec![
+                StageMotion::new(&state.kinematics);
+                stages + usize::from(scheme.tableau.is_some())
+            ],
+            residuals: vec![vec![0.0; layout.size()]; stages],
+            before: vec![vec![0.0; layout.size()]; stages],
+            backed_off: false,
+            correction: f64::INFINITY,
+            saved: Vec::new(),
+            fall_back: None,
+            fell_back: None,
+            force_round_off: 0.0,
+            yielding: None,
+            coupled: None,
+            coupled_steps: 0,
+            coupled_next: FIRST_COUPLED,
+            solver,
+            scratch: Some(Box::default()),
+            stiffness: vec![0.0; layout.size()],
+            factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
+            secants: Secants::new(stages, layout.size(), &sizes),
+            sizes,
+            multiplier_sizes: vec![1.0; layout.multiplier_count],
+            row_factors: vec![1.0; layout.size()],
+            processor: pulp::Arch::new(),
+            equilibration: equilibrated.then(|| Equilibration::new(layout.size(), count)),
+            length: representative.length,
+            threads: None,
+            report: None,
+        }
+    }
+
+    /// Makes the next first guess from the scheme alone.
+    pub(crate) fn forget_guesses(&mut self) {
+        self.guesses.iter_mut().for_each(Guess::forget);
+    }
+}
+
+/// Scaled size of one unit of each coordinate row: 1/ℓ_r for lengths, 1 for angles.
+pub(crate) fn sizes(layout: &Layout, representative: &Representative) -> Vec<f64> {
+    let size = |quantity: &Quantity| match quantity {
+        Quantity::Length => 1.0 / representative.length,
+        Quantity::Angle => 1.0,
+    };
+    layout.quantities()[..layout.coordinate_count()].iter().map(size).collect()
+}
