@@ -17,6 +17,8 @@ use super::corrections::product;
 const MOST: usize = 5;
 /// Secants that are less independent of newer ones are left out.
 const DEPENDENT: f64 = 1e-6;
+/// A secant is used for corrections up to so many times as large: beyond, its round-off would tell.
+const REACH: f64 = 10.0;
 /// A secant is kept if |P| is below this part of |Δ|: where a tangent is worse it is to be renewed, and corrections that
 /// are round-off have nothing to tell.
 const CREDIBLE: f64 = 0.7;
@@ -162,8 +164,12 @@ impl Secants {
         let mut forward = [0.0; MOST];
         let mut slots = [0; MOST];
         let mut used = 0;
+        let smallest = product(&self.last_weighted, &self.last_weighted) / (REACH * REACH);
         for back in 1..=self.known {
             let slot = (self.next + MOST - back) % MOST;
+            if self.products[slot][slot] < smallest {
+                continue;
+            }
             let mut row = [0.0; MOST];
             let mut pivot = self.products[slot][slot];
             for k in 0..used {
