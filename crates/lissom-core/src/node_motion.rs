@@ -171,8 +171,7 @@ impl NodeBlock {
 
     /// Values by row, zero where there is none.
     #[inline]
-    fn gather(&self, values: &[f64]) -> Screws {
-        let mut screws = [[0.0; WIDTH]; 6];
+    fn gather(&self, values: &[f64], screws: &mut Screws) {
         for lane in 0..WIDTH {
             if self.consecutive {
                 let first = self.rows[lane][0] as usize;
@@ -183,13 +182,10 @@ impl NodeBlock {
             } else {
                 for k in 0..6 {
                     let row = self.rows[lane][k];
-                    if row != LOCKED {
-                        screws[k][lane] = values[row as usize];
-                    }
+                    screws[k][lane] = if row == LOCKED { 0.0 } else { values[row as usize] };
                 }
             }
         }
-        screws
     }
 }
 
@@ -207,10 +203,10 @@ impl WithSimd for Entry<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         for (block, start) in self.blocks.iter().zip(self.starts) {
-            start.frame = gather_frames(self.start, &block.nodes);
-            start.twist = gather_twists(self.start, &block.nodes);
-            start.rate = block.gather(self.known.rate);
-            start.curvature = block.gather(self.known.curvature);
+            gather_frames(self.start, &block.nodes, &mut start.frame);
+            gather_twists(self.start, &block.nodes, &mut start.twist);
+            block.gather(self.known.rate, &mut start.rate);
+            block.gather(self.known.curvature, &mut start.curvature);
             for index in 0..Lanes::<S>::PARTS {
                 let part = Part { simd, index };
                 let twist = part.screw(&start.twist);
@@ -242,10 +238,10 @@ impl WithSimd for Travel<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let mut places = Places::new();
+        let mut increments = [[[0.0; WIDTH]; 6]; MOST_STAGES];
         for (block, start) in self.blocks.iter().zip(self.starts) {
-            let mut increments = [[[0.0; WIDTH]; 6]; MOST_STAGES];
             for stage in 0..self.increments.len() {
-                increments[stage] = block.gather(&self.increments[stage]);
+                block.gather(&self.increments[stage], &mut increments[stage]);
             }
             for index in 0..Lanes::<S>::PARTS {
                 let part = Part { simd, index };

@@ -266,10 +266,10 @@ impl Scaled {
             *value = square * algorithmic;
         }
         for (index, stage) in scheme.stages.iter().enumerate() {
-            for row in 0..out.rate.len() {
-                out.known_rate[row] = out.combine(&stage.rate, &[], row) / self.h;
-                out.known_curvature[row] = out.combine(&stage.curvature, &[], row) / square;
-            }
+            let UnitStart { rate, curvature, algorithmic, known_rate, known_curvature, .. } = &mut *out;
+            let start = [&rate[..], &curvature[..], &algorithmic[..]];
+            known_part(&stage.rate.times(1.0 / self.h), start, known_rate);
+            known_part(&stage.curvature.times(1.0 / square), start, known_curvature);
             let known = Known { rate: &out.known_rate, curvature: &out.known_curvature };
             out.nodes.enter(index, &self.stage_table(scheme, stage), &state.kinematics, known);
         }
@@ -455,11 +455,7 @@ impl UnitStart {
 
     /// A scheme's first guess, which knows no increments yet, for all rows.
     pub(crate) fn predict(&self, combination: &Combination, out: &mut [f64]) {
-        let Combination { rate, curvature, algorithmic, .. } = combination;
-        let memory = self.curvature.iter().zip(&self.algorithmic);
-        for ((value, own), (second, third)) in out.iter_mut().zip(&self.rate).zip(memory) {
-            *value = rate * own + algorithmic * third + curvature * second;
-        }
+        known_part(combination, [&self.rate, &self.curvature, &self.algorithmic], out);
     }
 
     /// A scheme's linear combination of the increments and the start, for one row.
@@ -471,5 +467,15 @@ impl UnitStart {
             sum += weight * increment[row];
         }
         sum
+    }
+}
+
+/// What a linear combination has from the rates, curvatures and memory at the start, by row.
+fn known_part(combination: &Combination, [rate, curvature, algorithmic]: [&[f64]; 3], out: &mut [f64]) {
+    for (((value, rate), curvature), algorithmic) in out.iter_mut().zip(rate).zip(curvature).zip(algorithmic)
+    {
+        *value = combination.rate * rate
+            + combination.algorithmic * algorithmic
+            + combination.curvature * curvature;
     }
 }

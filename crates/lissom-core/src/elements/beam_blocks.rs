@@ -37,6 +37,13 @@ struct StationBlock<const N: usize> {
     law: [Screws; 6],
 }
 
+/// Node motions and forces of one block.
+struct Scratch<const N: usize> {
+    frames: [Frames; N],
+    twists: [Screws; N],
+    results: [Screws; N],
+}
+
 impl<const N: usize> BeamBlocks<N> {
     pub(super) fn new(beams: &[Beam<N>]) -> Self {
         let shapes = beams.first().map(|beam| beam.stations.iter().map(|station| station.shape).collect());
@@ -100,11 +107,14 @@ impl<const N: usize> WithSimd for Evaluation<'_, N> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        let mut scratch = Scratch {
+            frames: [[[0.0; WIDTH]; 7]; N],
+            twists: [[[0.0; WIDTH]; 6]; N],
+            results: [[[0.0; WIDTH]; 6]; N],
+        };
         for index in self.blocks {
-            let block = &self.beams.blocks[index];
-            let mut results = [[[0.0; WIDTH]; 6]; N];
-            block.forces(simd, self.at, &self.beams.shapes, &mut results);
-            (self.add)(index, results.as_flattened());
+            self.beams.blocks[index].forces(simd, self.at, &self.beams.shapes, &mut scratch);
+            (self.add)(index, scratch.results.as_flattened());
         }
     }
 }
@@ -145,13 +155,12 @@ impl<S: Simd, const N: usize> Constants<Lanes<S>> for Here<'_, S, N> {
 
 impl<const N: usize> BeamBlock<N> {
     #[inline(always)]
-    fn forces<S: Simd>(&self, simd: S, at: &Kinematics, shapes: &[[f64; N]], results: &mut [Screws; N]) {
-        let mut frames = [[[0.0; WIDTH]; 7]; N];
-        let mut twists = [[[0.0; WIDTH]; 6]; N];
+    fn forces<S: Simd>(&self, simd: S, at: &Kinematics, shapes: &[[f64; N]], scratch: &mut Scratch<N>) {
+        let Scratch { frames, twists, results } = scratch;
         for i in 0..N {
-            frames[i] = gather_frames(at, &self.nodes[i]);
+            gather_frames(at, &self.nodes[i], &mut frames[i]);
             if self.damped {
-                twists[i] = gather_twists(at, &self.nodes[i]);
+                gather_twists(at, &self.nodes[i], &mut twists[i]);
             }
         }
         for index in 0..Lanes::<S>::PARTS {

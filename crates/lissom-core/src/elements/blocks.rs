@@ -106,39 +106,33 @@ impl<S: Simd> Part<S> {
 
 /// The frames of eight nodes.
 #[inline]
-pub(crate) fn gather_frames(at: &Kinematics, nodes: &[NodeId; WIDTH]) -> Frames {
-    let mut frames = [[0.0; WIDTH]; 7];
+pub(crate) fn gather_frames(at: &Kinematics, nodes: &[NodeId; WIDTH], frames: &mut Frames) {
     for lane in 0..WIDTH {
         let components = Pose::from(&at.nodes[nodes[lane]].frame).components();
         for i in 0..7 {
             frames[i][lane] = components[i];
         }
     }
-    frames
 }
 
 /// The twists of eight nodes.
 #[inline]
-pub(crate) fn gather_twists(at: &Kinematics, nodes: &[NodeId; WIDTH]) -> Screws {
-    let mut twists = [[0.0; WIDTH]; 6];
+pub(crate) fn gather_twists(at: &Kinematics, nodes: &[NodeId; WIDTH], twists: &mut Screws) {
     for lane in 0..WIDTH {
         let twist = &at.nodes[nodes[lane]].twist;
         for i in 0..6 {
             twists[i][lane] = twist[i];
         }
     }
-    twists
 }
 
 /// The accelerations of eight nodes.
 #[inline]
-pub(super) fn gather_accelerations(at: &Kinematics, nodes: &[NodeId; WIDTH]) -> Screws {
-    let mut accelerations = [[0.0; WIDTH]; 6];
+pub(super) fn gather_accelerations(at: &Kinematics, nodes: &[NodeId; WIDTH], accelerations: &mut Screws) {
     for lane in 0..WIDTH {
         let acceleration = &at.nodes[nodes[lane]].acceleration;
         for i in 0..6 {
             accelerations[i][lane] = acceleration[i];
         }
     }
-    accelerations
 }

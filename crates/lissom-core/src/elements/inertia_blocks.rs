@@ -7,7 +7,7 @@ use lissom_motion::{Block, Lanes, Screw, Triple, WIDTH};
 use pulp::{Simd, WithSimd};
 
 use super::blocks::{
-    Blocks, Part, Screws, block_of, gather_accelerations, gather_frames, gather_twists, nodes_of,
+    Blocks, Frames, Part, Screws, block_of, gather_accelerations, gather_frames, gather_twists, nodes_of,
 };
 use super::inertia::Inertia;
 use crate::system::{Kinematics, NodeId};
@@ -21,6 +21,14 @@ struct InertiaBlock {
     /// Row after row.
     mass: [Screws; 6],
     gravity: [Block; 3],
+}
+
+/// Node motions and forces of one block.
+struct Scratch {
+    frames: Frames,
+    twists: Screws,
+    accelerations: Screws,
+    results: Screws,
 }
 
 impl InertiaBlocks {
@@ -40,18 +48,19 @@ impl InertiaBlock {
     }
 
     #[inline(always)]
-    fn forces<S: Simd>(&self, simd: S, at: &Kinematics, results: &mut Screws) {
-        let frames = gather_frames(at, &self.nodes);
-        let twists = gather_twists(at, &self.nodes);
-        let accelerations = gather_accelerations(at, &self.nodes);
+    fn forces<S: Simd>(&self, simd: S, at: &Kinematics, scratch: &mut Scratch) {
+        let Scratch { frames, twists, accelerations, results } = scratch;
+        gather_frames(at, &self.nodes, frames);
+        gather_twists(at, &self.nodes, twists);
+        gather_accelerations(at, &self.nodes, accelerations);
         for index in 0..Lanes::<S>::PARTS {
             let part = Part { simd, index };
             let [x, y, z] = &self.gravity;
             let gravity = Triple::new(part.number(x), part.number(y), part.number(z));
-            let twist = part.screw(&twists);
-            let acceleration = part.screw(&accelerations);
+            let twist = part.screw(twists);
+            let acceleration = part.screw(accelerations);
             let against = Screw::new(
-                acceleration.translation - part.frame(&frames).rotation.apply_inverse(gravity),
+                acceleration.translation - part.frame(frames).rotation.apply_inverse(gravity),
                 acceleration.rotation,
             );
             let momentum = part.product(&self.mass, twist);
@@ -84,10 +93,15 @@ impl WithSimd for Evaluation<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
+        let mut scratch = Scratch {
+            frames: [[0.0; WIDTH]; 7],
+            twists: [[0.0; WIDTH]; 6],
+            accelerations: [[0.0; WIDTH]; 6],
+            results: [[0.0; WIDTH]; 6],
+        };
         for index in self.blocks {
-            let mut results = [[0.0; WIDTH]; 6];
-            self.inertias[index].forces(simd, self.at, &mut results);
-            (self.add)(index, &results);
+            self.inertias[index].forces(simd, self.at, &mut scratch);
+            (self.add)(index, &scratch.results);
         }
     }
 }

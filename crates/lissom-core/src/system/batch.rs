@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::ops::Range;
 
-use lissom_motion::{Matrix6, WIDTH, lie_bracket_matrix};
+use lissom_motion::{Block, Matrix6, WIDTH, lie_bracket_matrix};
 use lissom_solver::Pattern;
 
 use super::layout::{LOCKED, Layout};
@@ -179,11 +179,7 @@ impl<E: Element> AnyBatch for Batch<E> {
             let range = 0..self.items.len().div_ceil(WIDTH);
             blocks.forces(self.processor, at, range, &mut |block, forces| {
                 for (lane, item) in self.block_items(block).enumerate() {
-                    for (&row, force) in self.item_rows(item).iter().zip(forces) {
-                        if row != LOCKED {
-                            out[row as usize] += force[lane];
-                        }
-                    }
+                    scatter_lane(self.item_rows(item), forces, lane, out);
                 }
             });
             return;
@@ -298,6 +294,30 @@ pub(super) fn scatter(rows: &[u32], local: &[f64], out: &mut [f64]) {
     for (&row, value) in rows.iter().zip(local) {
         if row != LOCKED {
             out[row as usize] += value;
+        }
+    }
+}
+
+/// Adds one lane of a block's forces to the rows that are free.
+fn scatter_lane(rows: &[u32], forces: &[Block], lane: usize, out: &mut [f64]) {
+    for (rows, forces) in rows.chunks(6).zip(forces.chunks(6)) {
+        // Most nodes have all their freedoms, six rows in a row.
+        if let (&[first, .., last], [a, b, c, d, e, f]) = (rows, forces)
+            && first != LOCKED
+            && last == first + 5
+        {
+            let first = first as usize;
+            let [u, v, w, x, y, z] = &mut out[first..first + 6] else { unreachable!("six rows") };
+            *u += a[lane];
+            *v += b[lane];
+            *w += c[lane];
+            *x += d[lane];
+            *y += e[lane];
+            *z += f[lane];
+            continue;
+        }
+        for (&row, force) in rows.iter().zip(forces).filter(|&(&row, _)| row != LOCKED) {
+            out[row as usize] += force[lane];
         }
     }
 }
