@@ -264,7 +264,7 @@ impl StepEquations<'_> {
                 reached: tableau.reached,
                 length: work.length,
             },
-            increments: [first, second, end].map(|motion| joint_changes(start, motion)),
+            increments: [first, second, end].map(|motion| joint_changes(start, motion, &work.joint_starts)),
             multipliers: [&work.multipliers[0], &work.multipliers[1]],
             violations: &self.start.violations,
             augmentation: self.scaled.augmentation(),

@@ -208,6 +208,7 @@ impl Simulation {
         if !self.is_last_step_known {
             return None;
         }
+        self.system.begin_step(&self.next.kinematics, &mut self.work.joint_starts);
         let mut equations = StepEquations {
             system: &self.system,
             scheme: &self.settings.scheme,
@@ -299,6 +300,7 @@ impl Simulation {
     fn collocate(&mut self, watch: &mut dyn Stopwatch) -> Result<newton::Outcome, StepError> {
         let work = &mut *self.work;
         self.scaled.enter(self.system.layout(), &self.settings.scheme, &self.state, &mut work.unit);
+        self.system.begin_step(&self.state.kinematics, &mut work.joint_starts);
         work.extrapolates = self.settings.scheme.dynamic;
         let Settings { scaling, step_size, .. } = &self.settings;
         let rescale = |share: f64| Scaled::new(scaling, &self.representative, share * step_size);
@@ -404,6 +406,7 @@ fn representative(system: &System, state: &State) -> Representative {
             start: &state.kinematics,
             nodes: &still,
             coordinates: &unchanged,
+            joints: None,
         },
         multipliers: &zero,
         violations: &zero,

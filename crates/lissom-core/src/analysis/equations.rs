@@ -8,6 +8,7 @@ use super::compliance::Compliance;
 use super::corrections::{Add, Measure, Multiply};
 use super::phase::{Phase, Stopwatch};
 use super::workspace::Workspace;
+use crate::joints::blocks::JointStarts;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::{Quantity, attached};
 use crate::newton::{Correction, Equations, Failure};
@@ -102,7 +103,7 @@ impl StepEquations<'_> {
         Point {
             at: &motion.at,
             stressed: &motion.at,
-            increments: joint_changes(&self.start.kinematics, motion),
+            increments: joint_changes(&self.start.kinematics, motion, &work.joint_starts),
             multipliers: &work.multipliers[stage],
             violations: &self.start.violations,
             augmentation: self.scaled.augmentation(),
@@ -115,7 +116,7 @@ impl StepEquations<'_> {
         let mut point = self.point(last);
         if let Some(end) = self.work.motions.last() {
             point.at = &end.at;
-            point.increments = joint_changes(&self.start.kinematics, end);
+            point.increments = joint_changes(&self.start.kinematics, end, &self.work.joint_starts);
         }
         self.system.stage_violations(&point, out);
     }
@@ -465,6 +466,11 @@ impl Approachable for StepEquations<'_> {
 }
 
 /// What joints see of a stage.
-pub(super) fn joint_changes<'a>(start: &'a Kinematics, motion: &'a StageMotion) -> attached::Increments<'a> {
-    attached::Increments { start, nodes: &motion.changes, coordinates: &motion.coordinate_changes }
+pub(super) fn joint_changes<'a>(
+    start: &'a Kinematics,
+    motion: &'a StageMotion,
+    joints: &'a JointStarts,
+) -> attached::Increments<'a> {
+    let StageMotion { changes, coordinate_changes, .. } = motion;
+    attached::Increments { start, nodes: changes, coordinates: coordinate_changes, joints: Some(joints) }
 }

@@ -119,7 +119,12 @@ impl Initial {
         Point {
             at,
             stressed: at,
-            increments: Increments { start: at, nodes: &self.still, coordinates: &self.unchanged },
+            increments: Increments {
+                start: at,
+                nodes: &self.still,
+                coordinates: &self.unchanged,
+                joints: None,
+            },
             multipliers,
             violations: multipliers,
             augmentation: self.augmentation(),

@@ -146,7 +146,12 @@ fn rows(system: &System, state: &State) -> Vec<BTreeMap<usize, f64>> {
     let point = Point {
         at: &state.kinematics,
         stressed: &state.kinematics,
-        increments: Increments { start: &state.kinematics, nodes: &still, coordinates: &unchanged },
+        increments: Increments {
+            start: &state.kinematics,
+            nodes: &still,
+            coordinates: &unchanged,
+            joints: None,
+        },
         multipliers: &zero,
         violations: &zero,
         augmentation: Augmentation::none(),

@@ -9,6 +9,7 @@ use super::guess::Guess;
 use super::secants::Secants;
 use crate::equilibration::Equilibration;
 use crate::joints::Quantity;
+use crate::joints::blocks::JointStarts;
 use crate::joints::derivatives::IncrementTangent;
 use crate::scaling::{Representative, StageMotion, UnitStart};
 use crate::schemes::{Increments, Scheme};
@@ -56,6 +57,8 @@ pub(crate) struct Workspace {
     pub(super) coupled_next: usize,
     /// The solver that factors.
     pub(super) solver: &'static lissom_solver::SolverKind,
+    /// What joints see at the start of the step.
+    pub(crate) joint_starts: JointStarts,
     pub(super) scratch: Option<Box<Scratch>>,
     /// Diagonal of the derivatives by place, by row.
     pub(super) stiffness: Vec<f64>,
@@ -121,6 +124,7 @@ impl Workspace {
             coupled_steps: 0,
             coupled_next: FIRST_COUPLED,
             solver,
+            joint_starts: JointStarts::default(),
             scratch: Some(Box::default()),
             stiffness: vec![0.0; layout.size()],
             factorization: Factorization::new(solver, system.structure(), &scheme.coupling),

@@ -6,11 +6,12 @@
 //! wrench on the tip's joint frame w, on the base's -Ad(G⁻¹)ᵀ w
 //! ```
 
-use lissom_motion::{Motion, Vector6};
+use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
 use nalgebra::{SMatrix, SVector};
 
+use super::blocks::JointStarts;
 use super::derivatives::{Derivatives, IncrementTangent, Inner, LOCAL, OWN, Side, TIP};
-use super::{Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, Own, Relative};
+use super::{AnyJoint, Curvature, Equations, Gradient, MOST_COORDINATES, MOST_EQUATIONS, Own, Relative};
 use crate::system::state::split;
 use crate::system::{CoordinateId, Kinematics, MotionChange, NodeId};
 
@@ -39,7 +40,7 @@ pub struct AttachedJoint {
     pub coordinates: Vec<CoordinateId>,
     /// Position of its first multiplier among all multipliers.
     pub first_multiplier: usize,
-    pub(crate) joint: Box<dyn Joint>,
+    pub(crate) joint: Box<dyn AnyJoint>,
 }
 
 /// What has changed since the start of the step.
@@ -51,6 +52,8 @@ pub struct Increments<'a> {
     pub nodes: &'a [MotionChange],
     /// Change of every coordinate.
     pub coordinates: &'a [f64],
+    /// What joints see at the start, if somebody has it at hand.
+    pub joints: Option<&'a JointStarts>,
 }
 
 impl AttachedJoint {
@@ -60,7 +63,7 @@ impl AttachedJoint {
     }
 
     /// The joint's equations.
-    pub fn joint(&self) -> &dyn Joint {
+    pub fn joint(&self) -> &dyn AnyJoint {
         self.joint.as_ref()
     }
 
@@ -70,23 +73,23 @@ impl AttachedJoint {
         tip.relative_to(&base)
     }
 
-    /// Relative motion and its change over the step.
-    ///
-    /// With (E, p_E) and (F, p_F) the changes of base and tip joint frame, and (R, x) at the start:
-    /// R' = EᵀRF and x' = Eᵀ(x + R p_F - p_E), so
-    /// ΔR = aR + (R + aR) b and Δx = a (x + Δy) + Δy, with a = Eᵀ - I, b = F - I, Δy = R p_F - p_E.
-    fn relative(&self, increments: &Increments<'_>) -> Relative {
-        let start = self.relative_motion(increments.start);
+    /// Relative rotation and position at the start.
+    pub(crate) fn start(&self, at: &Kinematics) -> (Matrix3, Vector3) {
+        let Motion { rotation, position } = self.relative_motion(at);
+        (rotation.matrix(), position)
+    }
+
+    /// Relative motion and its change over the step: see `moved`.
+    fn relative(&self, (rotation, position): (Matrix3, Vector3), increments: &Increments<'_>) -> Relative {
         let [base, tip] = self.frames.map(|frame| increments.nodes[frame.node].carried_at(&frame.offset));
-        let rotation = start.rotation.matrix();
         let a = base.turn.transpose();
         let turned = a * rotation;
         let rotation_change = turned + (rotation + turned) * tip.turn;
         let shift = rotation * tip.shift - base.shift;
-        let position_change = a * (start.position + shift) + shift;
+        let position_change = a * (position + shift) + shift;
         Relative {
             rotation: rotation + rotation_change,
-            position: start.position + position_change,
+            position: position + position_change,
             rotation_change,
             position_change,
         }
@@ -127,7 +130,16 @@ impl AttachedJoint {
 
     /// Relative motion and own coordinates after the increments.
     pub fn configuration(&self, increments: &Increments<'_>) -> (Relative, Own) {
-        (self.relative(increments), self.own(increments.start, increments.coordinates))
+        self.configuration_from(self.start(increments.start), increments)
+    }
+
+    /// The same where relative rotation and position at the start are known.
+    pub(crate) fn configuration_from(
+        &self,
+        start: (Matrix3, Vector3),
+        increments: &Increments<'_>,
+    ) -> (Relative, Own) {
+        (self.relative(start, increments), self.own(increments.start, increments.coordinates))
     }
 
     /// Forces on the local unknowns for the multipliers `mu`.
@@ -144,9 +156,10 @@ impl AttachedJoint {
     }
 
     /// Derivatives of the equations and of the forces at constant multipliers `mu`, with respect to the local
-    /// unknowns. `weights` are those of the equations in BᵀWB.
-    pub(crate) fn linearize(
+    /// unknowns. `joint` is this joint's kind, where it is known; `weights` are those of the equations in BᵀWB.
+    pub(super) fn linearize_as<J: AnyJoint + ?Sized>(
         &self,
+        joint: &J,
         (relative, own): &(Relative, Own),
         mu: &Equations,
         weights: &[f64; MOST_EQUATIONS],
@@ -154,12 +167,12 @@ impl AttachedJoint {
         out: &mut Derivatives,
     ) {
         let mut gradient = Gradient::zeros();
-        self.joint.gradient(relative, own, &mut gradient);
+        joint.gradient(relative, own, &mut gradient);
         let mut curvature = Curvature::zeros();
-        self.joint.curvature(relative, own, mu, &mut curvature);
-        let (wrench, _) = self.joint.wrench(relative, own, mu);
+        joint.curvature(relative, own, mu, &mut curvature);
+        let (wrench, _) = joint.wrench(relative, own, mu);
         let inner = Inner {
-            counts: (self.equations(), self.coordinates.len()),
+            counts: (joint.equations().len(), joint.coordinates().len()),
             gradient: &gradient,
             curvature: &curvature,
             wrench: &wrench,
@@ -175,7 +188,7 @@ impl AttachedJoint {
         mu: &Equations,
     ) -> SMatrix<f64, LOCAL, LOCAL> {
         let mut derivatives = Derivatives::new();
-        self.linearize(configuration, mu, &[0.0; MOST_EQUATIONS], None, &mut derivatives);
+        self.linearize_as(self.joint(), configuration, mu, &[0.0; MOST_EQUATIONS], None, &mut derivatives);
         derivatives.sum(1.0, 0.0, 0.0);
         SMatrix::from_fn(|i, j| derivatives.column(j)[i])
     }

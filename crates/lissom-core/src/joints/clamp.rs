@@ -1,14 +1,16 @@
 //! Clamp: two nodes, or a node and the ground, share place and rotation.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Vector3, Vector6};
-use nalgebra::SVector;
+use lissom_motion::{Real, Screw, Vector3};
 
+use super::moved::{Moved, OwnMoved};
 use super::primitives::{
     JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient,
-    coincident_wrench, wrench_with_moments,
+    coincident_wrench, first_three, last_three,
 };
 use super::{
-    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own, Relative,
+    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, MOST_EQUATIONS,
+    MOST_NUMBERS, Own, Relative,
 };
 
 /// Registry entry.
@@ -35,34 +37,41 @@ impl Joint for Clamp {
     fn violation(&self, relative: &Relative, _: &Own) -> Equations {
         let mut out = Equations::default();
         coincident(relative, 0, &mut out);
-        JointRotation::none().matches(relative, 3, &mut out);
+        JointRotation::none(0.0).matches(relative, 3, &mut out);
         out
     }
 
-    fn violation_change(&self, relative: &Relative, _: &Own) -> Equations {
-        let mut out = Equations::default();
-        coincident_change(relative, 0, &mut out);
-        JointRotation::none().matches_change(relative, 3, &mut out);
-        out
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        _: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        let [a, b, c] = coincident_change(moved);
+        let [d, e, f] = JointRotation::none(moved.place.x).matches_change(moved);
+        [a, b, c, d, e, f]
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        _: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let (moment, own) = JointRotation::none(mu[0]).matches_moments(moved, last_three(mu));
+        let mut wrench = coincident_wrench(moved, first_three(mu));
+        wrench.rotation = wrench.rotation + moment;
+        (wrench, own)
     }
 
     fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
-        JointRotation::none().matches_gradient(relative, 3, out);
-    }
-
-    fn wrench(
-        &self,
-        relative: &Relative,
-        _: &Own,
-        mu: &Equations,
-    ) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
-        let moments = JointRotation::none().matches_moments(relative, &Vector3::new(mu[3], mu[4], mu[5]));
-        wrench_with_moments(&coincident_wrench(relative, &Vector3::new(mu[0], mu[1], mu[2])), moments)
+        JointRotation::none(0.0).matches_gradient(relative, 3, out);
     }
 
     fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
         coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::none().matches_curvature(relative, &Vector3::new(mu[3], mu[4], mu[5]), out);
+        JointRotation::none(0.0).matches_curvature(relative, &Vector3::new(mu[3], mu[4], mu[5]), out);
     }
 }

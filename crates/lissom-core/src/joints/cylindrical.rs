@@ -1,15 +1,18 @@
 //! Cylindrical joint: the tip slides along an axis of the base and turns about it. Rotation and displacement are
 //! algebraic coordinates: x = d e₃ in the joint frame, R = Q(φ).
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Motion, Rotation, Vector3};
+use lissom_motion::{Motion, Real, Rotation, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
+use super::moved::{Moved, OwnMoved};
 use super::primitives::{
-    JointRotation, coincident_curvature, coincident_gradient, elementary, on_third_axis, on_third_axis_change,
+    JointRotation, coincident_change, coincident_curvature, coincident_gradient, coincident_wrench,
+    elementary, first_three, last_three, on_third_axis,
 };
 use super::{
-    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own,
-    Relative,
+    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
+    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
 use crate::registry::{Parameter, ParameterType};
 
@@ -53,12 +56,11 @@ pub struct Cylindrical {
 }
 
 impl Joint for Cylindrical {
+    const COORDINATES: &'static [Coordinate] =
+        &[Coordinate::rotation("angle"), Coordinate::displacement("displacement")];
+
     fn equations(&self) -> &'static [&'static str] {
         &EQUATIONS
-    }
-
-    fn coordinates(&self) -> &'static [Coordinate] {
-        const { &[Coordinate::rotation("angle"), Coordinate::displacement("displacement")] }
     }
 
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
@@ -69,26 +71,45 @@ impl Joint for Cylindrical {
     fn violation(&self, relative: &Relative, own: &Own) -> Equations {
         let mut out = Equations::default();
         on_third_axis(relative, own.value[SLIDE], 0, &mut out);
-        JointRotation::about_third_axis(own).matches(relative, 3, &mut out);
+        JointRotation::about_third_axis(&own.angle(0)).matches(relative, 3, &mut out);
         out
     }
 
-    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations {
-        let mut out = Equations::default();
-        on_third_axis_change(relative, own.change[SLIDE], 0, &mut out);
-        JointRotation::about_third_axis(own).matches_change(relative, 3, &mut out);
-        out
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        let [a, b, c] = coincident_change(moved);
+        let [d, e, f] = JointRotation::about_third_axis(&own.angles[0]).matches_change(moved);
+        [a, b, c - own.change[SLIDE], d, e, f]
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let (moment, mut own) =
+            JointRotation::about_third_axis(&own.angles[0]).matches_moments(moved, last_three(mu));
+        let mut wrench = coincident_wrench(moved, first_three(mu));
+        wrench.rotation = wrench.rotation + moment;
+        own[SLIDE] = -mu[2];
+        (wrench, own)
     }
 
     fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
         out.own[(2, SLIDE)] = -1.0;
-        JointRotation::about_third_axis(own).matches_gradient(relative, 3, out);
+        JointRotation::about_third_axis(&own.angle(0)).matches_gradient(relative, 3, out);
     }
 
     fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
         coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::about_third_axis(own).matches_curvature(
+        JointRotation::about_third_axis(&own.angle(0)).matches_curvature(
             relative,
             &Vector3::new(mu[3], mu[4], mu[5]),
             out,

@@ -1,9 +1,12 @@
 //! Distance: a massless rod of constant length between two points, c = (x·x - ℓ²) / (2 ℓ).
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Motion, Rotation, Vector3, skew};
+use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
 
+use super::moved::{Moved, OwnMoved};
 use super::{
-    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own, Relative,
+    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, MOST_EQUATIONS,
+    MOST_NUMBERS, Own, Relative,
 };
 use crate::registry::ParameterError;
 
@@ -36,6 +39,11 @@ impl Joint for Distance {
         &["distance"]
     }
 
+    /// One over the length.
+    fn numbers(&self) -> [f64; MOST_NUMBERS] {
+        [1.0 / self.length, 0.0, 0.0, 0.0]
+    }
+
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
         ([0.0; 2], Motion::new(Rotation::identity(), self.span))
     }
@@ -47,12 +55,28 @@ impl Joint for Distance {
         out
     }
 
-    fn violation_change(&self, relative: &Relative, _: &Own) -> Equations {
-        // x·x - x₀·x₀ = Δ·(2 x - Δ)
-        let change = &relative.position_change;
-        let mut out = Equations::default();
-        out[0] = change.dot(&(2.0 * relative.position - change)) / (2.0 * self.length);
-        out
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        _: &OwnMoved<R>,
+        numbers: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        // x·x - x₀·x₀ = Δ·(2 x - Δ), in the tip's axes
+        let change = moved.place_change.dot(moved.place.scaled(2.0) - moved.place_change);
+        let zero = change.like(0.0);
+        [change * numbers[0].scaled(0.5), zero, zero, zero, zero, zero]
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        _: &OwnMoved<R>,
+        numbers: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let force = moved.place * (mu[0] * numbers[0]);
+        let zero = mu[0].like(0.0);
+        (Screw::new(force, Triple::new(zero, zero, zero)), [zero; MOST_COORDINATES])
     }
 
     fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {

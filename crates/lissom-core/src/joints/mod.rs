@@ -5,10 +5,12 @@
 //! not even where it is. `attached` turns its answers into rows of the system.
 
 pub mod attached;
+pub mod blocks;
 pub mod clamp;
 pub mod cylindrical;
 pub mod derivatives;
 pub mod distance;
+pub mod moved;
 pub(crate) mod passage;
 pub mod prescribed;
 pub mod prescribed_displacement;
@@ -21,8 +23,12 @@ pub mod spherical;
 pub mod swing_arm;
 pub mod universal;
 
-use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
+use lissom_motion::{Matrix3, Motion, Real, Screw, Vector3, Vector6};
 use nalgebra::{SMatrix, SVector};
+
+use attached::AttachedJoint;
+use blocks::Batches;
+use moved::{Moved, OwnMoved};
 
 use crate::registry::{Function, Parameter, ParameterError, Parameters};
 
@@ -30,6 +36,9 @@ use crate::registry::{Function, Parameter, ParameterError, Parameters};
 pub const MOST_EQUATIONS: usize = 6;
 /// Most algebraic coordinates a joint may have.
 pub const MOST_COORDINATES: usize = 2;
+
+/// Most numbers of its own that the equations of a joint hold.
+pub const MOST_NUMBERS: usize = 4;
 
 /// What an equation or a coordinate of a joint is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -134,19 +143,22 @@ impl Gradient {
 /// Derivatives of (∂c/∂(η, φ))ᵀ μ with respect to (η, φ).
 pub type Curvature = SMatrix<f64, 8, 8>;
 
-/// The equations of a joint.
-pub trait Joint: Send + Sync + std::fmt::Debug {
+/// What an equation of a joint is: the first three are lengths.
+pub fn equation_quantity(equation: usize) -> Quantity {
+    if equation < 3 { Quantity::Length } else { Quantity::Angle }
+}
+
+/// The equations of a joint. What is evaluated often is written over one number or several side by side.
+pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
+    /// Its algebraic coordinates.
+    const COORDINATES: &'static [Coordinate] = &[];
+
     /// Name of each equation.
     fn equations(&self) -> &'static [&'static str];
 
-    /// Its algebraic coordinates.
-    fn coordinates(&self) -> &'static [Coordinate] {
-        &[]
-    }
-
-    /// What an equation is: the first three are lengths, unless a joint says otherwise.
-    fn equation_quantity(&self, equation: usize) -> Quantity {
-        if equation < 3 { Quantity::Length } else { Quantity::Angle }
+    /// Numbers of its own that the equations hold.
+    fn numbers(&self) -> [f64; MOST_NUMBERS] {
+        [0.0; MOST_NUMBERS]
     }
 
     /// Coordinates at the start, and the relative motion for which they satisfy the equations.
@@ -157,29 +169,98 @@ pub trait Joint: Send + Sync + std::fmt::Debug {
     /// Violation c of the equations, evaluated outright.
     fn violation(&self, relative: &Relative, own: &Own) -> Equations;
 
-    /// Change of the violation since the start of the step, from the changes of `relative` and `own`,
-    /// without cancellation.
-    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations;
+    /// Change of the violation since the start of the step, from the changes of `moved` and `own`, without
+    /// cancellation. Hot: inlined always.
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        numbers: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS];
+
+    /// (∂c/∂(η, φ))ᵀ μ: the wrench on the tip's joint frame, and the forces on the coordinates. Hot: inlined always.
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        numbers: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]);
 
     /// ∂c/∂(η, φ); `out` is zero on entry.
     fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient);
 
-    /// (∂c/∂(η, φ))ᵀ μ: the wrench on the tip's joint frame, and the forces on the coordinates. Hot: worth saying
-    /// outright where the gradient is large.
+    /// Derivative of the constraint forces at constant multipliers μ; `out` is zero on entry.
+    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature);
+}
+
+/// A joint of any kind.
+pub trait AnyJoint: Send + Sync + std::fmt::Debug {
+    /// See [`Joint::equations`].
+    fn equations(&self) -> &'static [&'static str];
+    /// See [`Joint::COORDINATES`].
+    fn coordinates(&self) -> &'static [Coordinate];
+    /// See [`Joint::initial`].
+    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion);
+    /// See [`Joint::violation`].
+    fn violation(&self, relative: &Relative, own: &Own) -> Equations;
+    /// See [`Joint::violation_change`].
+    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations;
+    /// See [`Joint::wrench`].
+    fn wrench(
+        &self,
+        relative: &Relative,
+        own: &Own,
+        mu: &Equations,
+    ) -> (Vector6, SVector<f64, MOST_COORDINATES>);
+    /// See [`Joint::gradient`].
+    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient);
+    /// See [`Joint::curvature`].
+    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature);
+    /// Adds the joint, the one of this index, to the batch of its kind.
+    fn enter(&self, index: usize, attached: &AttachedJoint, batches: &mut Batches);
+}
+
+impl<J: Joint> AnyJoint for J {
+    fn equations(&self) -> &'static [&'static str] {
+        Joint::equations(self)
+    }
+
+    fn coordinates(&self) -> &'static [Coordinate] {
+        J::COORDINATES
+    }
+
+    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+        Joint::initial(self)
+    }
+
+    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+        Joint::violation(self, relative, own)
+    }
+
+    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations {
+        J::violation_change(&relative.into(), &own.into(), &self.numbers())
+    }
+
     fn wrench(
         &self,
         relative: &Relative,
         own: &Own,
         mu: &Equations,
     ) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
-        let mut gradient = Gradient::zeros();
-        self.gradient(relative, own, &mut gradient);
-        let mu = SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu);
-        (gradient.relative.tr_mul(&mu), gradient.own.tr_mul(&mu))
+        let (wrench, forces) = J::wrench(&relative.into(), &own.into(), &self.numbers(), mu);
+        (wrench.into(), forces.into())
     }
 
-    /// Derivative of the constraint forces at constant multipliers μ; `out` is zero on entry.
-    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature);
+    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+        Joint::gradient(self, relative, own, out);
+    }
+
+    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
+        Joint::curvature(self, relative, own, mu, out);
+    }
+
+    fn enter(&self, index: usize, attached: &AttachedJoint, batches: &mut Batches) {
+        batches.enter(*self, index, attached);
+    }
 }
 
 /// How the joint frames are laid at the start.
@@ -207,7 +288,7 @@ pub struct Geometry {
 }
 
 /// Makes the equations of a joint.
-pub type MakeJoint = fn(&Parameters, &Geometry) -> Result<Box<dyn Joint>, ParameterError>;
+pub type MakeJoint = fn(&Parameters, &Geometry) -> Result<Box<dyn AnyJoint>, ParameterError>;
 
 /// How a joint is made.
 #[derive(Clone, Copy, Debug)]

@@ -6,11 +6,12 @@
 //! E = QᵀR,   c = axial(E),   δE = E ρ̃,   ρ = η_θ - Eᵀ S δφ,   S = axis vectors of Qᵀ ∂Q/∂φ
 //! ∂c/∂ρ = N = ½ (tr E I - Eᵀ),   m = Nᵀ μ = ½ (tr E μ - E μ),   ∂m/∂ρ = ½ E μ̃ - μ axial(E)ᵀ
 //! ```
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Matrix3, Vector3, Vector6, axial, screw, skew};
-use nalgebra::SVector;
+use lissom_motion::{Matrix3, Real, Screw, Triple, Vector3, axial, skew};
 
-use super::{Curvature, Equations, Gradient, MOST_COORDINATES, Own, Relative};
+use super::moved::{Angle, Axes, Moved};
+use super::{Curvature, Equations, Gradient, MOST_COORDINATES, Relative};
 
 /// Names of three equations that hold two points together.
 pub const POINT_EQUATIONS: [&str; 3] = ["position 1", "position 2", "position 3"];
@@ -21,12 +22,11 @@ pub fn coincident(relative: &Relative, row: usize, out: &mut Equations) {
     out[row..row + 3].copy_from_slice(relative.rotation.tr_mul(&relative.position).as_slice());
 }
 
-/// Change of [`coincident`] since the start of the step: Rᵀx - R₀ᵀx₀ = ΔRᵀ x₀ + Rᵀ Δx.
-pub fn coincident_change(relative: &Relative, row: usize, out: &mut Equations) {
-    let start = relative.position - relative.position_change;
-    let change =
-        relative.rotation_change.tr_mul(&start) + relative.rotation.tr_mul(&relative.position_change);
-    out[row..row + 3].copy_from_slice(change.as_slice());
+/// Change of [`coincident`] since the start of the step.
+#[inline(always)]
+pub fn coincident_change<R: Real>(moved: &Moved<R>) -> [R; 3] {
+    let Triple { x, y, z } = moved.place_change;
+    [x, y, z]
 }
 
 /// Gradient of [`coincident`]: δ(Rᵀ x) = η_u + (Rᵀ x)~ η_θ.
@@ -41,8 +41,21 @@ pub fn coincident_gradient(relative: &Relative, row: usize, out: &mut Gradient) 
 }
 
 /// (∂c/∂η)ᵀ μ of [`coincident`]: the force μ at the base's point, which lies at -Rᵀ x from the tip's.
-pub fn coincident_wrench(relative: &Relative, mu: &Vector3) -> Vector6 {
-    screw(mu, &mu.cross(&relative.rotation.tr_mul(&relative.position)))
+#[inline(always)]
+pub fn coincident_wrench<R: Real>(moved: &Moved<R>, mu: Triple<R>) -> Screw<R> {
+    Screw::new(mu, mu.cross(moved.place))
+}
+
+/// The first three of six numbers.
+#[inline(always)]
+pub fn first_three<R: Real>(mu: &[R; 6]) -> Triple<R> {
+    Triple::new(mu[0], mu[1], mu[2])
+}
+
+/// The last three of six numbers.
+#[inline(always)]
+pub fn last_three<R: Real>(mu: &[R; 6]) -> Triple<R> {
+    Triple::new(mu[3], mu[4], mu[5])
 }
 
 /// Curvature of [`coincident`]: the moment -(Rᵀ x)~ μ = μ̃ Rᵀ x.
@@ -63,91 +76,104 @@ pub fn on_third_axis(relative: &Relative, displacement: f64, row: usize, out: &m
     out[row + 2] -= displacement;
 }
 
-/// Change of [`on_third_axis`] since the start of the step, d having changed by `change`.
-pub fn on_third_axis_change(relative: &Relative, change: f64, row: usize, out: &mut Equations) {
-    coincident_change(relative, row, out);
-    out[row + 2] -= change;
-}
-
-/// The wrench of a joint that holds a point, with the moments of what holds its axes.
-pub fn wrench_with_moments(
-    force: &Vector6,
-    (moment, own): (Vector3, SVector<f64, MOST_COORDINATES>),
-) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
-    (force + screw(&Vector3::zeros(), &moment), own)
-}
-
 /// A joint's own rotation Q(φ) and its derivatives.
 #[derive(Clone, Copy, Debug)]
-pub struct JointRotation {
+pub struct JointRotation<R> {
     /// Q(φ).
-    pub rotation: Matrix3,
+    pub rotation: Axes<R>,
     /// Change of Q since the start of the step, free of cancellation.
-    pub change: Matrix3,
+    pub change: Axes<R>,
     /// Axis vectors of Qᵀ ∂Q/∂φ_k, one per coordinate.
-    pub axes: [Vector3; MOST_COORDINATES],
+    pub axes: [Triple<R>; MOST_COORDINATES],
     /// ∂axes[k]/∂φ_j, at `[k][j]`.
-    pub axes_by: [[Vector3; MOST_COORDINATES]; MOST_COORDINATES],
+    pub axes_by: [[Triple<R>; MOST_COORDINATES]; MOST_COORDINATES],
     /// Number of coordinates.
     pub count: usize,
 }
 
-impl JointRotation {
-    /// No rotation of its own.
-    pub fn none() -> Self {
+impl<R: Real> JointRotation<R> {
+    /// No rotation of its own; `kind` only tells the kind of number.
+    #[inline(always)]
+    pub fn none(kind: R) -> Self {
+        let (zero, one) = (kind.like(0.0), kind.like(1.0));
+        let nothing = Triple::new(zero, zero, zero);
         Self {
-            rotation: Matrix3::identity(),
-            change: Matrix3::zeros(),
-            axes: [Vector3::zeros(); 2],
-            axes_by: [[Vector3::zeros(); 2]; 2],
+            rotation: Axes([
+                Triple::new(one, zero, zero),
+                Triple::new(zero, one, zero),
+                Triple::new(zero, zero, one),
+            ]),
+            change: Axes([nothing; 3]),
+            axes: [nothing; 2],
+            axes_by: [[nothing; 2]; 2],
             count: 0,
         }
     }
 
     /// Rotation about the third axis.
-    pub fn about_third_axis(own: &Own) -> Self {
-        Self {
-            rotation: elementary(2, own.value[0]),
-            change: elementary_change(2, own.value[0], own.change[0]),
-            axes: [Vector3::z(), Vector3::zeros()],
-            count: 1,
-            ..Self::none()
-        }
+    #[inline(always)]
+    pub fn about_third_axis(angle: &Angle<R>) -> Self {
+        let none = Self::none(angle.sine);
+        let (rotation, change) = elementary_of(2, angle);
+        Self { rotation, change, axes: [none.rotation.0[2], none.axes[1]], count: 1, ..none }
     }
 
     /// Rotation about the first axis, then about the turned second axis.
-    pub fn about_first_and_second_axis(own: &Own) -> Self {
-        let [a, b] = own.value;
-        let [da, db] = own.change;
-        let (first, second) = (elementary(0, a), elementary(1, b));
-        let first_change = elementary_change(0, a, da);
-        let second_change = elementary_change(1, b, db);
-        let seen = second.tr_mul(&Vector3::x());
+    #[inline(always)]
+    pub fn about_first_and_second_axis([a, b]: &[Angle<R>; 2]) -> Self {
+        let none = Self::none(a.sine);
+        let [e_1, e_2, _] = none.rotation.0;
+        let (first, first_change) = elementary_of(0, a);
+        let (second, second_change) = elementary_of(1, b);
+        let seen = second.transpose_times(e_1);
         Self {
-            rotation: first * second,
+            rotation: first.product(second),
             // P Q - P₀ Q₀ = ΔP Q + P₀ ΔQ
-            change: first_change * second + (first - first_change) * second_change,
-            axes: [seen, Vector3::y()],
+            change: first_change.product(second).plus(first.minus(first_change).product(second_change)),
+            axes: [seen, e_2],
             // ∂/∂b (Qᵀ e₁) = - e₂ × (Qᵀ e₁)
-            axes_by: [[Vector3::zeros(), -Vector3::y().cross(&seen)], [Vector3::zeros(); 2]],
+            axes_by: [[none.axes[0], seen.cross(e_2)], [none.axes[0]; 2]],
             count: 2,
         }
     }
 
+    /// Change of [`Self::matches`]: QᵀR - Q₀ᵀR₀ = ΔQᵀ R₀ + Qᵀ ΔR.
+    #[inline(always)]
+    pub fn matches_change(&self, moved: &Moved<R>) -> [R; 3] {
+        let change = self
+            .change
+            .transpose_product(moved.start_rotation)
+            .plus(self.rotation.transpose_product(moved.rotation_change));
+        let Triple { x, y, z } = change.axial();
+        [x, y, z]
+    }
+
+    /// (∂c/∂(η, φ))ᵀ μ of [`Self::matches`]: the moment m, and -Sᵀ E m on the coordinates.
+    #[inline(always)]
+    pub fn matches_moments(&self, moved: &Moved<R>, mu: Triple<R>) -> (Triple<R>, [R; MOST_COORDINATES]) {
+        let e = self.rotation.transpose_product(moved.rotation());
+        let m = (mu * e.trace() - e.times(mu)).scaled(0.5);
+        let turned = e.times(m);
+        let mut own = [mu.x.like(0.0); MOST_COORDINATES];
+        for k in 0..self.count {
+            own[k] = -self.axes[k].dot(turned);
+        }
+        (m, own)
+    }
+}
+
+impl JointRotation<f64> {
     fn error(&self, relative: &Relative) -> Matrix3 {
-        self.rotation.tr_mul(&relative.rotation)
+        Matrix3::from(self.rotation).tr_mul(&relative.rotation)
+    }
+
+    fn axis(&self, coordinate: usize) -> Vector3 {
+        self.axes[coordinate].into()
     }
 
     /// Rows `row..row + 3`: the relative rotation is Q.
     pub fn matches(&self, relative: &Relative, row: usize, out: &mut Equations) {
         out[row..row + 3].copy_from_slice(axial(&self.error(relative)).as_slice());
-    }
-
-    /// Change of [`Self::matches`]: QᵀR - Q₀ᵀR₀ = ΔQᵀ R₀ + Qᵀ ΔR.
-    pub fn matches_change(&self, relative: &Relative, row: usize, out: &mut Equations) {
-        let change =
-            self.change.tr_mul(&relative.start_rotation()) + self.rotation.tr_mul(&relative.rotation_change);
-        out[row..row + 3].copy_from_slice(axial(&change).as_slice());
     }
 
     /// Gradient of [`Self::matches`].
@@ -156,21 +182,9 @@ impl JointRotation {
         let n = 0.5 * (Matrix3::identity() * e.trace() - e.transpose());
         out.relative.fixed_view_mut::<3, 3>(row, 3).copy_from(&n);
         for k in 0..self.count {
-            let column = -n * e.tr_mul(&self.axes[k]);
+            let column = -n * e.tr_mul(&self.axis(k));
             out.own.fixed_view_mut::<3, 1>(row, k).copy_from(&column);
         }
-    }
-
-    /// (∂c/∂(η, φ))ᵀ μ of [`Self::matches`]: the moment m, and -Sᵀ E m on the coordinates.
-    pub fn matches_moments(
-        &self,
-        relative: &Relative,
-        mu: &Vector3,
-    ) -> (Vector3, SVector<f64, MOST_COORDINATES>) {
-        let e = self.error(relative);
-        let m = 0.5 * (e.trace() * mu - e * mu);
-        let turned = e * m;
-        (m, SVector::from_fn(|k, _| if k < self.count { -self.axes[k].dot(&turned) } else { 0.0 }))
     }
 
     /// Curvature of [`Self::matches`].
@@ -181,7 +195,7 @@ impl JointRotation {
         let mut view = out.fixed_view_mut::<3, 3>(3, 3);
         view += dm;
         for k in 0..self.count {
-            let axis = e.tr_mul(&self.axes[k]);
+            let axis = e.tr_mul(&self.axis(k));
             // The moment -Sᵀ E m on φ_k changes with ρ as Sᵀ E (m̃ - ∂m/∂ρ).
             let by_rho = axis.transpose() * (skew(&m) - dm);
             let column = dm * axis;
@@ -190,8 +204,8 @@ impl JointRotation {
                 out[(6 + k, 3 + i)] += by_rho[i];
             }
             for j in 0..self.count {
-                out[(6 + k, 6 + j)] -= by_rho.dot(&e.tr_mul(&self.axes[j]).transpose());
-                out[(6 + k, 6 + j)] -= self.axes_by[k][j].dot(&(e * m));
+                out[(6 + k, 6 + j)] -= by_rho.dot(&e.tr_mul(&self.axis(j)).transpose());
+                out[(6 + k, 6 + j)] -= Vector3::from(self.axes_by[k][j]).dot(&(e * m));
             }
         }
     }
@@ -200,23 +214,37 @@ impl JointRotation {
 /// Rotation by `angle` about coordinate axis `axis`.
 pub fn elementary(axis: usize, angle: f64) -> Matrix3 {
     let (s, c) = angle.sin_cos();
-    fill_elementary(axis, s, c, 1.0)
+    elementary_with(axis, s, c, 1.0).into()
 }
 
-/// `elementary(axis, angle) - elementary(axis, angle - change)` without cancellation.
-pub fn elementary_change(axis: usize, angle: f64, change: f64) -> Matrix3 {
-    let half = (0.5 * change).sin();
-    let (s, c) = (angle - 0.5 * change).sin_cos();
-    fill_elementary(axis, 2.0 * c * half, -2.0 * s * half, 0.0)
+/// Rotation about coordinate axis `axis`, and its change since the start of the step.
+#[inline(always)]
+pub fn elementary_of<R: Real>(axis: usize, angle: &Angle<R>) -> (Axes<R>, Axes<R>) {
+    let (zero, one) = (angle.sine.like(0.0), angle.sine.like(1.0));
+    (
+        elementary_with(axis, angle.sine, angle.cosine, one),
+        elementary_with(axis, angle.sine_change, angle.cosine_change, zero),
+    )
 }
 
-fn fill_elementary(axis: usize, sine: f64, cosine: f64, one: f64) -> Matrix3 {
-    let (j, k) = ((axis + 1) % 3, (axis + 2) % 3);
-    let mut matrix = Matrix3::zeros();
-    matrix[(axis, axis)] = one;
-    matrix[(j, j)] = cosine;
-    matrix[(k, k)] = cosine;
-    matrix[(k, j)] = sine;
-    matrix[(j, k)] = -sine;
-    matrix
+#[inline(always)]
+fn elementary_with<R: Real>(axis: usize, sine: R, cosine: R, one: R) -> Axes<R> {
+    let zero = sine.like(0.0);
+    match axis {
+        0 => Axes([
+            Triple::new(one, zero, zero),
+            Triple::new(zero, cosine, sine),
+            Triple::new(zero, -sine, cosine),
+        ]),
+        1 => Axes([
+            Triple::new(cosine, zero, -sine),
+            Triple::new(zero, one, zero),
+            Triple::new(sine, zero, cosine),
+        ]),
+        _ => Axes([
+            Triple::new(cosine, sine, zero),
+            Triple::new(-sine, cosine, zero),
+            Triple::new(zero, zero, one),
+        ]),
+    }
 }

@@ -1,15 +1,18 @@
 //! Prismatic joint: the tip slides along an axis of the base and does not turn against it. The displacement along
 //! the axis is an algebraic coordinate: x = d e₃ in the joint frame, R = I.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Motion, Rotation, Vector3};
+use lissom_motion::{Motion, Real, Rotation, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
+use super::moved::{Moved, OwnMoved};
 use super::primitives::{
-    JointRotation, coincident_curvature, coincident_gradient, on_third_axis, on_third_axis_change,
+    JointRotation, coincident_change, coincident_curvature, coincident_gradient, coincident_wrench,
+    first_three, last_three, on_third_axis,
 };
 use super::{
-    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own,
-    Relative,
+    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
+    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
 use crate::registry::{Parameter, ParameterType};
 
@@ -40,12 +43,10 @@ pub struct Prismatic {
 }
 
 impl Joint for Prismatic {
+    const COORDINATES: &'static [Coordinate] = &[Coordinate::displacement("displacement")];
+
     fn equations(&self) -> &'static [&'static str] {
         &EQUATIONS
-    }
-
-    fn coordinates(&self) -> &'static [Coordinate] {
-        const { &[Coordinate::displacement("displacement")] }
     }
 
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
@@ -56,25 +57,43 @@ impl Joint for Prismatic {
     fn violation(&self, relative: &Relative, own: &Own) -> Equations {
         let mut out = Equations::default();
         on_third_axis(relative, own.value[SLIDE], 0, &mut out);
-        JointRotation::none().matches(relative, 3, &mut out);
+        JointRotation::none(0.0).matches(relative, 3, &mut out);
         out
     }
 
-    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations {
-        let mut out = Equations::default();
-        on_third_axis_change(relative, own.change[SLIDE], 0, &mut out);
-        JointRotation::none().matches_change(relative, 3, &mut out);
-        out
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        let [a, b, c] = coincident_change(moved);
+        let [d, e, f] = JointRotation::none(moved.place.x).matches_change(moved);
+        [a, b, c - own.change[SLIDE], d, e, f]
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        _: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let (moment, mut own) = JointRotation::none(mu[0]).matches_moments(moved, last_three(mu));
+        let mut wrench = coincident_wrench(moved, first_three(mu));
+        wrench.rotation = wrench.rotation + moment;
+        own[SLIDE] = -mu[2];
+        (wrench, own)
     }
 
     fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
         out.own[(2, SLIDE)] = -1.0;
-        JointRotation::none().matches_gradient(relative, 3, out);
+        JointRotation::none(0.0).matches_gradient(relative, 3, out);
     }
 
     fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
         coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::none().matches_curvature(relative, &Vector3::new(mu[3], mu[4], mu[5]), out);
+        JointRotation::none(0.0).matches_curvature(relative, &Vector3::new(mu[3], mu[4], mu[5]), out);
     }
 }

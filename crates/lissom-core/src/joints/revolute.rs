@@ -1,17 +1,18 @@
 //! Revolute joint: two nodes share a point and an axis; the relative rotation about the axis is an
 //! algebraic coordinate, so that springs, drives and outputs can use it.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Motion, Vector3, Vector6};
-use nalgebra::SVector;
+use lissom_motion::{Motion, Real, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
+use super::moved::{Moved, OwnMoved};
 use super::primitives::{
     JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient,
-    coincident_wrench, elementary, wrench_with_moments,
+    coincident_wrench, elementary, first_three, last_three,
 };
 use super::{
-    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own,
-    Relative,
+    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
+    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
 use crate::registry::{Parameter, ParameterType};
 
@@ -39,12 +40,10 @@ pub struct Revolute {
 }
 
 impl Joint for Revolute {
+    const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
+
     fn equations(&self) -> &'static [&'static str] {
         &EQUATIONS
-    }
-
-    fn coordinates(&self) -> &'static [Coordinate] {
-        const { &[Coordinate::rotation("angle")] }
     }
 
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
@@ -55,36 +54,43 @@ impl Joint for Revolute {
     fn violation(&self, relative: &Relative, own: &Own) -> Equations {
         let mut out = Equations::default();
         coincident(relative, 0, &mut out);
-        JointRotation::about_third_axis(own).matches(relative, 3, &mut out);
+        JointRotation::about_third_axis(&own.angle(0)).matches(relative, 3, &mut out);
         out
     }
 
-    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations {
-        let mut out = Equations::default();
-        coincident_change(relative, 0, &mut out);
-        JointRotation::about_third_axis(own).matches_change(relative, 3, &mut out);
-        out
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        let [a, b, c] = coincident_change(moved);
+        let [d, e, f] = JointRotation::about_third_axis(&own.angles[0]).matches_change(moved);
+        [a, b, c, d, e, f]
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let (moment, own) =
+            JointRotation::about_third_axis(&own.angles[0]).matches_moments(moved, last_three(mu));
+        let mut wrench = coincident_wrench(moved, first_three(mu));
+        wrench.rotation = wrench.rotation + moment;
+        (wrench, own)
     }
 
     fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
-        JointRotation::about_third_axis(own).matches_gradient(relative, 3, out);
-    }
-
-    fn wrench(
-        &self,
-        relative: &Relative,
-        own: &Own,
-        mu: &Equations,
-    ) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
-        let moments = JointRotation::about_third_axis(own)
-            .matches_moments(relative, &Vector3::new(mu[3], mu[4], mu[5]));
-        wrench_with_moments(&coincident_wrench(relative, &Vector3::new(mu[0], mu[1], mu[2])), moments)
+        JointRotation::about_third_axis(&own.angle(0)).matches_gradient(relative, 3, out);
     }
 
     fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
         coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::about_third_axis(own).matches_curvature(
+        JointRotation::about_third_axis(&own.angle(0)).matches_curvature(
             relative,
             &Vector3::new(mu[3], mu[4], mu[5]),
             out,

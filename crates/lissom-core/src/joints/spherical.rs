@@ -1,14 +1,16 @@
 //! Spherical joint: two nodes share a point and turn freely about it.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Vector3, Vector6};
-use nalgebra::SVector;
+use lissom_motion::{Real, Screw, Vector3};
 
+use super::moved::{Moved, OwnMoved};
 use super::primitives::{
     POINT_EQUATIONS, coincident, coincident_change, coincident_curvature, coincident_gradient,
-    coincident_wrench,
+    coincident_wrench, first_three,
 };
 use super::{
-    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own, Relative,
+    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, MOST_EQUATIONS,
+    MOST_NUMBERS, Own, Relative,
 };
 
 /// Registry entry.
@@ -35,23 +37,30 @@ impl Joint for Spherical {
         out
     }
 
-    fn violation_change(&self, relative: &Relative, _: &Own) -> Equations {
-        let mut out = Equations::default();
-        coincident_change(relative, 0, &mut out);
-        out
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        _: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        let [a, b, c] = coincident_change(moved);
+        let zero = a.like(0.0);
+        [a, b, c, zero, zero, zero]
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        _: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let wrench = coincident_wrench(moved, first_three(mu));
+        (wrench, [mu[0].like(0.0); MOST_COORDINATES])
     }
 
     fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
-    }
-
-    fn wrench(
-        &self,
-        relative: &Relative,
-        _: &Own,
-        mu: &Equations,
-    ) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
-        (coincident_wrench(relative, &Vector3::new(mu[0], mu[1], mu[2])), SVector::zeros())
     }
 
     fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {

@@ -1,12 +1,14 @@
 //! Swing arm: a massless rigid arm, hinged to the base, that carries the tip's point. The angle of the
 //! arm is an algebraic coordinate: x = Q(φ) a, with Q the rotation about the hinge's axis.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Motion, Rotation, Vector3, skew};
+use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
 
-use super::primitives::{POINT_EQUATIONS, elementary, elementary_change};
+use super::moved::{Moved, OwnMoved};
+use super::primitives::{POINT_EQUATIONS, elementary, elementary_of};
 use super::{
-    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own,
-    Relative,
+    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
+    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
 use crate::registry::{Parameter, ParameterError, ParameterType};
 
@@ -56,12 +58,15 @@ impl SwingArm {
 }
 
 impl Joint for SwingArm {
+    const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
+
     fn equations(&self) -> &'static [&'static str] {
         &POINT_EQUATIONS[..self.equations]
     }
 
-    fn coordinates(&self) -> &'static [Coordinate] {
-        const { &[Coordinate::rotation("angle")] }
+    /// The arm, and 1 where there is a third equation.
+    fn numbers(&self) -> [f64; MOST_NUMBERS] {
+        [self.arm.x, self.arm.y, self.arm.z, if self.equations == 3 { 1.0 } else { 0.0 }]
     }
 
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
@@ -73,9 +78,32 @@ impl Joint for SwingArm {
         self.rows(&(relative.position - elementary(2, own.value[0]) * self.arm))
     }
 
-    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations {
-        let turn = elementary_change(2, own.value[0], own.change[0]);
-        self.rows(&(relative.position_change - turn * self.arm))
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        numbers: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        let (_, turn) = elementary_of(2, &own.angles[0]);
+        let change = moved.position_change - turn.times(Triple::new(numbers[0], numbers[1], numbers[2]));
+        let zero = change.x.like(0.0);
+        [change.x, change.y, change.z * numbers[3], zero, zero, zero]
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        numbers: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let force = Triple::new(mu[0], mu[1], mu[2] * numbers[3]);
+        let (rotation, _) = elementary_of(2, &own.angles[0]);
+        let arm = rotation.times(Triple::new(numbers[0], numbers[1], numbers[2]));
+        let zero = mu[0].like(0.0);
+        let swing = arm.y * force.x - arm.x * force.y;
+        let wrench = Screw::new(moved.rotation().transpose_times(force), Triple::new(zero, zero, zero));
+        (wrench, [swing, zero])
     }
 
     fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {

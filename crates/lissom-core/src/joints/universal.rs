@@ -1,17 +1,18 @@
 //! Universal joint: two nodes share a point; the tip turns about an axis of the base, then about an
 //! axis of its own. Both angles are algebraic coordinates.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Vector3, Vector6};
-use nalgebra::SVector;
+use lissom_motion::{Real, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
+use super::moved::{Moved, OwnMoved};
 use super::primitives::{
     JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient,
-    coincident_wrench, wrench_with_moments,
+    coincident_wrench, first_three, last_three,
 };
 use super::{
-    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, Own,
-    Relative,
+    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
+    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
 
 /// Registry entry.
@@ -28,47 +29,55 @@ pub const KIND: JointKind = JointKind {
 pub struct Universal;
 
 impl Joint for Universal {
+    const COORDINATES: &'static [Coordinate] =
+        &[Coordinate::rotation("first angle"), Coordinate::rotation("second angle")];
+
     fn equations(&self) -> &'static [&'static str] {
         &EQUATIONS
-    }
-
-    fn coordinates(&self) -> &'static [Coordinate] {
-        const { &[Coordinate::rotation("first angle"), Coordinate::rotation("second angle")] }
     }
 
     fn violation(&self, relative: &Relative, own: &Own) -> Equations {
         let mut out = Equations::default();
         coincident(relative, 0, &mut out);
-        JointRotation::about_first_and_second_axis(own).matches(relative, 3, &mut out);
+        JointRotation::about_first_and_second_axis(&[own.angle(0), own.angle(1)])
+            .matches(relative, 3, &mut out);
         out
     }
 
-    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations {
-        let mut out = Equations::default();
-        coincident_change(relative, 0, &mut out);
-        JointRotation::about_first_and_second_axis(own).matches_change(relative, 3, &mut out);
-        out
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        let [a, b, c] = coincident_change(moved);
+        let [d, e, f] = JointRotation::about_first_and_second_axis(&own.angles).matches_change(moved);
+        [a, b, c, d, e, f]
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let (moment, own) =
+            JointRotation::about_first_and_second_axis(&own.angles).matches_moments(moved, last_three(mu));
+        let mut wrench = coincident_wrench(moved, first_three(mu));
+        wrench.rotation = wrench.rotation + moment;
+        (wrench, own)
     }
 
     fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
         coincident_gradient(relative, 0, out);
-        JointRotation::about_first_and_second_axis(own).matches_gradient(relative, 3, out);
-    }
-
-    fn wrench(
-        &self,
-        relative: &Relative,
-        own: &Own,
-        mu: &Equations,
-    ) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
-        let moments = JointRotation::about_first_and_second_axis(own)
-            .matches_moments(relative, &Vector3::new(mu[3], mu[4], mu[5]));
-        wrench_with_moments(&coincident_wrench(relative, &Vector3::new(mu[0], mu[1], mu[2])), moments)
+        JointRotation::about_first_and_second_axis(&[own.angle(0), own.angle(1)])
+            .matches_gradient(relative, 3, out);
     }
 
     fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
         coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
-        JointRotation::about_first_and_second_axis(own).matches_curvature(
+        JointRotation::about_first_and_second_axis(&[own.angle(0), own.angle(1)]).matches_curvature(
             relative,
             &Vector3::new(mu[3], mu[4], mu[5]),
             out,

@@ -6,15 +6,19 @@
 //!
 //! where the weight w of the augmented Lagrangian term is somebody else's choice.
 
-use super::batch::{Chart, scatter};
+use lissom_motion::WIDTH;
+
+use super::batch::{Chart, scatter, scatter_lane};
+use super::layout::LOCKED;
 use super::receiver::{Place, Receiver};
 use super::state::{Kinematics, MotionChange};
 use super::threads::Threads;
 use super::{Drive, System};
 use crate::elements::{MOST_UNKNOWNS, Tangents};
-use crate::joints::attached::{AttachedJoint, Increments};
-use crate::joints::derivatives::{Derivatives, LOCAL};
-use crate::joints::{Equations, MOST_EQUATIONS, Quantity};
+use crate::joints::attached::Increments;
+use crate::joints::blocks::Wanted;
+use crate::joints::derivatives::{Derivatives, LOCAL, OWN, TIP};
+use crate::joints::{Equations, Quantity};
 
 /// Where residual and tangent are evaluated.
 #[derive(Clone, Copy, Debug)]
@@ -120,11 +124,19 @@ impl System {
         for batch in &self.batches {
             batch.forces(point.at, out);
         }
-        for (index, joint) in self.joints.iter().enumerate() {
-            let rows = self.rows_of_joint(index);
-            let mut local = [0.0; LOCAL + MOST_EQUATIONS];
-            joint_residual(joint, point, &mut local[..rows.len()]);
-            scatter(rows, &local, out);
+        for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
+            let blocks = 0..batch.indices().len().div_ceil(WIDTH);
+            batch.evaluate(Wanted::All, point, starts, blocks, &mut |block, results| {
+                for (lane, item) in batch.block_items(block).enumerate() {
+                    let rows = self.rows_of_joint(batch.indices()[item] as usize);
+                    scatter_lane(&rows[..6], &results[..6], lane, out);
+                    scatter_lane(&rows[TIP..OWN], &results[TIP..OWN], lane, out);
+                    let rest = rows[OWN..].iter().zip(&results[OWN..]);
+                    for (&row, numbers) in rest.filter(|&(&row, _)| row != LOCKED) {
+                        out[row as usize] += numbers[lane];
+                    }
+                }
+            });
         }
         self.add_drives(point, out);
     }
@@ -135,15 +147,24 @@ impl System {
         for batch in &self.batches {
             batch.forces_side_by_side(point.at, threads, out);
         }
-        let starts = &self.joint_starts;
-        let locals = threads.side_by_side(starts, &|joints, locals| {
-            let first = starts[joints.start];
-            for joint in joints {
-                let own = starts[joint] - first..starts[joint + 1] - first;
-                joint_residual(&self.joints[joint], point, &mut locals[own]);
+        for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
+            let firsts = batch.starts();
+            let locals = threads.side_by_side(firsts, &|joints, locals| {
+                let first = firsts[joints.start];
+                let blocks = joints.start / WIDTH..joints.end.div_ceil(WIDTH);
+                batch.evaluate(Wanted::All, point, starts, blocks, &mut |block, results| {
+                    for (lane, item) in batch.block_items(block).enumerate() {
+                        let own = &mut locals[firsts[item] - first..firsts[item + 1] - first];
+                        for (local, numbers) in own.iter_mut().zip(results) {
+                            *local = numbers[lane];
+                        }
+                    }
+                });
+            });
+            for (item, &index) in batch.indices().iter().enumerate() {
+                scatter(self.rows_of_joint(index as usize), &locals[firsts[item]..firsts[item + 1]], out);
             }
-        });
-        scatter(&self.joint_rows, locals, out);
+        }
         self.add_drives(point, out);
     }
 
@@ -174,13 +195,17 @@ impl System {
 
     /// Violations at `point` alone, by multiplier.
     pub fn stage_violations(&self, point: &Point<'_>, out: &mut [f64]) {
-        for joint in &self.joints {
-            let configuration = joint.configuration(&point.increments);
-            let change = joint.joint().violation_change(&configuration.0, &configuration.1);
-            for k in 0..joint.equations() {
-                let multiplier = joint.first_multiplier + k;
-                out[multiplier] = point.violations[multiplier] + change[k];
-            }
+        for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
+            let blocks = 0..batch.indices().len().div_ceil(WIDTH);
+            batch.evaluate(Wanted::Violations, point, starts, blocks, &mut |block, results| {
+                for (lane, item) in batch.block_items(block).enumerate() {
+                    let joint = &self.joints[batch.indices()[item] as usize];
+                    let own = &mut out[joint.first_multiplier..joint.first_multiplier + joint.equations()];
+                    for (violation, numbers) in own.iter_mut().zip(&results[LOCAL..]) {
+                        *violation = numbers[lane];
+                    }
+                }
+            });
         }
         for drive in &self.drives {
             out[drive.multiplier] = drive_violation(drive, point);
@@ -217,10 +242,11 @@ impl System {
         scratch: &mut Derivatives,
         out: &mut Receiver<'_>,
     ) {
-        for (index, joint) in self.joints.iter().enumerate() {
-            linearize_joint(joint, point, chart, scratch);
-            let place = Place { rows: self.rows_of_joint(index), runs: self.joint_places.of(index) };
-            out.add_joint(place, scratch);
+        for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
+            batch.linearize(&self.joints, point, starts, chart, scratch, &mut |index, derivatives| {
+                let place = Place { rows: self.rows_of_joint(index), runs: self.joint_places.of(index) };
+                out.add_joint(place, derivatives);
+            });
         }
         for drive in &self.drives {
             out.add_drive(drive.positions, self.relative_weight(point, drive.multiplier));
@@ -231,7 +257,7 @@ impl System {
     pub fn constraint_accelerations(&self, at: &Kinematics, out: &mut [f64]) {
         let still = vec![MotionChange::none(); at.nodes.len()];
         let unchanged = vec![0.0; at.coordinates.len()];
-        let increments = Increments { start: at, nodes: &still, coordinates: &unchanged };
+        let increments = Increments { start: at, nodes: &still, coordinates: &unchanged, joints: None };
         for joint in &self.joints {
             let configuration = joint.configuration(&increments);
             let speeds = joint.speeds(at);
@@ -261,47 +287,4 @@ fn drive_violation(drive: &Drive, point: &Point<'_>) -> f64 {
     let change = point.increments.coordinates[drive.prescribed.coordinate];
     point.violations[drive.multiplier]
         + drive.prescribed.violation_change(change, point.at.time, point.at.elapsed)
-}
-
-/// Violations c and augmented multipliers μ = λ + w c of a joint.
-fn joint_multipliers(
-    joint: &AttachedJoint,
-    configuration: &(crate::joints::Relative, crate::joints::Own),
-    point: &Point<'_>,
-) -> (Equations, Equations) {
-    let mut violation = joint.joint().violation_change(&configuration.0, &configuration.1);
-    let mut mu = Equations::default();
-    for k in 0..joint.equations() {
-        let multiplier = joint.first_multiplier + k;
-        violation[k] += point.violations[multiplier];
-        let relative = point.augmentation.relative(joint.joint().equation_quantity(k));
-        mu[k] = point.multipliers[multiplier] + point.augmentation.weight * relative * violation[k];
-    }
-    (violation, mu)
-}
-
-/// Forces of a joint on its unknowns, then its violations.
-fn joint_residual(joint: &AttachedJoint, point: &Point<'_>, local: &mut [f64]) {
-    let configuration = joint.configuration(&point.increments);
-    let (violation, mu) = joint_multipliers(joint, &configuration, point);
-    let forces = joint.forces(&configuration, &mu);
-    let (own, equations) = local.split_at_mut(LOCAL);
-    own.copy_from_slice(forces.as_slice());
-    equations.copy_from_slice(&violation[..equations.len()]);
-}
-
-fn linearize_joint(joint: &AttachedJoint, point: &Point<'_>, chart: Chart<'_>, out: &mut Derivatives) {
-    let configuration = joint.configuration(&point.increments);
-    // The curvature of the augmented term, w c ∂²c/∂q², is left out: it vanishes at the solution, and far
-    // from it, with w c much larger than the multipliers, it would spoil the correction.
-    let mut mu = Equations::default();
-    mu[..joint.equations()].copy_from_slice(
-        &point.multipliers[joint.first_multiplier..joint.first_multiplier + joint.equations()],
-    );
-    let weights = std::array::from_fn(|k| point.augmentation.relative(joint.joint().equation_quantity(k)));
-    let charts = match chart {
-        Chart::Increments(tangents) => Some(joint.frames.map(|frame| &tangents[frame.node])),
-        Chart::Body | Chart::Departures(_) => None,
-    };
-    joint.linearize(&configuration, &mu, &weights, charts, out);
 }

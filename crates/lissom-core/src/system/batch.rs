@@ -298,8 +298,8 @@ pub(super) fn scatter(rows: &[u32], local: &[f64], out: &mut [f64]) {
     }
 }
 
-/// Adds one lane of a block's forces to the rows that are free.
-fn scatter_lane(rows: &[u32], forces: &[Block], lane: usize, out: &mut [f64]) {
+/// Adds one lane of a block's forces to the rows that are free, six of a node after six of another.
+pub(super) fn scatter_lane(rows: &[u32], forces: &[Block], lane: usize, out: &mut [f64]) {
     for (rows, forces) in rows.chunks(6).zip(forces.chunks(6)) {
         // Most nodes have all their freedoms, six rows in a row.
         if let (&[first, .., last], [a, b, c, d, e, f]) = (rows, forces)

@@ -14,9 +14,10 @@ use super::{Drive, GROUND, System};
 use crate::elements::Element;
 use crate::elements::inertia::Inertia;
 use crate::joints::attached::{AttachedJoint, CarriedFrame};
+use crate::joints::blocks::Batches;
 use crate::joints::derivatives::{LOCAL, OWN, TIP};
 use crate::joints::prescribed::Prescribed;
-use crate::joints::{Build, Frames, Geometry, JointKind, Quantity};
+use crate::joints::{Build, Frames, Geometry, JointKind, Quantity, equation_quantity};
 use crate::registry::{ParameterError, Parameters};
 
 /// Why a system could not be built.
@@ -186,7 +187,7 @@ impl Builder {
         let first_multiplier = self.multipliers.len();
         for (k, &equation) in joint.equations().iter().enumerate() {
             self.multipliers.push((name.to_owned(), equation));
-            self.multiplier_quantities.push(joint.equation_quantity(k));
+            self.multiplier_quantities.push(equation_quantity(k));
         }
         self.joints.push(AttachedJoint {
             name: name.to_owned(),
@@ -315,6 +316,7 @@ impl Builder {
             body_count: self.nodes.len() - 1,
             layout,
             batches: self.batches,
+            joint_batches: Batches::new(&self.joints),
             joints: self.joints,
             drives: self.drives,
             structure,

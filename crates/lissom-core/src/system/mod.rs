@@ -28,6 +28,7 @@ use lissom_solver::Structure;
 use crate::elements::Energy;
 use crate::elements::inertia::Inertia;
 use crate::joints::attached::AttachedJoint;
+use crate::joints::blocks::{Batches, JointStarts};
 use crate::joints::prescribed::Prescribed;
 use batch::AnyBatch;
 use places::Places;
@@ -54,6 +55,7 @@ pub struct System {
     pub(crate) layout: Layout,
     pub(crate) batches: Vec<Box<dyn AnyBatch>>,
     pub(crate) joints: Vec<AttachedJoint>,
+    pub(crate) joint_batches: Batches,
     pub(crate) drives: Vec<Drive>,
     pub(crate) structure: Structure,
     /// Where every joint's local matrix lies in the pattern.
@@ -86,6 +88,11 @@ impl System {
     /// All joints between nodes.
     pub fn joints(&self) -> &[AttachedJoint] {
         &self.joints
+    }
+
+    /// Takes note of what joints see at the start of a step.
+    pub fn begin_step(&self, start: &Kinematics, out: &mut JointStarts) {
+        self.joint_batches.begin(start, out);
     }
 
     /// All prescribed coordinates.

@@ -6,6 +6,7 @@ use std::ops::Range;
 use lissom_motion::WIDTH;
 
 use super::System;
+use crate::joints::blocks::JointBatch;
 
 /// With fewer elements or joints than this another thread takes about as long to wake as it helps.
 pub const WORTH_WHILE: usize = 4000;
@@ -20,13 +21,17 @@ pub(crate) struct Threads {
 impl Threads {
     /// None where one thread is all there is, or enough.
     pub(crate) fn new(system: &System, threads: usize) -> Option<Self> {
-        let parts = system.batches.iter().map(|batch| batch.len()).chain([system.joints.len()]);
+        let parts = system
+            .batches
+            .iter()
+            .map(|batch| batch.len())
+            .chain(system.joint_batches.iter().map(|batch| batch.indices().len()));
         if threads < 2 || parts.max().unwrap_or(0) < WORTH_WHILE {
             return None;
         }
         let batches = system.batches.iter().map(|batch| batch.starts());
-        let longest =
-            batches.chain([&system.joint_starts[..]]).filter_map(|starts| starts.last().copied()).max();
+        let joints = system.joint_batches.iter().map(JointBatch::starts);
+        let longest = batches.chain(joints).filter_map(|starts| starts.last().copied()).max();
         Some(Self { count: threads, locals: vec![0.0; longest.unwrap_or(0)] })
     }
 

@@ -126,6 +126,7 @@ impl Configuration {
                 start: &self.start,
                 nodes: &self.changes,
                 coordinates: &self.coordinate_increments,
+                joints: None,
             },
             multipliers: &self.multipliers,
             violations: &self.violations,

@@ -1,6 +1,7 @@
 //! Every registered element and joint: its tangents are the derivatives of its forces.
 
 mod configuration;
+mod joint_lanes;
 
 use configuration::{Configuration, Random, difference, sample_parameters};
 use lissom_core::elements::beam::{Beam, SectionLaw};
