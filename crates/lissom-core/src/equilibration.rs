@@ -72,15 +72,14 @@ impl Equilibration {
     }
 }
 
-/// The power of two next to the inverse root of `square`, which is m 2ᵉ with m from 1 to 2: 2^-⌈e/2⌉; 1 where there is
-/// nothing to go by.
+/// The power of two next to the inverse root of `square`; 1 where there is nothing to go by.
 fn power_of_two(square: f64) -> f64 {
-    /// Bits of a number's fraction, and what its exponent is counted from.
-    const FRACTION: u32 = 52;
     const BIAS: i64 = 1023;
-    if !(square > 0.0 && square.is_normal()) {
+    const FRACTION: u32 = 52;
+    if !(square.is_normal() && square > 0.0) {
         return 1.0;
     }
+    // Of 2^e m with 1 <= m < 2 the inverse root lies between 2^(-e/2) and 2^(-(e + 1)/2).
     let exponent = (square.to_bits() >> FRACTION).cast_signed() - BIAS;
     f64::from_bits((BIAS - (exponent + 1).div_euclid(2)).cast_unsigned() << FRACTION)
 }
@@ -99,6 +98,18 @@ mod tests {
             }
         }
         for nothing in [0.0, -1.0, f64::INFINITY, f64::NAN, 1e-310] {
+            assert_eq!(power_of_two(nothing), 1.0);
+        }
+    }
+
+    #[test]
+    fn factors_are_the_nearest_powers_of_two() {
+        for square in [1e-300, 3e-17, 0.4, 0.6, 1.1, 2.1, 3.9, 4.1, 7.9, 8.1, 5e9, 1e300] {
+            let factor = power_of_two(square);
+            let steps = (factor * square.sqrt()).log2().abs();
+            assert!(steps <= 0.5 + 1e-12 && factor.log2().fract() == 0.0, "{square}: {factor}");
+        }
+        for nothing in [0.0, f64::INFINITY, f64::NAN, -1.0] {
             assert_eq!(power_of_two(nothing), 1.0);
         }
     }

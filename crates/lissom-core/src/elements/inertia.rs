@@ -7,7 +7,7 @@
 //!
 //! M 6x6 mass matrix about the node, V twist, g gravity. [Sonneville, Cardona and Brüls 2014, eq. 25]
 
-use lissom_motion::{Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times, lie_bracket_matrix, skew};
+use lissom_motion::{Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times, skew};
 
 use super::blocks::Blocks;
 use super::inertia_blocks::InertiaBlocks;
@@ -111,8 +111,12 @@ impl Element for Inertia {
         let twist = &at.nodes[self.node[0]].twist;
         add_block(&mut out.mass, 6, (0, 0), &self.mass);
         // ∂(ad_Vᵀ M V) = ad_Vᵀ M δV + X(M V) δV
-        let gyroscopic =
-            -(lie_bracket_matrix(twist).transpose() * self.mass + coadjoint_matrix(&(self.mass * twist)));
+        let mut gyroscopic = -coadjoint_matrix(&(self.mass * twist));
+        for column in 0..6 {
+            let momentum: Vector6 = self.mass.column(column).into_owned();
+            let mut view = gyroscopic.column_mut(column);
+            view -= coadjoint_times(twist, &momentum);
+        }
         add_block(&mut out.damping, 6, (0, 0), &gyroscopic);
         if self.gravity != Vector3::zeros() {
             // δ(Rᵀ g) = (Rᵀ g)~ δθ

@@ -6,8 +6,11 @@
 //!
 //! δ variations of the local unknowns, C curvature of the equations, X(w) how the base's wrench turns with η, [base]
 //! the base's rows only. To the right of each product J and B go through the charts of the nodes, if asked for.
+//! Rows are as wide as two blocks of eight, one for each side, and so products are of a number and a vector register.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Matrix3, Matrix6, Vector3, Vector6};
+use lissom_motion::{Block, Lanes, Matrix3, Matrix6, Real, Vector3, Vector6, WIDTH};
+use pulp::{Simd, WithSimd};
 
 use super::{Curvature, Gradient, MOST_COORDINATES, MOST_EQUATIONS};
 
@@ -18,13 +21,15 @@ pub const TIP: usize = 8;
 pub const OWN: usize = TIP + 6;
 /// Places of local unknowns.
 pub const LOCAL: usize = OWN + MOST_COORDINATES;
-/// Local unknowns and equations, rounded up to a multiple of eight.
-const HEIGHT: usize = 24;
+/// Blocks of local unknowns, one for each side; another one takes the equations.
+const SIDES: usize = 2;
 /// Relative motion and own coordinates.
 const INNER: usize = 6 + MOST_COORDINATES;
 
 /// One number by local unknown.
-type Row = [f64; LOCAL];
+type Row = [Block; SIDES];
+
+const ZEROS: Row = [[0.0; WIDTH]; SIDES];
 
 /// How the relative motion varies with one of the nodes: translation by translation and rotation by rotation alike,
 /// translation by rotation. Rotation by translation is zero.
@@ -57,12 +62,12 @@ impl Side {
         }
     }
 
-    fn write(&self, rows: &mut [Row; INNER], first: usize) {
+    fn write(&self, rows: &mut [Row; INNER], side: usize) {
         for i in 0..3 {
             for k in 0..3 {
-                rows[i][first + k] = self.turning[(i, k)];
-                rows[i][first + 3 + k] = self.shifting[(i, k)];
-                rows[3 + i][first + 3 + k] = self.turning[(i, k)];
+                rows[i][side][k] = self.turning[(i, k)];
+                rows[i][side][3 + k] = self.shifting[(i, k)];
+                rows[3 + i][side][3 + k] = self.turning[(i, k)];
             }
         }
     }
@@ -124,7 +129,8 @@ pub struct Derivatives {
     on_base: [Row; INNER],
     weights: [f64; MOST_EQUATIONS],
     /// The local matrix, column by column; multipliers follow the local unknowns.
-    columns: [[f64; HEIGHT]; LOCAL + MOST_EQUATIONS],
+    columns: [[Block; SIDES + 1]; LOCAL + MOST_EQUATIONS],
+    processor: pulp::Arch,
 }
 
 impl Default for Derivatives {
@@ -136,21 +142,22 @@ impl Default for Derivatives {
 impl Derivatives {
     /// Room.
     pub fn new() -> Self {
-        let mut own = [[0.0; LOCAL]; INNER];
+        let mut own = [ZEROS; INNER];
         for k in 0..MOST_COORDINATES {
-            own[6 + k][OWN + k] = 1.0;
+            own[6 + k][1][OWN - TIP + k] = 1.0;
         }
         Self {
             equations: 0,
             coordinates: 0,
             variation: own,
             charted: own,
-            gradient: [[0.0; LOCAL]; MOST_EQUATIONS],
-            charted_gradient: [[0.0; LOCAL]; MOST_EQUATIONS],
-            on_tip: [[0.0; LOCAL]; INNER],
-            on_base: [[0.0; LOCAL]; INNER],
+            gradient: [ZEROS; MOST_EQUATIONS],
+            charted_gradient: [ZEROS; MOST_EQUATIONS],
+            on_tip: [ZEROS; INNER],
+            on_base: [ZEROS; INNER],
             weights: [0.0; MOST_EQUATIONS],
-            columns: [[0.0; HEIGHT]; LOCAL + MOST_EQUATIONS],
+            columns: [[[0.0; WIDTH]; SIDES + 1]; LOCAL + MOST_EQUATIONS],
+            processor: pulp::Arch::new(),
         }
     }
 
@@ -158,108 +165,183 @@ impl Derivatives {
     pub fn fill(&mut self, sides: &[Side; 2], charts: Option<[&IncrementTangent; 2]>, inner: &Inner<'_>) {
         (self.equations, self.coordinates) = inner.counts;
         self.weights = *inner.weights;
-        for (side, first) in [0, TIP].into_iter().enumerate() {
-            sides[side].write(&mut self.variation, first);
+        for side in 0..SIDES {
+            sides[side].write(&mut self.variation, side);
             let charted = charts.map_or(sides[side], |charts| sides[side].through(charts[side]));
-            charted.write(&mut self.charted, first);
+            charted.write(&mut self.charted, side);
         }
-        let inner_count = 6 + self.coordinates;
-        for e in 0..self.equations {
-            let (mut plain, mut charted) = ([0.0; LOCAL], [0.0; LOCAL]);
-            for m in 0..inner_count {
-                let factor =
-                    if m < 6 { inner.gradient.relative[(e, m)] } else { inner.gradient.own[(e, m - 6)] };
-                add(&mut plain, factor, &self.variation[m]);
-                add(&mut charted, factor, &self.charted[m]);
-            }
-            (self.gradient[e], self.charted_gradient[e]) = (plain, charted);
-        }
-        for m in 0..inner_count {
-            let mut row = [0.0; LOCAL];
-            for n in 0..inner_count {
-                let factor = inner.curvature[(m, n)];
-                if factor != 0.0 {
-                    add(&mut row, factor, &self.charted[n]);
-                }
-            }
-            self.on_tip[m] = row;
-        }
-        self.turn_base(inner.wrench);
-    }
-
-    /// X(w) J = [[0, ñ], [ñ, m̃]] J.
-    fn turn_base(&mut self, w: &Vector6) {
-        let j = &self.charted;
-        for i in 0..3 {
-            let (a, b) = ((i + 1) % 3, (i + 2) % 3);
-            let (mut force, mut moment) = (self.on_tip[i], self.on_tip[3 + i]);
-            // Row i of ñ: -n_b in column a, n_a in column b.
-            add(&mut force, w[b], &j[3 + a]);
-            add(&mut force, -w[a], &j[3 + b]);
-            add(&mut moment, w[b], &j[a]);
-            add(&mut moment, -w[a], &j[b]);
-            add(&mut moment, w[3 + b], &j[3 + a]);
-            add(&mut moment, -w[3 + a], &j[3 + b]);
-            (self.on_base[i], self.on_base[3 + i]) = (force, moment);
-        }
+        self.processor.dispatch(Fill { inner, out: self });
     }
 
     /// Makes the local matrix with these factors of K, Γ and B.
     pub fn sum(&mut self, place: f64, augmented: f64, constraint: f64) {
-        let (unknowns, equations) = (OWN + self.coordinates, self.equations);
-        for j in (0..6).chain(TIP..unknowns) {
-            let mut column = [0.0; LOCAL];
-            for m in 0..6 {
-                let (on_base, on_tip) = (place * self.on_base[m][j], place * self.on_tip[m][j]);
-                for k in 0..TIP {
-                    column[k] += on_base * self.variation[m][k];
-                    column[TIP + k] += on_tip * self.variation[m][TIP + k];
-                }
-            }
-            for k in 0..self.coordinates {
-                column[OWN + k] = place * self.on_tip[6 + k][j];
-            }
-            for e in 0..equations {
-                let factor = augmented * self.weights[e] * self.charted_gradient[e][j];
-                add(&mut column, factor, &self.gradient[e]);
-                self.columns[j][LOCAL + e] = constraint * self.charted_gradient[e][j];
-            }
-            self.columns[j][..LOCAL].copy_from_slice(&column);
-        }
-        for e in 0..equations {
-            for k in 0..LOCAL {
-                self.columns[LOCAL + e][k] = constraint * self.gradient[e][k];
-            }
-        }
+        self.processor.dispatch(Summation { place, augmented, constraint, out: self });
     }
 
     /// A column of the local matrix.
     pub fn column(&self, column: usize) -> &[f64] {
-        &self.columns[column]
+        self.columns[column].as_flattened()
     }
 
     /// A diagonal entry of K.
     pub fn stiffness(&self, unknown: usize) -> f64 {
-        if unknown >= OWN {
-            return if unknown < OWN + self.coordinates {
-                self.on_tip[6 + unknown - OWN][unknown]
-            } else {
-                0.0
-            };
+        let (side, place) = (unknown / TIP, unknown % TIP);
+        if unknown >= OWN + self.coordinates {
+            return 0.0;
         }
-        let rows = if unknown < TIP { &self.on_base } else { &self.on_tip };
-        (0..6).map(|m| rows[m][unknown] * self.variation[m][unknown]).sum()
-    }
-
-    /// B.
-    pub fn gradient(&self) -> &[[f64; LOCAL]; MOST_EQUATIONS] {
-        &self.gradient
+        let (rows, count) = if side == 0 { (&self.on_base, 6) } else { (&self.on_tip, INNER) };
+        (0..count).map(|m| rows[m][side][place] * self.variation[m][side][place]).sum()
     }
 }
 
-/// Adds `factor` times `row`.
-fn add(sum: &mut Row, factor: f64, row: &Row) {
-    for k in 0..LOCAL {
-        sum[k] += factor * row[k];
+struct Fill<'a> {
+    inner: &'a Inner<'a>,
+    out: &'a mut Derivatives,
+}
+
+impl WithSimd for Fill<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        for side in 0..SIDES {
+            for part in 0..Lanes::<S>::PARTS {
+                self.columns(simd, side, part);
+            }
+        }
     }
+}
+
+impl Fill<'_> {
+    /// As many columns of one side as a vector holds.
+    #[inline(always)]
+    fn columns<S: Simd>(&mut self, simd: S, side: usize, part: usize) {
+        let Self { inner, out } = self;
+        let own = if side == 0 { 0 } else { out.coordinates };
+        let plain = load(simd, &out.variation, side, part);
+        let charted = load(simd, &out.charted, side, part);
+        let zero = Lanes::splat(simd, 0.0);
+        for e in 0..out.equations {
+            let (mut row, mut through) = (zero, zero);
+            for m in 0..6 {
+                let factor = Lanes::splat(simd, inner.gradient.relative[(e, m)]);
+                row = row.plus_product(factor, plain[m]);
+                through = through.plus_product(factor, charted[m]);
+            }
+            for k in 0..own {
+                let factor = Lanes::splat(simd, inner.gradient.own[(e, k)]);
+                row = row.plus_product(factor, plain[6 + k]);
+                through = through.plus_product(factor, charted[6 + k]);
+            }
+            row.store(&mut out.gradient[e][side], part);
+            through.store(&mut out.charted_gradient[e][side], part);
+        }
+        let mut bent = [zero; INNER];
+        for m in 0..6 + out.coordinates {
+            for n in 0..6 + own {
+                let factor = inner.curvature[(m, n)];
+                if factor != 0.0 {
+                    bent[m] = bent[m].plus_product(Lanes::splat(simd, factor), charted[n]);
+                }
+            }
+            bent[m].store(&mut out.on_tip[m][side], part);
+        }
+        // X(w) J = [[0, ñ], [ñ, m̃]] J is taken off. Row i of ñ: -n_b in column a, n_a in column b.
+        let mut w = [zero; 6];
+        for m in 0..6 {
+            w[m] = Lanes::splat(simd, inner.wrench[m]);
+        }
+        for i in 0..3 {
+            let (a, b) = ((i + 1) % 3, (i + 2) % 3);
+            let force = bent[i].plus_product(w[b], charted[3 + a]).minus_product(w[a], charted[3 + b]);
+            let moment = bent[3 + i]
+                .plus_product(w[b], charted[a])
+                .minus_product(w[a], charted[b])
+                .plus_product(w[3 + b], charted[3 + a])
+                .minus_product(w[3 + a], charted[3 + b]);
+            force.store(&mut out.on_base[i][side], part);
+            moment.store(&mut out.on_base[3 + i][side], part);
+        }
+    }
+}
+
+struct Summation<'a> {
+    place: f64,
+    augmented: f64,
+    constraint: f64,
+    out: &'a mut Derivatives,
+}
+
+impl WithSimd for Summation<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(mut self, simd: S) {
+        for side in 0..SIDES {
+            for part in 0..Lanes::<S>::PARTS {
+                self.rows(simd, side, part);
+            }
+        }
+        let Derivatives { equations, coordinates, charted_gradient, columns, .. } = self.out;
+        for j in (0..6).chain(TIP..OWN + *coordinates) {
+            for e in 0..*equations {
+                columns[j][SIDES][e] = self.constraint * charted_gradient[e][j / WIDTH][j % WIDTH];
+            }
+        }
+    }
+}
+
+impl Summation<'_> {
+    /// As many rows of one side as a vector holds, in all columns.
+    #[inline(always)]
+    fn rows<S: Simd>(&mut self, simd: S, side: usize, part: usize) {
+        let (coordinates, equations) = (self.out.coordinates, self.out.equations);
+        let Derivatives { variation, gradient, charted_gradient, weights, columns, on_base, on_tip, .. } =
+            &mut *self.out;
+        let (bent, own) = if side == 0 { (on_base, 0) } else { (on_tip, coordinates) };
+        let mut variation = load(simd, variation, side, part);
+        for m in 0..INNER {
+            variation[m] = variation[m].scaled(self.place);
+        }
+        let plain = load(simd, gradient, side, part);
+        let mut weighted = plain;
+        for e in 0..MOST_EQUATIONS {
+            weighted[e] = plain[e].scaled(self.augmented * weights[e]);
+        }
+        for column in 0..OWN + coordinates {
+            let (half, place) = (column / WIDTH, column % WIDTH);
+            if half == 0 && place >= 6 {
+                continue;
+            }
+            let mut sum = variation[0] * Lanes::splat(simd, bent[0][half][place]);
+            for m in 1..6 {
+                sum = sum.plus_product(variation[m], Lanes::splat(simd, bent[m][half][place]));
+            }
+            for k in 0..own {
+                sum = sum.plus_product(variation[6 + k], Lanes::splat(simd, bent[6 + k][half][place]));
+            }
+            for e in 0..equations {
+                sum = sum.plus_product(weighted[e], Lanes::splat(simd, charted_gradient[e][half][place]));
+            }
+            sum.store(&mut columns[column][side], part);
+        }
+        for e in 0..equations {
+            plain[e].scaled(self.constraint).store(&mut columns[LOCAL + e][side], part);
+        }
+    }
+}
+
+/// A part of one side of several rows.
+#[inline(always)]
+fn load<S: Simd, const COUNT: usize>(
+    simd: S,
+    rows: &[Row; COUNT],
+    side: usize,
+    part: usize,
+) -> [Lanes<S>; COUNT] {
+    let mut loaded = [Lanes::splat(simd, 0.0); COUNT];
+    for m in 0..COUNT {
+        loaded[m] = Lanes::load(simd, &rows[m][side], part);
+    }
+    loaded
 }

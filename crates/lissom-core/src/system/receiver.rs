@@ -156,11 +156,26 @@ impl<T: Scalar> Sum<'_, T> {
 
 fn scatter<T: Scalar>(runs: &[Run], joint: &Derivatives, values: &mut [T]) {
     for run in runs {
-        let column = joint.column(usize::from(run.column));
         let row = usize::from(run.row);
-        let own = &column[row..row + usize::from(run.length)];
-        for (value, own) in values[run.positions()].iter_mut().zip(own) {
-            *value += T::from_real(*own);
+        let own = &joint.column(usize::from(run.column))[row..row + usize::from(run.length)];
+        let values = &mut values[run.positions()];
+        // A node's six rows, or the three of a point: no loop.
+        if let (Ok(values), Ok(own)) = (<&mut [T; 6]>::try_from(&mut *values), <&[f64; 6]>::try_from(own)) {
+            add(values, own);
+        } else if let (Ok(values), Ok(own)) =
+            (<&mut [T; 3]>::try_from(&mut *values), <&[f64; 3]>::try_from(own))
+        {
+            add(values, own);
+        } else {
+            for (value, own) in values.iter_mut().zip(own) {
+                *value += T::from_real(*own);
+            }
         }
+    }
+}
+
+fn add<T: Scalar, const COUNT: usize>(values: &mut [T; COUNT], own: &[f64; COUNT]) {
+    for (value, own) in values.iter_mut().zip(own) {
+        *value += T::from_real(*own);
     }
 }
