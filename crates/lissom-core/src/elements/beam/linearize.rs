@@ -168,17 +168,20 @@ impl<const N: usize> Linearization<N> {
         let viscous = rates
             .zip(rate_changes)
             .map(|(rates, changes)| rate_by_coordinates(station, (&d, &d_slope), &strains, rates, changes));
-        for i in 0..N {
+        // The reference node has no coordinates of its own.
+        for i in (0..N).filter(|&i| i != Beam::<N>::REFERENCE) {
             self.conjugate[i] += slope[i] * along + shape[i] * across;
             let left = weight * strains[i].transpose() * station.law.stiffness;
-            for k in 0..N {
-                let own = if self.integrated { Matrix6::zeros() } else { left * strains[k] };
-                self.stiffness[i][k] += own
-                    + slope[i] * shape[k] * turn
+            for k in (0..N).filter(|&k| k != Beam::<N>::REFERENCE) {
+                let stiffness = &mut self.stiffness[i][k];
+                if !self.integrated {
+                    *stiffness += left * strains[k];
+                }
+                *stiffness += slope[i] * shape[k] * turn
                     + shape[i] * slope[k] * turn.transpose()
                     + shape[i] * shape[k] * bend;
                 if let Some(viscous) = &viscous {
-                    self.stiffness[i][k] += station.law.damping * left * viscous[k];
+                    *stiffness += station.law.damping * left * viscous[k];
                     self.damping[i][k] += station.law.damping * left * strains[k];
                 }
             }
