@@ -1,8 +1,8 @@
 //! Elements eight at a time against one at a time, on every kind of vector that this processor has.
 
-use lissom_core::elements::Element;
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::inertia::Inertia;
+use lissom_core::elements::{Element, Tangents};
 use lissom_core::system::{Kinematics, NodeMotion};
 use lissom_motion::{Matrix6, Motion, Vector3, Vector6, WIDTH};
 
@@ -81,6 +81,32 @@ fn compare<E: Element>(elements: &[E], at: &Kinematics) {
     }
 }
 
+/// The same of their derivatives by places; none where something is damped.
+fn compare_stiffness<E: Element>(elements: &[E], (at, stressed): (&Kinematics, &Kinematics), damped: bool) {
+    let size = 6 * elements[0].nodes().len();
+    let blocks = E::blocks(elements).expect("a kind that is evaluated several at a time");
+    let count = elements.len().div_ceil(WIDTH);
+    for processor in processors() {
+        let mut seen = 0;
+        let done = blocks.stiffness(processor, (at, stressed), 0..count, &mut |block, entries| {
+            assert_eq!((block * WIDTH, entries.len()), (seen, size * size));
+            for (lane, element) in elements[seen..].iter().take(WIDTH).enumerate() {
+                let mut single = Tangents::new(size);
+                element.linearize_stressed(at, stressed, &mut single);
+                assert!(single.damping.iter().chain(&single.mass).all(|&value| value == 0.0));
+                let largest = single.stiffness.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+                assert!(largest > 0.0);
+                for (i, (entry, single)) in entries.iter().zip(&single.stiffness).enumerate() {
+                    let error = (entry[lane] - single).abs();
+                    assert!(error < 1e-13 * largest, "{processor:?}, {i}: {error:e} of {largest:e}");
+                }
+            }
+            seen += WIDTH;
+        });
+        assert_eq!((done, seen), (!damped, if damped { 0 } else { count * WIDTH }));
+    }
+}
+
 /// Whether elements carry offsets, and are damped: none, all or some.
 #[derive(Clone, Copy, PartialEq)]
 enum Which {
@@ -90,7 +116,13 @@ enum Which {
 }
 
 fn beams<const N: usize>() {
-    for which in [[Which::None; 2], [Which::All; 2], [Which::Some; 2], [Which::None, Which::Some]] {
+    for which in [
+        [Which::None; 2],
+        [Which::All; 2],
+        [Which::Some; 2],
+        [Which::None, Which::Some],
+        [Which::None, Which::All],
+    ] {
         for turn in [0.0, 0.01, 0.1, 0.3, 1.0] {
             for count in [1, 7, 8, 21] {
                 let mut numbers = Numbers(0x9E37_79B9_7F4A_7C15);
@@ -114,6 +146,8 @@ fn beams<const N: usize>() {
                     })
                     .collect();
                 compare(&elements, &at);
+                let stressed = kinematics(&mut numbers, count * (N - 1) + 1, turn);
+                compare_stiffness(&elements, (&at, &stressed), (0..count).any(damped));
             }
         }
     }

@@ -7,8 +7,9 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 use crate::real::Real;
 use crate::screw::Screw;
+use crate::square::Square;
 use crate::triple::Triple;
-use crate::{Matrix3, Matrix6, Vector3, skew};
+use crate::{Matrix3, Matrix6};
 
 /// The scalar `real + ε dual`.
 #[derive(Clone, Copy, Debug)]
@@ -24,11 +25,12 @@ pub(crate) struct DualVector<R> {
     pub(crate) dual: Triple<R>,
 }
 
-/// The matrix `real + ε dual`.
+/// The matrix `real + ε dual` of dual numbers: as the twist matrix `[[A, B], [0, A]]` of `A + ε B` it takes twists to
+/// twists, as the wrench matrix `[[0, A], [A, B]]` twists to wrenches.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct DualMatrix {
-    pub(crate) real: Matrix3,
-    pub(crate) dual: Matrix3,
+pub struct DualMatrix<R> {
+    pub(crate) real: Square<R>,
+    pub(crate) dual: Square<R>,
 }
 
 impl<R: Real> Dual<R> {
@@ -112,78 +114,147 @@ impl<R: Real> DualVector<R> {
     }
 }
 
-impl DualMatrix {
-    #[inline]
-    pub(crate) fn diagonal(value: Dual<f64>) -> Self {
-        Self {
-            real: Matrix3::from_diagonal_element(value.real),
-            dual: Matrix3::from_diagonal_element(value.dual),
-        }
+impl<R: Real> DualMatrix<R> {
+    #[inline(always)]
+    pub(crate) fn diagonal(value: Dual<R>) -> Self {
+        Self { real: Square::diagonal(value.real), dual: Square::diagonal(value.dual) }
     }
 
-    #[inline]
-    pub(crate) fn skew(v: DualVector<f64>) -> Self {
-        Self { real: skew(&v.real.into()), dual: skew(&v.dual.into()) }
+    #[inline(always)]
+    pub(crate) fn skew(v: DualVector<R>) -> Self {
+        Self { real: Square::skew(v.real), dual: Square::skew(v.dual) }
     }
 
     /// `a bᵀ`.
-    #[inline]
-    pub(crate) fn outer(a: DualVector<f64>, b: DualVector<f64>) -> Self {
-        let [real_a, dual_a, real_b, dual_b] = [a.real, a.dual, b.real, b.dual].map(Vector3::from);
+    #[inline(always)]
+    pub(crate) fn outer(a: DualVector<R>, b: DualVector<R>) -> Self {
         Self {
-            real: real_a * real_b.transpose(),
-            dual: real_a * dual_b.transpose() + dual_a * real_b.transpose(),
+            real: Square::outer(a.real, b.real),
+            dual: Square::outer(a.real, b.dual) + Square::outer(a.dual, b.real),
         }
     }
 
+    /// The wrench matrix `X(W)` with `ad_Vᵀ W = X(W) V` of the wrench `w`.
+    #[inline(always)]
+    pub fn coadjoint(w: Screw<R>) -> Self {
+        Self::skew(DualVector::from_wrench(w))
+    }
+
+    /// `self factor`.
+    #[inline(always)]
+    pub fn scaled_by(self, factor: R) -> Self {
+        Self { real: self.real * factor, dual: self.dual * factor }
+    }
+
+    /// `self + m factor`.
+    #[inline(always)]
+    pub fn plus_scaled(self, m: Self, factor: R) -> Self {
+        Self { real: self.real.plus_scaled(m.real, factor), dual: self.dual.plus_scaled(m.dual, factor) }
+    }
+
+    /// The transposed matrix of dual numbers; of a wrench matrix it is the transposed one.
+    #[inline(always)]
+    pub fn transposed(self) -> Self {
+        Self { real: self.real.transposed(), dual: self.dual.transposed() }
+    }
+
+    /// `wᵀ M` of a wrench `w` and this twist matrix: a row of six, as `Mᵀ w` is a column.
+    #[inline(always)]
+    pub fn transpose_times(self, w: Screw<R>) -> Screw<R> {
+        Screw::new(
+            self.real.transpose_times(w.translation),
+            self.dual.transpose_times(w.translation) + self.real.transpose_times(w.rotation),
+        )
+    }
+
+    /// `W M` of a 6 x 6 matrix given by its rows and this twist matrix.
+    #[inline(always)]
+    pub fn times_from_right(self, rows: &[Screw<R>; 6]) -> [Screw<R>; 6] {
+        let mut result = *rows;
+        for i in 0..6 {
+            result[i] = self.transpose_times(rows[i]);
+        }
+        result
+    }
+
+    /// `Mᵀ W` of this twist matrix and a 6 x 6 matrix given by its rows.
+    #[inline(always)]
+    pub fn transpose_times_rows(self, rows: &[Screw<R>; 6]) -> [Screw<R>; 6] {
+        let (a, b) = (self.real.transposed(), self.dual.transposed());
+        let mut result = *rows;
+        for i in 0..3 {
+            let Triple { x, y, z } = a.rows[i];
+            result[i] = (rows[0] * x).plus_scaled(rows[1], y).plus_scaled(rows[2], z);
+            result[3 + i] = (rows[3] * x).plus_scaled(rows[4], y).plus_scaled(rows[5], z);
+            let Triple { x, y, z } = b.rows[i];
+            result[3 + i] =
+                result[3 + i].plus_scaled(rows[0], x).plus_scaled(rows[1], y).plus_scaled(rows[2], z);
+        }
+        result
+    }
+
+    /// Adds this wrench matrix to a 6 x 6 matrix given by its rows.
+    #[inline(always)]
+    pub fn add_to(self, rows: &mut [Screw<R>; 6]) {
+        for i in 0..3 {
+            rows[i].rotation = rows[i].rotation + self.real.rows[i];
+            rows[3 + i].translation = rows[3 + i].translation + self.real.rows[i];
+            rows[3 + i].rotation = rows[3 + i].rotation + self.dual.rows[i];
+        }
+    }
+}
+
+impl DualMatrix<f64> {
     /// The 6 x 6 matrix from twists to twists: `[[A, B], [0, A]]` of `A + ε B`.
     #[inline]
     pub(crate) fn to_twist_matrix(self) -> Matrix6 {
+        let (real, dual) = (Matrix3::from(self.real), Matrix3::from(self.dual));
         let mut matrix = Matrix6::zeros();
-        matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&self.real);
-        matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&self.dual);
-        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&self.real);
+        matrix.fixed_view_mut::<3, 3>(0, 0).copy_from(&real);
+        matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&dual);
+        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&real);
         matrix
     }
 
     /// The 6 x 6 matrix from twists to wrenches: `[[0, A], [A, B]]` of `A + ε B`.
     #[inline]
     pub(crate) fn to_wrench_matrix(self) -> Matrix6 {
+        let (real, dual) = (Matrix3::from(self.real), Matrix3::from(self.dual));
         let mut matrix = Matrix6::zeros();
-        matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&self.real);
-        matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&self.real);
-        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&self.dual);
+        matrix.fixed_view_mut::<3, 3>(0, 3).copy_from(&real);
+        matrix.fixed_view_mut::<3, 3>(3, 0).copy_from(&real);
+        matrix.fixed_view_mut::<3, 3>(3, 3).copy_from(&dual);
         matrix
     }
 }
 
 macro_rules! linear_operations {
-    ($kind:ty, $number:ty $(, $parameter:ident)?) => {
-        impl$(<$parameter: Real>)? Add for $kind {
+    ($kind:ident) => {
+        impl<R: Real> Add for $kind<R> {
             type Output = Self;
             #[inline(always)]
             fn add(self, other: Self) -> Self {
                 Self { real: self.real + other.real, dual: self.dual + other.dual }
             }
         }
-        impl$(<$parameter: Real>)? Sub for $kind {
+        impl<R: Real> Sub for $kind<R> {
             type Output = Self;
             #[inline(always)]
             fn sub(self, other: Self) -> Self {
                 Self { real: self.real - other.real, dual: self.dual - other.dual }
             }
         }
-        impl$(<$parameter: Real>)? Neg for $kind {
+        impl<R: Real> Neg for $kind<R> {
             type Output = Self;
             #[inline(always)]
             fn neg(self) -> Self {
                 Self { real: -self.real, dual: -self.dual }
             }
         }
-        impl$(<$parameter: Real>)? Mul<Dual<$number>> for $kind {
+        impl<R: Real> Mul<Dual<R>> for $kind<R> {
             type Output = Self;
             #[inline(always)]
-            fn mul(self, factor: Dual<$number>) -> Self {
+            fn mul(self, factor: Dual<R>) -> Self {
                 Self {
                     real: self.real * factor.real,
                     dual: self.dual * factor.real + self.real * factor.dual,
@@ -193,6 +264,6 @@ macro_rules! linear_operations {
     };
 }
 
-linear_operations!(Dual<R>, R, R);
-linear_operations!(DualVector<R>, R, R);
-linear_operations!(DualMatrix, f64);
+linear_operations!(Dual);
+linear_operations!(DualVector);
+linear_operations!(DualMatrix);

@@ -26,6 +26,7 @@ mod pose;
 mod real;
 mod rotation;
 mod screw;
+mod square;
 mod tangent;
 mod triple;
 mod versor;
@@ -37,12 +38,14 @@ pub use algebra::{
     axial, coadjoint_matrix, coadjoint_times, lie_bracket, lie_bracket_matrix, rotation_part, screw, skew,
     translation_part,
 };
+pub use dual::DualMatrix;
 pub use lanes::{Block, Lanes, WIDTH};
 pub use motion::Motion;
 pub use pose::Pose;
 pub use real::Real;
 pub use rotation::{Rotation, rotation_exponential_minus_identity};
-pub use screw::{InverseTangent, Screw, TangentOperator};
+pub use screw::{CurvedTangent, InverseTangent, Screw, TangentOperator};
+pub use square::Square;
 pub use tangent::{
     ScrewTangent, inverse_tangent, inverse_tangent_derivative, inverse_tangent_derivative_transpose_times,
     inverse_tangent_hessian, inverse_tangent_times, inverse_tangent_transpose_derivative,

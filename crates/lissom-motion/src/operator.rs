@@ -84,9 +84,10 @@ pub(crate) fn inverse_pairs<R: Real, const ORDERS: usize, const PAIRS: usize>(
 }
 
 /// `I + β d̃ + γ d̃²`.
-#[inline]
-pub(crate) fn matrix(d: DualVector<f64>, value: Pair<f64>) -> DualMatrix {
-    let diagonal = Dual::new(1.0, 0.0) - value.quadratic * d.dot(d);
+#[inline(always)]
+pub(crate) fn matrix<R: Real>(d: DualVector<R>, value: Pair<R>) -> DualMatrix<R> {
+    let one = Dual::new(d.real.x.like(1.0), d.real.x.like(0.0));
+    let diagonal = one - value.quadratic * d.dot(d);
     DualMatrix::diagonal(diagonal)
         + DualMatrix::skew(d) * value.linear
         + DualMatrix::outer(d, d) * value.quadratic
@@ -114,13 +115,13 @@ pub(crate) fn inverse_times<R: Real>(
 
 /// The derivative of `a + β p + γ r` by `d`:
 /// `-β ã + γ [(d·a) I + d aᵀ - 2 a dᵀ] + 2 (β' p + γ' r) dᵀ`.
-#[inline]
-pub(crate) fn derivative(
-    d: DualVector<f64>,
-    value: Pair<f64>,
-    slope: Pair<f64>,
-    a: DualVector<f64>,
-) -> DualMatrix {
+#[inline(always)]
+pub(crate) fn derivative<R: Real>(
+    d: DualVector<R>,
+    value: Pair<R>,
+    slope: Pair<R>,
+    a: DualVector<R>,
+) -> DualMatrix<R> {
     let p = d.cross(a);
     let r = d.cross(p);
     let column = p * slope.linear + r * slope.quadratic - a * value.quadratic;
@@ -170,13 +171,13 @@ pub(crate) fn gradient<R: Real>(
 /// `∇k = w (d·a) + a (d·w) - 2 d (a·w)`:
 /// `γ (w aᵀ + a wᵀ) + (2 β' s + 2 γ' k - 2 γ a·w) I + h dᵀ + d hᵀ + (4 β'' s + 4 γ'' k) d dᵀ`,
 /// `h = 2 β' g + 2 γ' ∇k`.
-#[inline]
-pub(crate) fn hessian(
-    d: DualVector<f64>,
-    [value, slope, bend]: [Pair<f64>; 3],
-    a: DualVector<f64>,
-    w: DualVector<f64>,
-) -> DualMatrix {
+#[inline(always)]
+pub(crate) fn hessian<R: Real>(
+    d: DualVector<R>,
+    [value, slope, bend]: [Pair<R>; 3],
+    a: DualVector<R>,
+    w: DualVector<R>,
+) -> DualMatrix<R> {
     let g = a.cross(w);
     let (d_a, d_w, a_w, q) = (d.dot(a), d.dot(w), a.dot(w), d.dot(d));
     let s = d.dot(g);
@@ -185,6 +186,8 @@ pub(crate) fn hessian(
     let diagonal = (s * slope.linear + k * slope.quadratic - a_w * value.quadratic).scaled(2.0);
     let square = (s * bend.linear + k * bend.quadratic).scaled(2.0);
     let h = (g * slope.linear + k_gradient * slope.quadratic).scaled(2.0) + d * square;
-    let (scaled_a, outer) = (a * value.quadratic, DualMatrix::outer);
-    DualMatrix::diagonal(diagonal) + outer(w, scaled_a) + outer(scaled_a, w) + outer(h, d) + outer(d, h)
+    let scaled_a = a * value.quadratic;
+    // Symmetric: the sum of an outer product and its transpose, twice.
+    let half = DualMatrix::outer(w, scaled_a) + DualMatrix::outer(h, d);
+    DualMatrix::diagonal(diagonal) + half + half.transposed()
 }

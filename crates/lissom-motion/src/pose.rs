@@ -5,8 +5,10 @@
 use std::ops::Mul;
 
 use crate::coefficients::{HalfAngle, exponential_values, inverse_coefficients};
+use crate::dual::DualMatrix;
 use crate::real::Real;
 use crate::screw::{InverseTangent, Screw};
+use crate::square::Square;
 use crate::triple::Triple;
 use crate::versor::Versor;
 
@@ -112,6 +114,15 @@ impl<R: Real> Pose<R> {
             self.rotation.apply_inverse_gain(u + carried) + carried,
             self.rotation.apply_inverse_gain(theta),
         )
+    }
+
+    /// The twist matrix `Ad_H⁻¹ = [[Rᵀ, -Rᵀx̃], [0, Rᵀ]]`: takes base twists to the body frame.
+    #[inline(always)]
+    pub fn adjoint_inverse(self) -> DualMatrix<R> {
+        let one = Square::diagonal(self.position.x.like(1.0));
+        let turned = Square { rows: self.rotation.minus_identity_rows() } + one;
+        let real = turned.transposed();
+        DualMatrix { real, dual: -real.times(Square::skew(self.position)) }
     }
 
     /// `Ad_Hᵀ w` of the base wrench `w = (n; m)`: `(Rᵀ n; Rᵀ (m - x × n))`.

@@ -3,7 +3,7 @@
 
 use std::ops::{Add, Mul, Neg, Sub};
 
-use crate::dual::{Dual, DualVector};
+use crate::dual::{Dual, DualMatrix, DualVector};
 use crate::operator::{self, Pair};
 use crate::real::Real;
 use crate::triple::Triple;
@@ -195,6 +195,53 @@ impl<R: Real> TangentOperator<R> {
     pub fn rate_times(&self, d_rate: Screw<R>, a: Screw<R>) -> Screw<R> {
         let (a, rate) = (DualVector::from_twist(a), DualVector::from_twist(d_rate));
         operator::derivative_times(self.d, self.value, self.slope, a, rate).to_twist()
+    }
+}
+
+impl<R: Real> TangentOperator<R> {
+    /// The twist matrix `T`.
+    #[inline(always)]
+    pub fn matrix(&self) -> DualMatrix<R> {
+        operator::matrix(self.d, self.value)
+    }
+
+    /// The twist matrix `∂(T a)/∂d`.
+    #[inline(always)]
+    pub fn derivative(&self, a: Screw<R>) -> DualMatrix<R> {
+        operator::derivative(self.d, self.value, self.slope, DualVector::from_twist(a))
+    }
+
+    /// The wrench matrix `∂(Tᵀ w)/∂d`.
+    #[inline(always)]
+    pub fn transpose_derivative(&self, w: Screw<R>) -> DualMatrix<R> {
+        let (value, slope) = (self.value.transposed(), self.slope.transposed());
+        operator::derivative(self.d, value, slope, DualVector::from_wrench(w))
+    }
+}
+
+/// What [`TangentOperator::new`] gives, and second derivatives.
+#[derive(Clone, Copy, Debug)]
+pub struct CurvedTangent<R> {
+    /// The operator `T(d)`.
+    pub operator: TangentOperator<R>,
+    bend: Pair<R>,
+}
+
+impl<R: Real> CurvedTangent<R> {
+    /// `T(d)` at the twist `d`.
+    #[inline(always)]
+    pub fn new(d: Screw<R>) -> Self {
+        let d = DualVector::from_twist(d);
+        let [value, slope, bend] = operator::tangent_pairs::<R, 4, 3>(d.dot(d));
+        Self { operator: TangentOperator { d, value, slope }, bend }
+    }
+
+    /// The symmetric wrench matrix `∂²(wᵀ T a)/∂d∂d`.
+    #[inline(always)]
+    pub fn hessian(&self, a: Screw<R>, w: Screw<R>) -> DualMatrix<R> {
+        let TangentOperator { d, value, slope } = self.operator;
+        let (a, w) = (DualVector::from_twist(a), DualVector::from_wrench(w));
+        operator::hessian(d, [value, slope, self.bend], a, w)
     }
 }
 

@@ -6,7 +6,7 @@
 
 use crate::dual::DualVector;
 use crate::operator::{self, Pair};
-use crate::screw::{Screw, TangentOperator};
+use crate::screw::{CurvedTangent, Screw, TangentOperator};
 use crate::triple::Triple;
 use crate::{Matrix3, Matrix6, Vector3, Vector6};
 
@@ -40,7 +40,7 @@ impl ScrewTangent {
     /// The 6 x 6 matrix `T`.
     #[inline]
     pub fn matrix(&self) -> Matrix6 {
-        operator::matrix(self.0.d, self.0.value).to_twist_matrix()
+        self.0.matrix().to_twist_matrix()
     }
 
     /// `T a` of a twist `a`.
@@ -58,7 +58,7 @@ impl ScrewTangent {
     /// `∂(T a)/∂d`.
     #[inline]
     pub fn derivative(&self, a: &Vector6) -> Matrix6 {
-        operator::derivative(self.0.d, self.0.value, self.0.slope, twist(a)).to_twist_matrix()
+        self.0.derivative(a.into()).to_twist_matrix()
     }
 
     /// `(∂(T a)/∂d)ᵀ w`, the gradient of the power `wᵀ T a` by `d`, without the matrix.
@@ -70,8 +70,7 @@ impl ScrewTangent {
     /// `∂(Tᵀ w)/∂d`: rows (force; moment), columns (translation; rotation); not symmetric.
     #[inline]
     pub fn transpose_derivative(&self, w: &Vector6) -> Matrix6 {
-        let (value, slope) = (self.0.value.transposed(), self.0.slope.transposed());
-        operator::derivative(self.0.d, value, slope, wrench(w)).to_wrench_matrix()
+        self.0.transpose_derivative(w.into()).to_wrench_matrix()
     }
 
     /// `Ṫ a = (∂(T a)/∂d) ḋ`.
@@ -90,14 +89,14 @@ fn rotation_argument(theta: &Vector3) -> DualVector<f64> {
 #[inline]
 pub fn rotation_tangent(theta: &Vector3) -> Matrix3 {
     let d = rotation_argument(theta);
-    operator::matrix(d, Pair::of_tangent(d.dot(d))).real
+    operator::matrix(d, Pair::of_tangent(d.dot(d))).real.into()
 }
 
 /// `T(θ)⁻¹` of SO(3), `|θ| < 2π`.
 #[inline]
 pub fn rotation_inverse_tangent(theta: &Vector3) -> Matrix3 {
     let d = rotation_argument(theta);
-    operator::matrix(d, Pair::of_inverse(d.dot(d))).real
+    operator::matrix(d, Pair::of_inverse(d.dot(d))).real.into()
 }
 
 /// `T(d)` of SE(3): `vee(exp(d)⁻¹ δexp(d)) = T(d) δd`.
@@ -159,9 +158,7 @@ pub fn tangent_transpose_derivative(d: &Vector6, w: &Vector6) -> Matrix6 {
 /// `∂²(wᵀ T(d) a)/∂d∂d`, symmetric.
 #[inline]
 pub fn tangent_hessian(d: &Vector6, a: &Vector6, w: &Vector6) -> Matrix6 {
-    let d = twist(d);
-    let pairs = operator::tangent_pairs::<f64, 4, 3>(d.dot(d));
-    operator::hessian(d, pairs, twist(a), wrench(w)).to_wrench_matrix()
+    CurvedTangent::new(d.into()).hessian(a.into(), w.into()).to_wrench_matrix()
 }
 
 /// `Ṫ a = (∂(T(d) a)/∂d) ḋ`.

@@ -107,6 +107,13 @@ impl<R: Real> Versor<R> {
         (t * self.scalar).plus_cross(t, self.vector)
     }
 
+    /// The rows of [`Self::minus_identity`].
+    #[inline(always)]
+    pub(crate) fn minus_identity_rows(self) -> [Triple<R>; 3] {
+        let [a, b, c, d, e, f, g, h, i] = self.minus_identity();
+        [Triple::new(a, b, c), Triple::new(d, e, f), Triple::new(g, h, i)]
+    }
+
     /// The matrix `R - I`, row after row, without cancellation where the angle is small: with the quaternion
     /// `(w, v)` it is `2 (w ṽ + ṽ²)`.
     #[inline(always)]

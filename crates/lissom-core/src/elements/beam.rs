@@ -285,6 +285,11 @@ impl<const N: usize> Constants<f64> for Beam<N> {
         self.stations[k].law.damping
     }
 
+    fn law(&self, k: usize) -> [Screw<f64>; 6] {
+        let station = &self.stations[k];
+        std::array::from_fn(|i| (&(station.weight * station.law.stiffness.row(i).transpose())).into())
+    }
+
     fn stress(&self, k: usize, strain: Screw<f64>) -> Screw<f64> {
         let station = &self.stations[k];
         (&(station.weight * (station.law.stiffness * Vector6::from(strain)))).into()

@@ -8,6 +8,7 @@ use pulp::{Simd, WithSimd};
 
 use super::beam::Beam;
 use super::beam_forces::{Constants, forces};
+use super::beam_stiffness::stiffness;
 use super::blocks::{Blocks, Frames, Part, Screws, block_of, gather_frames, gather_twists, nodes_of};
 use crate::system::{Kinematics, NodeId};
 
@@ -93,6 +94,20 @@ impl<const N: usize> Blocks for BeamBlocks<N> {
     ) {
         processor.dispatch(Evaluation { beams: self, at, blocks, add });
     }
+
+    fn stiffness(
+        &self,
+        processor: pulp::Arch,
+        (at, stressed): (&Kinematics, &Kinematics),
+        blocks: Range<usize>,
+        add: &mut dyn FnMut(usize, &[Block]),
+    ) -> bool {
+        let undamped = !self.blocks.iter().any(|block| block.damped);
+        if undamped {
+            processor.dispatch(Linearization { beams: self, at, stressed, blocks, add });
+        }
+        undamped
+    }
 }
 
 struct Evaluation<'a, const N: usize> {
@@ -115,6 +130,34 @@ impl<const N: usize> WithSimd for Evaluation<'_, N> {
         for index in self.blocks {
             self.beams.blocks[index].forces(simd, self.at, &self.beams.shapes, &mut scratch);
             (self.add)(index, scratch.results.as_flattened());
+        }
+    }
+}
+
+struct Linearization<'a, const N: usize> {
+    beams: &'a BeamBlocks<N>,
+    at: &'a Kinematics,
+    stressed: &'a Kinematics,
+    blocks: Range<usize>,
+    add: &'a mut dyn FnMut(usize, &[Block]),
+}
+
+impl<const N: usize> WithSimd for Linearization<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        let mut frames = [[[[0.0; WIDTH]; 7]; N]; 2];
+        // By node and component of the force, then of the variation.
+        let mut results = [[[[[0.0; WIDTH]; 6]; N]; 6]; N];
+        for index in self.blocks {
+            let block = &self.beams.blocks[index];
+            for i in 0..N {
+                gather_frames(self.at, &block.nodes[i], &mut frames[0][i]);
+                gather_frames(self.stressed, &block.nodes[i], &mut frames[1][i]);
+            }
+            block.stiffness(simd, &frames, &self.beams.shapes, &mut results);
+            (self.add)(index, results.as_flattened().as_flattened().as_flattened());
         }
     }
 }
@@ -145,6 +188,16 @@ impl<S: Simd, const N: usize> Constants<Lanes<S>> for Here<'_, S, N> {
     #[inline(always)]
     fn damping(&self, k: usize) -> Lanes<S> {
         self.part.number(&self.stations[k].damping)
+    }
+
+    #[inline(always)]
+    fn law(&self, k: usize) -> [Screw<Lanes<S>>; 6] {
+        let law = &self.stations[k].law;
+        let mut rows = [self.part.screw(&law[0]); 6];
+        for i in 1..6 {
+            rows[i] = self.part.screw(&law[i]);
+        }
+        rows
     }
 
     #[inline(always)]
@@ -183,6 +236,42 @@ impl<const N: usize> BeamBlock<N> {
                     forces[i] = part.frame(&offsets[i]).adjoint_inverse_transpose_times(forces[i]);
                 }
                 part.store(forces[i], &mut results[i]);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn stiffness<S: Simd>(
+        &self,
+        simd: S,
+        frames: &[[Frames; N]; 2],
+        shapes: &[[f64; N]],
+        results: &mut [[[Screws; N]; 6]; N],
+    ) {
+        for index in 0..Lanes::<S>::PARTS {
+            let part = Part { simd, index };
+            let mut sections = [[part.frame(&frames[0][0]); N]; 2];
+            for i in 0..N {
+                for j in 0..2 {
+                    sections[j][i] = part.frame(&frames[j][i]);
+                    if let Some(offsets) = &self.offsets {
+                        sections[j][i] = sections[j][i] * part.frame(&offsets[i]);
+                    }
+                }
+            }
+            let here = Here { part, stations: &self.stations, shapes };
+            let mut matrices = stiffness(&here, &sections[0], &sections[1]);
+            for i in 0..N {
+                for m in 0..N {
+                    if let Some(offsets) = &self.offsets {
+                        let (own, other) = (part.frame(&offsets[i]), part.frame(&offsets[m]));
+                        let seen = other.adjoint_inverse().times_from_right(&matrices[i][m]);
+                        matrices[i][m] = own.adjoint_inverse().transpose_times_rows(&seen);
+                    }
+                    for row in 0..6 {
+                        part.store(matrices[i][m][row], &mut results[i][row][m]);
+                    }
+                }
             }
         }
     }

@@ -15,6 +15,8 @@ pub(super) trait Constants<R: Real> {
     fn natural(&self, k: usize) -> Screw<R>;
     /// Damping by stiffness [s].
     fn damping(&self, k: usize) -> R;
+    /// w C, row after row.
+    fn law(&self, k: usize) -> [Screw<R>; 6];
     /// w C ε of the strain ε.
     fn stress(&self, k: usize, strain: Screw<R>) -> Screw<R>;
 }
@@ -121,7 +123,7 @@ fn conjugate_forces<R: Real, const N: usize>(
 
 /// Σ N_i' v_i.
 #[inline(always)]
-fn combine_slopes<R: Real, const N: usize>(
+pub(super) fn combine_slopes<R: Real, const N: usize>(
     constants: &impl Constants<R>,
     k: usize,
     vectors: &[Screw<R>; N],
@@ -138,7 +140,7 @@ fn combine_slopes<R: Real, const N: usize>(
 
 /// Σ N_i v_i.
 #[inline(always)]
-fn combine_shapes<R: Real, const N: usize>(
+pub(super) fn combine_shapes<R: Real, const N: usize>(
     constants: &impl Constants<R>,
     k: usize,
     vectors: &[Screw<R>; N],

@@ -24,6 +24,19 @@ pub trait Blocks: Send + Sync {
         blocks: Range<usize>,
         add: &mut dyn FnMut(usize, &[Block]),
     );
+
+    /// Hands the derivatives of the forces by places to `add` in the same way, row after row of the local matrices,
+    /// with the stresses of another configuration in the geometric stiffness. Default: `false`, and nothing is
+    /// computed; so as well where forces depend on more than places.
+    fn stiffness(
+        &self,
+        _processor: pulp::Arch,
+        _at_stressed: (&Kinematics, &Kinematics),
+        _blocks: Range<usize>,
+        _add: &mut dyn FnMut(usize, &[Block]),
+    ) -> bool {
+        false
+    }
 }
 
 /// One number of each element of a block.

@@ -9,6 +9,7 @@ mod beam_forces;
 mod beam_integrated;
 pub mod beam_line;
 mod beam_passage;
+mod beam_stiffness;
 pub mod blocks;
 pub mod coordinate_spring;
 pub mod force;

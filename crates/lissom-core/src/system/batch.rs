@@ -104,6 +104,26 @@ impl<E: Element> Batch<E> {
         Place { rows: self.item_rows(item), runs: self.places.of(item) }
     }
 
+    /// Takes an item's derivatives through the chart and hands them over.
+    fn receive(&self, index: usize, chart: Chart<'_>, scratch: &mut Tangents, out: &mut Receiver<'_>) {
+        let size = scratch.size();
+        for (k, &node) in self.items[index].nodes().iter().enumerate() {
+            match chart {
+                Chart::Body => {}
+                Chart::Increments(increments) => {
+                    through_chart(&mut scratch.stiffness, size, 6 * k, &increments[node]);
+                }
+                Chart::Departures(start) => {
+                    let turning = lie_bracket_matrix(&start[node].twist);
+                    let Tangents { stiffness, damping, mass, .. } = scratch;
+                    add_columns(stiffness, damping, size, 6 * k, &turning);
+                    add_columns(damping, mass, size, 6 * k, &turning);
+                }
+            }
+        }
+        out.add_element(self.place(index), scratch);
+    }
+
     /// Items in a block of those that are evaluated several at a time.
     fn block_items(&self, block: usize) -> Range<usize> {
         block * WIDTH..self.items.len().min((block + 1) * WIDTH)
@@ -254,25 +274,25 @@ impl<E: Element> AnyBatch for Batch<E> {
         scratch: &mut Tangents,
         out: &mut Receiver<'_>,
     ) {
-        for (index, item) in self.items.iter().enumerate() {
-            let rows = self.item_rows(index);
-            scratch.clear(rows.len());
-            item.linearize_stressed(at, stressed, scratch);
-            for (k, &node) in item.nodes().iter().enumerate() {
-                match chart {
-                    Chart::Body => {}
-                    Chart::Increments(increments) => {
-                        through_chart(&mut scratch.stiffness, rows.len(), 6 * k, &increments[node]);
+        if let Some(blocks) = &self.blocks {
+            let range = 0..self.items.len().div_ceil(WIDTH);
+            let done = blocks.stiffness(self.processor, (at, stressed), range, &mut |block, entries| {
+                for (lane, item) in self.block_items(block).enumerate() {
+                    scratch.clear(self.item_rows(item).len());
+                    for (value, entry) in scratch.stiffness.iter_mut().zip(entries) {
+                        *value = entry[lane];
                     }
-                    Chart::Departures(start) => {
-                        let turning = lie_bracket_matrix(&start[node].twist);
-                        let Tangents { stiffness, damping, mass, .. } = scratch;
-                        add_columns(stiffness, damping, rows.len(), 6 * k, &turning);
-                        add_columns(damping, mass, rows.len(), 6 * k, &turning);
-                    }
+                    self.receive(item, chart, scratch, out);
                 }
+            });
+            if done {
+                return;
             }
-            out.add_element(self.place(index), scratch);
+        }
+        for (index, item) in self.items.iter().enumerate() {
+            scratch.clear(self.item_rows(index).len());
+            item.linearize_stressed(at, stressed, scratch);
+            self.receive(index, chart, scratch, out);
         }
     }
 

@@ -3,10 +3,11 @@
 use std::f64::consts::PI;
 
 use lissom_motion::{
-    Matrix6, Motion, Pose, Rotation, ScrewTangent, Vector3, Vector6, inverse_tangent, inverse_tangent_times,
-    inverse_tangent_transpose_times, lie_bracket, lie_bracket_matrix, rotation_part, rotation_tangent, screw,
-    tangent, tangent_derivative, tangent_derivative_transpose_times, tangent_hessian, tangent_rate_times,
-    tangent_times, tangent_transpose_derivative, tangent_transpose_times, translation_part,
+    CurvedTangent, DualMatrix, Matrix6, Motion, Pose, Rotation, Screw, ScrewTangent, Vector3, Vector6,
+    coadjoint_matrix, inverse_tangent, inverse_tangent_times, inverse_tangent_transpose_times, lie_bracket,
+    lie_bracket_matrix, rotation_part, rotation_tangent, screw, tangent, tangent_derivative,
+    tangent_derivative_transpose_times, tangent_hessian, tangent_rate_times, tangent_times,
+    tangent_transpose_derivative, tangent_transpose_times, translation_part,
 };
 use proptest::prelude::*;
 
@@ -133,8 +134,46 @@ proptest! {
     }
 }
 
+/// Rows of six as a matrix.
+fn matrix_of(rows: &[Screw<f64>; 6]) -> Matrix6 {
+    Matrix6::from_rows(&rows.map(|row| Vector6::from(row).transpose()))
+}
+
 proptest! {
     #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(300) })]
+
+    #[test]
+    fn matrices_of_dual_numbers_multiply_rows(d in any_twist(), a in plain_vector(), w in plain_vector(), v in any_twist()) {
+        let rows = [a, w, a + w, a - w, a * 2.0, w * 3.0].map(|row| Screw::from(&row));
+        let matrix = matrix_of(&rows);
+        let curved = CurvedTangent::new((&d).into());
+        let size = 1.0 + translation_part(&d).norm();
+        let tangent = curved.operator.matrix();
+        let left = matrix_of(&tangent.transpose_times_rows(&rows));
+        prop_assert!(error(&left, &(self::tangent(&d).transpose() * matrix), size) < 4e-15);
+        let right = matrix_of(&tangent.times_from_right(&rows));
+        prop_assert!(error(&right, &(matrix * self::tangent(&d)), size) < 4e-15);
+        let added = |wrench_matrix: DualMatrix<f64>| {
+            let mut sum = rows;
+            wrench_matrix.add_to(&mut sum);
+            matrix_of(&sum)
+        };
+        let hessian = added(curved.hessian((&a).into(), (&w).into()));
+        prop_assert!(error(&hessian, &(matrix + tangent_hessian(&d, &a, &w)), size) < 4e-15);
+        let turned = curved.operator.transpose_derivative((&w).into());
+        let expected = tangent_transpose_derivative(&d, &w);
+        prop_assert!(error(&added(turned), &(matrix + expected), size) < 4e-15);
+        prop_assert!(error(&added(turned.transposed()), &(matrix + expected.transpose()), size) < 4e-15);
+        let bracket = added(DualMatrix::coadjoint((&w).into()));
+        prop_assert!(error(&bracket, &(matrix + coadjoint_matrix(&w)), 1.0) < 4e-15);
+        let half = curved.operator.derivative((&a).into()).scaled_by(0.5).plus_scaled(tangent, 2.0);
+        let expected = tangent_derivative(&d, &a) * 0.5 + self::tangent(&d) * 2.0;
+        prop_assert!(error(&matrix_of(&half.times_from_right(&rows)), &(matrix * expected), size) < 4e-15);
+        let motion = Motion::exponential(&v);
+        let adjoint = Pose::from(&motion).adjoint_inverse();
+        let expected = matrix * motion.inverse().adjoint();
+        prop_assert!(error(&matrix_of(&adjoint.times_from_right(&rows)), &expected, 1.0 + motion.position.norm()) < 8e-15);
+    }
 
     #[test]
     fn tangent_is_the_body_derivative_of_the_exponential(d in moderate_twist()) {

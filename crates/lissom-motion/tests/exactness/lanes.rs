@@ -3,7 +3,8 @@
 use std::f64::consts::TAU;
 
 use lissom_motion::{
-    Block, Lanes, Motion, Pose, Real, Screw, TangentOperator, Vector6, WIDTH, rotation_part, translation_part,
+    Block, CurvedTangent, DualMatrix, Lanes, Motion, Pose, Real, Screw, TangentOperator, Vector6, WIDTH,
+    rotation_part, translation_part,
 };
 use proptest::prelude::*;
 use pulp::{Simd, WithSimd};
@@ -25,6 +26,7 @@ const INVERSE: usize = 5;
 fn everything<R: Real>([d, a, w]: [Screw<R>; 3], motion: Pose<R>) -> Vec<[R; 6]> {
     let exponential = Pose::exponential(d);
     let tangent = TangentOperator::new(d);
+    let curved = CurvedTangent::new(d);
     let inverse = TangentOperator::inverse(d);
     let (logarithm, inverse_there) = motion.logarithm_and_inverse_tangent();
     let quaternion = |pose: Pose<R>| {
@@ -62,7 +64,14 @@ fn everything<R: Real>([d, a, w]: [Screw<R>; 3], motion: Pose<R>) -> Vec<[R; 6]>
         inverse.transpose_times(w),
         inverse.derivative_transpose_times(a, w),
     ];
-    screws.map(Screw::components).to_vec()
+    let mut rows = [a, w, d, a + w, a - w, w + d];
+    curved.operator.derivative(a).transposed().add_to(&mut rows);
+    tangent.transpose_derivative(w).add_to(&mut rows);
+    curved.hessian(a, w).add_to(&mut rows);
+    DualMatrix::coadjoint(w).add_to(&mut rows);
+    let rows = tangent.matrix().transpose_times_rows(&rows);
+    let rows = motion.adjoint_inverse().times_from_right(&rows);
+    rows.into_iter().chain(screws).map(Screw::components).collect()
 }
 
 struct SideBySide<'a> {
@@ -111,9 +120,8 @@ proptest! {
             let results = processor.dispatch(SideBySide { arguments: &arguments, motions: &motions });
             for lane in 0..WIDTH {
                 let single = everything(arguments[lane].map(|v| Screw::from(&v)), Pose::from(&motions[lane]));
-                let size = 1.0
-                    + translation_part(&arguments[lane][0]).norm()
-                    + motions[lane].position.norm();
+                let size = (1.0 + translation_part(&arguments[lane][0]).norm()).powi(2)
+                    * (1.0 + motions[lane].position.norm());
                 let to_whole_turn = 1.0 - rotation_part(&arguments[lane][0]).norm_squared() / TAU.powi(2);
                 prop_assert_eq!(results.len(), single.len());
                 for (n, (lanes, single)) in results.iter().zip(&single).enumerate() {
