@@ -8,6 +8,14 @@ use crate::newton::Correction;
 /// Numbers side by side in a sum or a maximum, so that they need not wait for each other.
 const SIDE_BY_SIDE: usize = 8;
 
+/// Systems of fewer unknowns are not worth a call of their own for wide registers.
+const FEW: usize = 24;
+
+/// What to go through `count` unknowns with.
+pub(super) fn processor(count: usize) -> pulp::Arch {
+    if count < FEW { pulp::Arch::Scalar } else { pulp::Arch::new() }
+}
+
 /// Σ aᵢ bᵢ.
 #[inline(always)]
 pub(super) fn product(a: &[f64], b: &[f64]) -> f64 {

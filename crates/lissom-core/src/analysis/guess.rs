@@ -8,7 +8,7 @@
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use super::corrections::Add;
+use super::corrections::{Add, processor};
 
 /// Highest order of extrapolation.
 const MOST: usize = 4;
@@ -40,7 +40,7 @@ impl Guess {
             differences: std::array::from_fn(|_| vec![0.0; weights.len()]),
             missed: [0.0; MOST + 1],
             known: 0,
-            processor: pulp::Arch::new(),
+            processor: processor(weights.len()),
         }
     }
 

@@ -11,7 +11,7 @@
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use super::corrections::product;
+use super::corrections::{processor, product};
 
 /// Most secants in use.
 const MOST: usize = 5;
@@ -34,6 +34,8 @@ pub(crate) struct Secants {
     departures: [Vec<f64>; MOST],
     /// Products of the changes.
     products: [[f64; MOST]; MOST],
+    /// Most secants in use: fewer than there are directions.
+    most: usize,
     /// Secants known, and where the next one goes.
     known: usize,
     next: usize,
@@ -56,6 +58,7 @@ impl Secants {
             changes: std::array::from_fn(|_| vec![0.0; coordinates]),
             departures: std::array::from_fn(|_| vec![0.0; rows]),
             products: [[0.0; MOST]; MOST],
+            most: MOST.min(2 + sizes.len() / 4),
             known: 0,
             next: 0,
             goes_on: false,
@@ -63,7 +66,7 @@ impl Secants {
             last_weighted: vec![0.0; coordinates],
             last_made: vec![0.0; rows],
             weighted: vec![0.0; coordinates],
-            processor: pulp::Arch::new(),
+            processor: processor(size),
         }
     }
 
@@ -142,17 +145,17 @@ impl Secants {
             }
             departure += product(weighted, weighted);
         }
-        for other in 0..MOST {
+        for other in 0..self.most {
             let product = product(&self.changes[slot], &self.changes[other]);
             self.products[slot][other] = product;
             self.products[other][slot] = product;
         }
         if departure < CREDIBLE * CREDIBLE * self.products[slot][slot] {
-            self.next = (slot + 1) % MOST;
-            self.known = (self.known + 1).min(MOST);
-        } else if self.known == MOST {
+            self.next = (slot + 1) % self.most;
+            self.known = (self.known + 1).min(self.most);
+        } else if self.known == self.most {
             // The oldest one has been written over.
-            self.known = MOST - 1;
+            self.known = self.most - 1;
         }
     }
 
@@ -166,7 +169,7 @@ impl Secants {
         let mut used = 0;
         let smallest = product(&self.last_weighted, &self.last_weighted) / (REACH * REACH);
         for back in 1..=self.known {
-            let slot = (self.next + MOST - back) % MOST;
+            let slot = (self.next + self.most - back) % self.most;
             if self.products[slot][slot] < smallest {
                 continue;
             }

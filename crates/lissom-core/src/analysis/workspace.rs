@@ -3,6 +3,7 @@
 use lissom_solver::FactorReport;
 
 use super::compliance::Compliance;
+use super::corrections::processor;
 use super::coupled::{Coupled, FIRST_COUPLED};
 use super::factorization::Factorization;
 use super::guess::Guess;
@@ -132,7 +133,7 @@ impl Workspace {
             sizes,
             multiplier_sizes: vec![1.0; layout.multiplier_count],
             row_factors: vec![1.0; layout.size()],
-            processor: pulp::Arch::new(),
+            processor: processor(layout.size()),
             equilibration: equilibrated.then(|| Equilibration::new(layout.size(), count)),
             length: representative.length,
             threads: None,
