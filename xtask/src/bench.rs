@@ -137,8 +137,10 @@ fn run(scene: &Scene, overrides: &[Override]) -> Result<Measured, BenchError> {
     })
 }
 
-/// Time for which this thread had a processor, where the system tells.
+/// Time for which this thread had a processor, where the system tells. It is brought up to date at every tick of some
+/// milliseconds, and when the processor is offered to others.
 fn processor_time() -> Option<Duration> {
+    std::thread::yield_now();
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     text.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)
 }
@@ -257,7 +259,7 @@ fn errors(arguments: &BenchArguments) -> Result<(), BenchError> {
         let document = model.document(&[]).map_err(|report| failed(name, report.render(false)))?;
         let AnalysisKind::Dynamics { step } = document.analysis.kind else { continue };
         let short = ("analysis.step".to_owned(), format!("{:e}", step.value / REFINED));
-        let end = |overrides: &[Override]| last_place(&model, overrides);
+        let end = |more: &[Override]| last_place(&model, &[&arguments.overrides()[..], more].concat());
         let (given, exact, reference) = (end(&[])?, end(&[fine("1e-11")])?, end(&[short, fine("1e-10")])?);
         let distance =
             |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum::<f64>().sqrt();
