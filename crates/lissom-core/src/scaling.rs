@@ -275,9 +275,21 @@ impl Scaled {
         }
     }
 
-    /// The scheme's memory after a step, back in SI.
-    pub fn leave(&self, memory: f64) -> f64 {
-        memory / (self.h * self.h)
+    /// The scheme's memory after a step, back in SI, from a linear combination of the increments and the start.
+    pub fn leave(
+        &self,
+        combination: &Combination,
+        start: &UnitStart,
+        increments: &[Vec<f64>],
+        memory: &mut [f64],
+    ) {
+        let combination = combination.times(1.0 / (self.h * self.h));
+        known_part(&combination, [&start.rate, &start.curvature, &start.algorithmic], memory);
+        for (weight, increment) in combination.increments.iter().zip(increments) {
+            for (value, increment) in memory.iter_mut().zip(increment) {
+                *value += weight * increment;
+            }
+        }
     }
 
     /// Time of a stage and time since the start of the step.

@@ -332,10 +332,8 @@ impl Simulation {
         let Some(end) = work.motions.last() else { unreachable!("every scheme has a stage") };
         copy_motion(&end.at, &mut self.next.kinematics);
         self.next.multipliers.copy_from_slice(&work.multipliers[last]);
-        for (row, value) in self.next.algorithmic.iter_mut().enumerate() {
-            let memory = work.unit.combine(&self.settings.scheme.algorithmic, &work.increments, row);
-            *value = self.scaled.leave(memory);
-        }
+        let memory = &mut self.next.algorithmic;
+        self.scaled.leave(&self.settings.scheme.algorithmic, &work.unit, &work.increments, memory);
         compensate(&self.state, &end.changes, &mut self.next);
         if let Some(projection) = &mut self.projection {
             projection

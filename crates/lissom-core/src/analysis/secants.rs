@@ -41,10 +41,10 @@ pub(crate) struct Secants {
     next: usize,
     /// Whether the last correction is known.
     goes_on: bool,
-    /// d, and d weighted, and s of that one.
-    last: Vec<f64>,
+    /// d - s of that one, by stage and row.
+    taken: Vec<f64>,
+    /// d of that one and of the present one, weighted.
     last_weighted: Vec<f64>,
-    last_made: Vec<f64>,
     weighted: Vec<f64>,
     processor: pulp::Arch,
 }
@@ -62,9 +62,8 @@ impl Secants {
             known: 0,
             next: 0,
             goes_on: false,
-            last: vec![0.0; rows],
+            taken: vec![0.0; rows],
             last_weighted: vec![0.0; coordinates],
-            last_made: vec![0.0; rows],
             weighted: vec![0.0; coordinates],
             processor: processor(size),
         }
@@ -89,25 +88,39 @@ impl Secants {
 
     #[inline(always)]
     fn run(&mut self, corrections: &mut [Vec<f64>]) {
+        let rows = corrections[0].len();
         self.weigh(corrections);
         if self.goes_on {
             self.note(corrections);
         }
         self.goes_on = true;
         std::mem::swap(&mut self.last_weighted, &mut self.weighted);
-        gather(corrections, &mut self.last);
-        let shares = self.shares();
-        for (k, share) in shares.into_iter().enumerate().filter(|&(_, share)| share != 0.0) {
-            let mut departures = &self.departures[k][..];
-            for stage in corrections.iter_mut() {
-                let (own, others) = departures.split_at(stage.len());
-                departures = others;
-                for (value, departure) in stage.iter_mut().zip(own) {
-                    *value -= share * departure;
+        self.take(&self.shares());
+        for (corrections, taken) in corrections.iter_mut().zip(self.taken.chunks(rows)) {
+            for (value, taken) in corrections.iter_mut().zip(taken) {
+                *value -= taken;
+            }
+        }
+    }
+
+    /// Σ γ P.
+    #[inline(always)]
+    fn take(&mut self, shares: &[f64; MOST]) {
+        let mut is_first = true;
+        for (departures, &share) in self.departures.iter().zip(shares).filter(|(_, share)| **share != 0.0) {
+            if std::mem::take(&mut is_first) {
+                for (taken, departure) in self.taken.iter_mut().zip(departures) {
+                    *taken = share * departure;
+                }
+            } else {
+                for (taken, departure) in self.taken.iter_mut().zip(departures) {
+                    *taken += share * departure;
                 }
             }
         }
-        gather(corrections, &mut self.last_made);
+        if is_first {
+            self.taken.fill(0.0);
+        }
     }
 
     #[inline(always)]
@@ -134,9 +147,8 @@ impl Secants {
         for (stage, corrections) in corrections.iter().enumerate() {
             let own = stage * rows..(stage + 1) * rows;
             let into = &mut self.departures[slot][own.clone()];
-            let before = self.last_made[own.clone()].iter().zip(&self.last[own]);
-            for ((departure, (made, last)), value) in into.iter_mut().zip(before).zip(corrections) {
-                *departure = made + (value - last);
+            for ((departure, taken), value) in into.iter_mut().zip(&self.taken[own]).zip(corrections) {
+                *departure = value - taken;
             }
             // The weights are used up: room for the departure's own.
             let weighted = &mut self.last_weighted[stage * count..(stage + 1) * count];
@@ -159,41 +171,45 @@ impl Secants {
         }
     }
 
-    /// γ by slot: least squares through a Cholesky factorisation of the products, newest first.
+    /// γ by slot: least squares through a factorisation L D Lᵀ of the products, newest first.
     #[inline(always)]
     fn shares(&self) -> [f64; MOST] {
         let mut shares = [0.0; MOST];
+        // L D, 1/D, and L⁻¹ of the right-hand side.
         let mut lower = [[0.0; MOST]; MOST];
+        let mut inverse = [0.0; MOST];
         let mut forward = [0.0; MOST];
         let mut slots = [0; MOST];
         let mut used = 0;
         let smallest = product(&self.last_weighted, &self.last_weighted) / (REACH * REACH);
         for back in 1..=self.known {
             let slot = (self.next + self.most - back) % self.most;
-            if self.products[slot][slot] < smallest {
+            let own = self.products[slot][slot];
+            if own < smallest {
                 continue;
             }
             let mut row = [0.0; MOST];
-            let mut pivot = self.products[slot][slot];
+            let (mut pivot, mut value) = (own, product(&self.changes[slot], &self.last_weighted));
             for k in 0..used {
-                let sum: f64 = (0..k).map(|j| row[j] * lower[k][j]).sum();
-                row[k] = (self.products[slot][slots[k]] - sum) / lower[k][k];
-                pivot -= row[k] * row[k];
+                let mut sum = self.products[slot][slots[k]];
+                for j in 0..k {
+                    sum -= row[j] * inverse[j] * lower[k][j];
+                }
+                row[k] = sum;
+                pivot -= sum * sum * inverse[k];
+                value -= sum * inverse[k] * forward[k];
             }
-            let is_independent = pivot > DEPENDENT * self.products[slot][slot];
-            if !is_independent {
-                continue;
+            if pivot > DEPENDENT * own {
+                lower[used] = row;
+                inverse[used] = 1.0 / pivot;
+                forward[used] = value;
+                slots[used] = slot;
+                used += 1;
             }
-            row[used] = pivot.sqrt();
-            let sum: f64 = (0..used).map(|j| row[j] * forward[j]).sum();
-            forward[used] = (product(&self.changes[slot], &self.last_weighted) - sum) / row[used];
-            lower[used] = row;
-            slots[used] = slot;
-            used += 1;
         }
         for k in (0..used).rev() {
             let sum: f64 = (k + 1..used).map(|j| lower[j][k] * shares[slots[j]]).sum();
-            shares[slots[k]] = (forward[k] - sum) / lower[k][k];
+            shares[slots[k]] = (forward[k] - sum) * inverse[k];
         }
         if shares.iter().all(|share| share.is_finite()) { shares } else { [0.0; MOST] }
     }
@@ -210,16 +226,6 @@ impl pulp::WithSimd for Improve<'_> {
     #[inline(always)]
     fn with_simd<V: pulp::Simd>(self, _: V) {
         self.secants.run(self.corrections);
-    }
-}
-
-#[inline(always)]
-fn gather(stages: &[Vec<f64>], into: &mut [f64]) {
-    let mut into = into;
-    for stage in stages {
-        let (own, others) = into.split_at_mut(stage.len());
-        own.copy_from_slice(stage);
-        into = others;
     }
 }
 
