@@ -175,18 +175,6 @@ struct Gathered {
     violations: [Block; MOST_EQUATIONS],
 }
 
-impl Gathered {
-    fn zeros() -> Self {
-        let zeros = [0.0; WIDTH];
-        Self {
-            changes: [[zeros; 12]; 2],
-            coordinates: [zeros; MOST_COORDINATES],
-            multipliers: [zeros; MOST_EQUATIONS],
-            violations: [zeros; MOST_EQUATIONS],
-        }
-    }
-}
-
 impl<J: Joint> Batch<J> {
     fn new() -> Self {
         Self {
@@ -237,6 +225,12 @@ impl<J: Joint> JointBatch for Batch<J> {
         blocks: Range<usize>,
         add: &mut dyn FnMut(usize, &Results),
     ) {
+        // Analyses that take no steps have none at hand.
+        let mut own = Vec::new();
+        let starts = starts.unwrap_or_else(|| {
+            self.begin(point.increments.start, &mut own);
+            &own
+        });
         self.processor.dispatch(Evaluation { batch: self, wanted, point, starts, blocks, add });
     }
 
@@ -365,9 +359,17 @@ impl Pack {
             let (first, count) = self.equations[lane];
             let own = first as usize..(first + count) as usize;
             let (multipliers, violations) = (&point.multipliers[own.clone()], &point.violations[own]);
-            for k in 0..multipliers.len().min(MOST_EQUATIONS) {
-                gathered.multipliers[k][lane] = multipliers[k];
-                gathered.violations[k][lane] = violations[k];
+            // As many as the kind has at most, in a loop of known length where all are there.
+            if multipliers.len() == J::MOST && violations.len() == J::MOST {
+                for k in 0..J::MOST {
+                    gathered.multipliers[k][lane] = multipliers[k];
+                    gathered.violations[k][lane] = violations[k];
+                }
+            } else {
+                for k in 0..multipliers.len().min(J::MOST) {
+                    gathered.multipliers[k][lane] = multipliers[k];
+                    gathered.violations[k][lane] = violations[k];
+                }
             }
         }
     }
@@ -398,7 +400,7 @@ impl Pack {
         }
         let change = J::violation_change(&moved, &own, &numbers);
         let mut mu = change;
-        for k in 0..MOST_EQUATIONS {
+        for k in 0..J::MOST {
             let violation = part.number(&gathered.violations[k]) + change[k];
             violation.store(&mut out[LOCAL + k], part.index);
             let weight = if k < 3 { weights[0] } else { weights[1] };
@@ -502,7 +504,7 @@ struct Evaluation<'a, J> {
     batch: &'a Batch<J>,
     wanted: Wanted,
     point: &'a Point<'a>,
-    starts: Option<&'a [StartBlock]>,
+    starts: &'a [StartBlock],
     blocks: Range<usize>,
     add: &'a mut dyn FnMut(usize, &Results),
 }
@@ -515,22 +517,27 @@ impl<J: Joint> WithSimd for Evaluation<'_, J> {
         let augmentation = &self.point.augmentation;
         let weights = [Quantity::Length, Quantity::Angle]
             .map(|quantity| augmentation.weight * augmentation.relative(quantity));
-        let mut fresh = StartBlock::zeros();
-        let mut frames = [[[0.0; WIDTH]; 7]; 2];
-        let mut gathered = Gathered::zeros();
         let mut results = [[0.0; WIDTH]; LOCAL + MOST_EQUATIONS];
+        let zeros = [0.0; WIDTH];
+        let mut gathered = Gathered {
+            changes: [[zeros; 12]; 2],
+            coordinates: [zeros; MOST_COORDINATES],
+            multipliers: [zeros; MOST_EQUATIONS],
+            violations: [zeros; MOST_EQUATIONS],
+        };
         for block in self.blocks {
             let pack = &self.batch.packs[block];
-            let start = if let Some(starts) = self.starts {
-                &starts[block]
-            } else {
-                pack.begin::<J, S>(simd, self.point.increments.start, &mut frames, &mut fresh);
-                &fresh
-            };
             pack.gather::<J>(self.point, &mut gathered);
             for index in 0..Lanes::<S>::PARTS {
                 let part = Part { simd, index };
-                pack.evaluate::<J, S>(part, self.wanted, weights, start, &gathered, &mut results);
+                pack.evaluate::<J, S>(
+                    part,
+                    self.wanted,
+                    weights,
+                    &self.starts[block],
+                    &gathered,
+                    &mut results,
+                );
             }
             (self.add)(block, &results);
         }

@@ -35,6 +35,8 @@ pub struct Distance {
 }
 
 impl Joint for Distance {
+    const MOST: usize = 1;
+
     fn equations(&self) -> &'static [&'static str] {
         &["distance"]
     }

@@ -152,6 +152,8 @@ pub fn equation_quantity(equation: usize) -> Quantity {
 pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// Its algebraic coordinates.
     const COORDINATES: &'static [Coordinate] = &[];
+    /// Most equations that a joint of the kind has; what is said of further ones is not looked at.
+    const MOST: usize = MOST_EQUATIONS;
 
     /// Name of each equation.
     fn equations(&self) -> &'static [&'static str];

@@ -27,6 +27,8 @@ pub const KIND: JointKind = JointKind {
 pub struct Spherical;
 
 impl Joint for Spherical {
+    const MOST: usize = 3;
+
     fn equations(&self) -> &'static [&'static str] {
         &POINT_EQUATIONS
     }

@@ -59,6 +59,7 @@ impl SwingArm {
 
 impl Joint for SwingArm {
     const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
+    const MOST: usize = 3;
 
     fn equations(&self) -> &'static [&'static str] {
         &POINT_EQUATIONS[..self.equations]

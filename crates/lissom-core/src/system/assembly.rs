@@ -16,7 +16,7 @@ use super::threads::Threads;
 use super::{Drive, System};
 use crate::elements::{MOST_UNKNOWNS, Tangents};
 use crate::joints::attached::Increments;
-use crate::joints::blocks::Wanted;
+use crate::joints::blocks::{Results, Wanted};
 use crate::joints::derivatives::{Derivatives, LOCAL, OWN, TIP};
 use crate::joints::{Equations, Quantity};
 
@@ -129,12 +129,7 @@ impl System {
             batch.evaluate(Wanted::All, point, starts, blocks, &mut |block, results| {
                 for (lane, item) in batch.block_items(block).enumerate() {
                     let rows = self.rows_of_joint(batch.indices()[item] as usize);
-                    scatter_lane(&rows[..6], &results[..6], lane, out);
-                    scatter_lane(&rows[TIP..OWN], &results[TIP..OWN], lane, out);
-                    let rest = rows[OWN..].iter().zip(&results[OWN..]);
-                    for (&row, numbers) in rest.filter(|&(&row, _)| row != LOCKED) {
-                        out[row as usize] += numbers[lane];
-                    }
+                    scatter_joint(rows, results, lane, out);
                 }
             });
         }
@@ -279,6 +274,22 @@ impl System {
         out.fill(0.0);
         for drive in &self.drives {
             out[drive.multiplier] = -drive.prescribed.value.first_derivative(at.time);
+        }
+    }
+}
+
+/// Adds one lane of a block's forces and violations.
+fn scatter_joint(rows: &[u32], results: &Results, lane: usize, out: &mut [f64]) {
+    scatter_lane(&rows[..6], &results[..6], lane, out);
+    scatter_lane(&rows[TIP..OWN], &results[TIP..OWN], lane, out);
+    for (&row, force) in rows[OWN..LOCAL].iter().zip(&results[OWN..]).filter(|&(&row, _)| row != LOCKED) {
+        out[row as usize] += force[lane];
+    }
+    // A joint's multipliers follow each other.
+    if let Some(&first) = rows.get(LOCAL) {
+        let violations = &mut out[first as usize..][..rows.len() - LOCAL];
+        for (value, violation) in violations.iter_mut().zip(&results[LOCAL..]) {
+            *value = violation[lane];
         }
     }
 }

@@ -319,6 +319,7 @@ pub(super) fn scatter(rows: &[u32], local: &[f64], out: &mut [f64]) {
 }
 
 /// Adds one lane of a block's forces to the rows that are free, six of a node after six of another.
+#[inline]
 pub(super) fn scatter_lane(rows: &[u32], forces: &[Block], lane: usize, out: &mut [f64]) {
     for (rows, forces) in rows.chunks(6).zip(forces.chunks(6)) {
         // Most nodes have all their freedoms, six rows in a row.
