@@ -17,7 +17,7 @@ use lissom_motion::{
 };
 use pulp::{Simd, WithSimd};
 
-use crate::elements::blocks::{Frames, Part, Screws, gather_frames, gather_twists};
+use crate::elements::blocks::{Frames, Part, Screws, gather_frames, gather_twists, parts, processor_for};
 use crate::schemes::MOST_STAGES;
 use crate::system::{Kinematics, LOCKED, Layout, MotionChange, NodeId};
 
@@ -122,7 +122,7 @@ impl Nodes {
             curvature: [[0.0; WIDTH]; 6],
         };
         let starts = vec![vec![start; blocks.len()]; stages];
-        Self { processor: pulp::Arch::new(), blocks, fixed, starts }
+        Self { processor: processor_for(moving.len()), blocks, fixed, starts }
     }
 
     /// Computes what depends on the start of a step only, for one stage.
@@ -171,8 +171,8 @@ impl NodeBlock {
 
     /// Values by row, zero where there is none.
     #[inline]
-    fn gather(&self, values: &[f64], screws: &mut Screws) {
-        for lane in 0..WIDTH {
+    fn gather(&self, lanes: usize, values: &[f64], screws: &mut Screws) {
+        for lane in 0..lanes.min(WIDTH) {
             if self.consecutive {
                 let first = self.rows[lane][0] as usize;
                 let own = &values[first..first + 6];
@@ -203,11 +203,12 @@ impl WithSimd for Entry<'_> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         for (block, start) in self.blocks.iter().zip(self.starts) {
-            gather_frames(self.start, &block.nodes, &mut start.frame);
-            gather_twists(self.start, &block.nodes, &mut start.twist);
-            block.gather(self.known.rate, &mut start.rate);
-            block.gather(self.known.curvature, &mut start.curvature);
-            for index in 0..Lanes::<S>::PARTS {
+            let (parts, lanes) = parts::<S>(block.count);
+            gather_frames(self.start, &block.nodes[..lanes], &mut start.frame);
+            gather_twists(self.start, &block.nodes[..lanes], &mut start.twist);
+            block.gather(lanes, self.known.rate, &mut start.rate);
+            block.gather(lanes, self.known.curvature, &mut start.curvature);
+            for index in 0..parts {
                 let part = Part { simd, index };
                 let twist = part.screw(&start.twist);
                 let straight = twist.scaled(self.table.ahead);
@@ -240,10 +241,11 @@ impl WithSimd for Travel<'_> {
         let mut places = Places::new();
         let mut increments = [[[0.0; WIDTH]; 6]; MOST_STAGES];
         for (block, start) in self.blocks.iter().zip(self.starts) {
+            let (parts, lanes) = parts::<S>(block.count);
             for stage in 0..self.increments.len() {
-                block.gather(&self.increments[stage], &mut increments[stage]);
+                block.gather(lanes, &self.increments[stage], &mut increments[stage]);
             }
-            for index in 0..Lanes::<S>::PARTS {
+            for index in 0..parts {
                 let part = Part { simd, index };
                 let mut rate = part.screw(&start.rate);
                 let mut curvature = part.screw(&start.curvature);

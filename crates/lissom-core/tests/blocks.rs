@@ -4,7 +4,7 @@ use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::inertia::Inertia;
 use lissom_core::elements::{Element, Tangents};
 use lissom_core::system::{Kinematics, NodeMotion};
-use lissom_motion::{Matrix6, Motion, Vector3, Vector6, WIDTH};
+use lissom_motion::{Block, Matrix6, Motion, Vector3, Vector6, WIDTH};
 
 /// Every level of vector instructions this processor has, and none.
 fn processors() -> Vec<pulp::Arch> {
@@ -74,9 +74,11 @@ fn compare<E: Element>(elements: &[E], at: &Kinematics) {
         });
         assert!(seen >= elements.len());
         // One block alone gives the same bits.
+        let last = elements.len() - (count - 1) * WIDTH;
+        let own = |forces: &[Block]| forces.iter().map(|force| force[..last].to_vec()).collect::<Vec<_>>();
         let (mut all, mut alone) = (Vec::new(), Vec::new());
-        blocks.forces(processor, at, 0..count, &mut |_, forces| all.push(forces.to_vec()));
-        blocks.forces(processor, at, count - 1..count, &mut |_, forces| alone.push(forces.to_vec()));
+        blocks.forces(processor, at, 0..count, &mut |_, forces| all.push(own(forces)));
+        blocks.forces(processor, at, count - 1..count, &mut |_, forces| alone.push(own(forces)));
         assert_eq!(all.last(), alone.last());
     }
 }

@@ -9,7 +9,7 @@ use pulp::{Simd, WithSimd};
 use super::beam::Beam;
 use super::beam_forces::{Constants, forces};
 use super::beam_stiffness::stiffness;
-use super::blocks::{Blocks, Frames, Part, Screws, block_of, gather_frames, gather_twists, nodes_of};
+use super::blocks::{Blocks, Frames, Part, Screws, block_of, gather_frames, gather_twists, nodes_of, parts};
 use crate::system::{Kinematics, NodeId};
 
 /// Beams eight to a block.
@@ -21,6 +21,7 @@ pub(super) struct BeamBlocks<const N: usize> {
 
 /// Eight beams.
 struct BeamBlock<const N: usize> {
+    count: usize,
     nodes: [[NodeId; WIDTH]; N],
     /// Section frames in the nodes' frames, where one differs.
     offsets: Option<Box<[Frames; N]>>,
@@ -62,6 +63,7 @@ impl<const N: usize> BeamBlock<N> {
             .any(|beam| beam.offsets.iter().any(Option::is_some))
             .then(|| Box::new(std::array::from_fn(|i| std::array::from_fn(|k| offset(i, k)))));
         Self {
+            count: beams.len(),
             nodes: std::array::from_fn(|i| nodes_of(beams, |beam| beam.nodes[i])),
             offsets,
             damped: beams.iter().any(Beam::is_damped),
@@ -210,13 +212,14 @@ impl<const N: usize> BeamBlock<N> {
     #[inline(always)]
     fn forces<S: Simd>(&self, simd: S, at: &Kinematics, shapes: &[[f64; N]], scratch: &mut Scratch<N>) {
         let Scratch { frames, twists, results } = scratch;
+        let (parts, lanes) = parts::<S>(self.count);
         for i in 0..N {
-            gather_frames(at, &self.nodes[i], &mut frames[i]);
+            gather_frames(at, &self.nodes[i][..lanes], &mut frames[i]);
             if self.damped {
-                gather_twists(at, &self.nodes[i], &mut twists[i]);
+                gather_twists(at, &self.nodes[i][..lanes], &mut twists[i]);
             }
         }
-        for index in 0..Lanes::<S>::PARTS {
+        for index in 0..parts {
             let part = Part { simd, index };
             let mut sections = [part.frame(&frames[0]); N];
             let mut moving = [part.screw(&twists[0]); N];
@@ -248,7 +251,7 @@ impl<const N: usize> BeamBlock<N> {
         shapes: &[[f64; N]],
         results: &mut [[[Screws; N]; 6]; N],
     ) {
-        for index in 0..Lanes::<S>::PARTS {
+        for index in 0..parts::<S>(self.count).0 {
             let part = Part { simd, index };
             let mut sections = [[part.frame(&frames[0][0]); N]; 2];
             for i in 0..N {

@@ -15,8 +15,8 @@ use crate::system::{Kinematics, NodeId};
 /// All elements of a batch, eight to a block.
 pub trait Blocks: Send + Sync {
     /// Computes the forces of whole blocks and hands each block's to `add`, in order: first the block's number, then
-    /// the forces, local unknown after local unknown. The same elements give the same forces to the last bit,
-    /// whichever blocks are asked for.
+    /// the forces, local unknown after local unknown; in lanes beyond the last element stands anything. The same
+    /// elements give the same forces to the last bit, whichever blocks are asked for.
     fn forces(
         &self,
         processor: pulp::Arch,
@@ -37,6 +37,21 @@ pub trait Blocks: Send + Sync {
     ) -> bool {
         false
     }
+}
+
+/// What evaluates so many elements soonest: vectors, or for one or two, which would leave most lanes empty, none.
+pub(crate) fn processor_for(count: usize) -> pulp::Arch {
+    if count > FEW { pulp::Arch::new() } else { pulp::Arch::Scalar }
+}
+
+/// As many elements take longer in lanes than one after the other.
+const FEW: usize = 2;
+
+/// How many parts of a block hold `count` elements, and how many lanes these parts have.
+#[inline(always)]
+pub(crate) fn parts<S: Simd>(count: usize) -> (usize, usize) {
+    let parts = count.div_ceil(S::F64_LANES);
+    (parts, parts * S::F64_LANES)
 }
 
 /// One number of each element of a block.
@@ -117,10 +132,10 @@ impl<S: Simd> Part<S> {
     }
 }
 
-/// The frames of eight nodes.
+/// The frames of up to eight nodes.
 #[inline]
-pub(crate) fn gather_frames(at: &Kinematics, nodes: &[NodeId; WIDTH], frames: &mut Frames) {
-    for lane in 0..WIDTH {
+pub(crate) fn gather_frames(at: &Kinematics, nodes: &[NodeId], frames: &mut Frames) {
+    for lane in 0..nodes.len().min(WIDTH) {
         let components = Pose::from(&at.nodes[nodes[lane]].frame).components();
         for i in 0..7 {
             frames[i][lane] = components[i];
@@ -128,10 +143,10 @@ pub(crate) fn gather_frames(at: &Kinematics, nodes: &[NodeId; WIDTH], frames: &m
     }
 }
 
-/// The twists of eight nodes.
+/// The twists of up to eight nodes.
 #[inline]
-pub(crate) fn gather_twists(at: &Kinematics, nodes: &[NodeId; WIDTH], twists: &mut Screws) {
-    for lane in 0..WIDTH {
+pub(crate) fn gather_twists(at: &Kinematics, nodes: &[NodeId], twists: &mut Screws) {
+    for lane in 0..nodes.len().min(WIDTH) {
         let twist = &at.nodes[nodes[lane]].twist;
         for i in 0..6 {
             twists[i][lane] = twist[i];
@@ -139,10 +154,10 @@ pub(crate) fn gather_twists(at: &Kinematics, nodes: &[NodeId; WIDTH], twists: &m
     }
 }
 
-/// The accelerations of eight nodes.
+/// The accelerations of up to eight nodes.
 #[inline]
-pub(super) fn gather_accelerations(at: &Kinematics, nodes: &[NodeId; WIDTH], accelerations: &mut Screws) {
-    for lane in 0..WIDTH {
+pub(super) fn gather_accelerations(at: &Kinematics, nodes: &[NodeId], accelerations: &mut Screws) {
+    for lane in 0..nodes.len().min(WIDTH) {
         let acceleration = &at.nodes[nodes[lane]].acceleration;
         for i in 0..6 {
             accelerations[i][lane] = acceleration[i];

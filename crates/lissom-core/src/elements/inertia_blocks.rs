@@ -3,11 +3,12 @@
 
 use std::ops::Range;
 
-use lissom_motion::{Block, Lanes, Screw, Triple, WIDTH};
+use lissom_motion::{Block, Screw, Triple, WIDTH};
 use pulp::{Simd, WithSimd};
 
 use super::blocks::{
     Blocks, Frames, Part, Screws, block_of, gather_accelerations, gather_frames, gather_twists, nodes_of,
+    parts,
 };
 use super::inertia::Inertia;
 use crate::system::{Kinematics, NodeId};
@@ -17,6 +18,7 @@ pub(super) struct InertiaBlocks(Vec<InertiaBlock>);
 
 /// Eight inertias.
 struct InertiaBlock {
+    count: usize,
     nodes: [NodeId; WIDTH],
     /// Row after row.
     mass: [Screws; 6],
@@ -41,6 +43,7 @@ impl InertiaBlock {
     fn new(inertias: &[Inertia]) -> Self {
         let mass = |i: usize, j: usize| block_of(inertias, |inertia| inertia.mass()[(i, j)]);
         Self {
+            count: inertias.len(),
             nodes: nodes_of(inertias, Inertia::node),
             mass: std::array::from_fn(|i| std::array::from_fn(|j| mass(i, j))),
             gravity: std::array::from_fn(|i| block_of(inertias, |inertia| inertia.gravity[i])),
@@ -50,10 +53,11 @@ impl InertiaBlock {
     #[inline(always)]
     fn forces<S: Simd>(&self, simd: S, at: &Kinematics, scratch: &mut Scratch) {
         let Scratch { frames, twists, accelerations, results } = scratch;
-        gather_frames(at, &self.nodes, frames);
-        gather_twists(at, &self.nodes, twists);
-        gather_accelerations(at, &self.nodes, accelerations);
-        for index in 0..Lanes::<S>::PARTS {
+        let (parts, lanes) = parts::<S>(self.count);
+        gather_frames(at, &self.nodes[..lanes], frames);
+        gather_twists(at, &self.nodes[..lanes], twists);
+        gather_accelerations(at, &self.nodes[..lanes], accelerations);
+        for index in 0..parts {
             let part = Part { simd, index };
             let [x, y, z] = &self.gravity;
             let gravity = Triple::new(part.number(x), part.number(y), part.number(z));

@@ -15,7 +15,7 @@ use super::attached::AttachedJoint;
 use super::derivatives::{Derivatives, LOCAL, OWN, TIP};
 use super::moved::{Angle, Axes, FrameChange, Moved, OwnMoved};
 use super::{Equations, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Quantity, equation_quantity};
-use crate::elements::blocks::{Frames, Part, gather_frames};
+use crate::elements::blocks::{Frames, Part, gather_frames, parts, processor_for};
 use crate::system::{Chart, Kinematics, Point};
 
 /// Forces on the local unknowns and violations of eight joints, in the order of a joint's rows.
@@ -154,6 +154,7 @@ struct Batch<J> {
 
 /// What is constant of eight joints.
 struct Pack {
+    count: usize,
     /// Base and tip node.
     nodes: [[usize; WIDTH]; 2],
     /// Base and tip joint frame in the nodes' frames.
@@ -266,6 +267,7 @@ impl<J: Joint> JointBatch for Batch<J> {
     }
 
     fn pack(&mut self, joints: &[AttachedJoint]) {
+        self.processor = processor_for(self.joints.len());
         let of = |chunk: &[u32], lane: usize| &joints[chunk[lane.min(chunk.len() - 1)] as usize];
         let numbers: Vec<[f64; MOST_NUMBERS]> = self.joints.iter().map(Joint::numbers).collect();
         self.packs = self
@@ -283,6 +285,7 @@ impl<J: Joint> JointBatch for Batch<J> {
                     .flat_map(|joint| &joint.frames)
                     .any(|frame| frame.offset.rotation != lissom_motion::Rotation::IDENTITY);
                 Pack {
+                    count: chunk.len(),
                     nodes: [0, 1].map(|side| all.map(|joint| joint.frames[side].node)),
                     offsets,
                     is_turned,
@@ -312,9 +315,10 @@ impl Pack {
         frames: &mut [Frames; 2],
         out: &mut StartBlock,
     ) {
-        gather_frames(start, &self.nodes[0], &mut frames[0]);
-        gather_frames(start, &self.nodes[1], &mut frames[1]);
-        for index in 0..Lanes::<S>::PARTS {
+        let (parts, lanes) = parts::<S>(self.count);
+        gather_frames(start, &self.nodes[0][..lanes], &mut frames[0]);
+        gather_frames(start, &self.nodes[1][..lanes], &mut frames[1]);
+        for index in 0..parts {
             let part = Part { simd, index };
             let base = part.frame(&frames[0]) * part.frame(&self.offsets[0]);
             let tip = part.frame(&frames[1]) * part.frame(&self.offsets[1]);
@@ -327,7 +331,7 @@ impl Pack {
         }
         for k in 0..J::COORDINATES.len() {
             if J::COORDINATES[k].quantity == Quantity::Angle {
-                for lane in 0..WIDTH {
+                for lane in 0..self.count {
                     let value = start.coordinates[self.coordinates[k][lane] as usize].value;
                     (out.angles[k][0][lane], out.angles[k][1][lane]) = value.sin_cos();
                 }
@@ -336,9 +340,9 @@ impl Pack {
     }
 
     #[inline(always)]
-    fn gather<J: Joint>(&self, point: &Point<'_>, gathered: &mut Gathered) {
+    fn gather<J: Joint>(&self, lanes: usize, point: &Point<'_>, gathered: &mut Gathered) {
         for side in 0..2 {
-            for lane in 0..WIDTH {
+            for lane in 0..lanes {
                 let change = &point.increments.nodes[self.nodes[side][lane]];
                 let turn = change.turn.as_slice();
                 for k in 0..9 {
@@ -350,12 +354,12 @@ impl Pack {
             }
         }
         for k in 0..J::COORDINATES.len() {
-            for lane in 0..WIDTH {
+            for lane in 0..lanes {
                 gathered.coordinates[k][lane] =
                     point.increments.coordinates[self.coordinates[k][lane] as usize];
             }
         }
-        for lane in 0..WIDTH {
+        for lane in 0..lanes {
             let (first, count) = self.equations[lane];
             let own = first as usize..(first + count) as usize;
             let (multipliers, violations) = (&point.multipliers[own.clone()], &point.violations[own]);
@@ -527,8 +531,9 @@ impl<J: Joint> WithSimd for Evaluation<'_, J> {
         };
         for block in self.blocks {
             let pack = &self.batch.packs[block];
-            pack.gather::<J>(self.point, &mut gathered);
-            for index in 0..Lanes::<S>::PARTS {
+            let (parts, lanes) = parts::<S>(pack.count);
+            pack.gather::<J>(lanes, self.point, &mut gathered);
+            for index in 0..parts {
                 let part = Part { simd, index };
                 pack.evaluate::<J, S>(
                     part,

@@ -11,7 +11,7 @@ use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
 use super::state::{Kinematics, NodeMotion};
 use super::threads::Threads;
-use crate::elements::blocks::Blocks;
+use crate::elements::blocks::{Blocks, processor_for};
 use crate::elements::passage::{Passage, STAGES, Variation};
 use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
 use crate::joints::derivatives::IncrementTangent;
@@ -152,6 +152,7 @@ impl<E: Element> AnyBatch for Batch<E> {
             self.starts.push(self.rows.len());
         }
         self.blocks = E::blocks(&self.items);
+        self.processor = processor_for(self.items.len());
     }
 
     fn locate(&mut self, pattern: &Pattern) {
