@@ -57,7 +57,7 @@ impl Default for Limits {
 pub struct Memory {
     /// Whether there is a factored tangent that may still serve.
     pub has_tangent: bool,
-    /// Contraction from the first to the second correction, last seen with this tangent.
+    /// Worst contraction of the last solution with this tangent in which it was seen.
     contraction: Option<f64>,
     /// Size of correction at which iterations have stalled for round-off [-].
     round_off: f64,
@@ -135,11 +135,14 @@ pub enum Failure {
 }
 
 /// What a new tangent costs, in iterations.
-const TANGENT_COST: f64 = 15.0;
+const TANGENT_COST: f64 = 25.0;
 /// A tangent is renewed within a solution when it would still need more iterations than this.
 const PATIENCE: f64 = 8.0;
 /// Weight of the last solution in what solutions cost lately.
-const NOVELTY: f64 = 0.1;
+const NOVELTY: f64 = 0.05;
+/// Where a solution is believed in without having seen its contraction, the error is to be this part of what is allowed:
+/// many such solutions in a row all err to the same side.
+const UNSEEN: f64 = 0.1;
 /// A contraction that has not been seen for a solution is trusted this much less.
 const DISTRUST: f64 = 3.0;
 /// The best contraction that is remembered: a last correction that happens to vanish says nothing about the
@@ -147,7 +150,7 @@ const DISTRUST: f64 = 3.0;
 const BEST_REMEMBERED: f64 = 1e-3;
 /// A better contraction than this is not believed of a tangent made for another solution: the largest part of
 /// a correction may vanish at once and hide a small part that shrinks slowly.
-const CREDIBLE: f64 = 0.03;
+const CREDIBLE: f64 = 0.05;
 /// A correction is halved at most this often.
 const MOST_HALVINGS: usize = 12;
 /// Corrections that shrink by less than this are round-off, once they are small.
@@ -289,18 +292,20 @@ fn judge(
             return Verdict::Converged;
         }
         if let Some(contraction) = memory.contraction
-            && remaining(contraction) * size <= goal
+            && remaining(contraction) * size <= UNSEEN * goal
         {
             memory.contraction = Some(DISTRUST * contraction);
             return Verdict::Converged;
         }
+        // It will be seen anew.
+        memory.contraction = None;
         return Verdict::Go;
     };
     let contraction = size / previous;
     memory.contraction = Some(memory.contraction.map_or(contraction, |known| known.max(contraction)));
     let credible = if fresh { contraction } else { contraction.max(CREDIBLE) };
     if remaining(credible) * size <= goal {
-        memory.contraction = Some(contraction.max(BEST_REMEMBERED));
+        memory.contraction = memory.contraction.map(|worst| worst.max(BEST_REMEMBERED));
         return Verdict::Converged;
     }
     let round_off = (ROUND_OFF * limits.tolerance).clamp(ROUND_OFF_WITHIN.0, ROUND_OFF_WITHIN.1);
