@@ -140,9 +140,9 @@ const TANGENT_COST: f64 = 25.0;
 const PATIENCE: f64 = 8.0;
 /// Weight of the last solution in what solutions cost lately.
 const NOVELTY: f64 = 0.05;
-/// Where a solution is believed in without having seen its contraction, the error is to be this part of what is allowed:
-/// many such solutions in a row all err to the same side.
-const UNSEEN: f64 = 0.1;
+/// Where a solution is believed in without having seen its contraction, the error is to be this part of what is
+/// allowed: many such solutions in a row all err to the same side.
+const UNSEEN: f64 = 0.02;
 /// A contraction that has not been seen for a solution is trusted this much less.
 const DISTRUST: f64 = 3.0;
 /// The best contraction that is remembered: a last correction that happens to vanish says nothing about the
