@@ -1,13 +1,19 @@
-//! Refactorisation and solve of chains, trees and grids, by solver and number of unknowns.
+//! Refactorisation and solve of chains, beams, trees and grids, by solver and number of unknowns.
 //!
 //! `LISSOM_BENCH_LARGE=1` adds 200 000 unknowns. Skyline is left out where its profile makes it hopeless.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
 use lissom_solver::kind;
-use lissom_solver::samples::{Model, chain, grid, right_hand_side, tree};
+use lissom_solver::samples::{Model, chain, grid, right_hand_side, spherical_chain, tree, two_node_beam};
 
 type Family = (&'static str, fn(usize) -> Model);
-const FAMILIES: [Family; 3] = [("chain", chain), ("tree", tree), ("grid", grid)];
+const FAMILIES: [Family; 5] = [
+    ("chain", chain),
+    ("tree", tree),
+    ("grid", grid),
+    ("spherical chain", spherical_chain),
+    ("beam", two_node_beam),
+];
 const SOLVERS: [&str; 3] = ["sparse", "skyline", "pivoting"];
 
 fn sizes() -> Vec<usize> {
@@ -19,7 +25,7 @@ fn sizes() -> Vec<usize> {
 }
 
 fn is_hopeless(solver: &str, family: &str, size: usize) -> bool {
-    solver == "skyline" && family != "chain" && size > 2_000
+    solver == "skyline" && ["tree", "grid"].contains(&family) && size > 2_000
 }
 
 fn factorisation(criterion: &mut Criterion) {

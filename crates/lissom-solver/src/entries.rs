@@ -8,8 +8,13 @@ use crate::scalar::Scalar;
 ///
 /// # Errors
 /// [`FactorError::NotFinite`] with the column of the first value that is not finite.
-#[inline(always)]
 pub(crate) fn largest_entry<S: Scalar>(pattern: &Pattern, values: &[S]) -> Result<f64, FactorError> {
+    largest_magnitude(values).ok_or_else(|| first_not_finite(pattern, values))
+}
+
+/// Largest magnitude, if all values are finite.
+#[inline(always)]
+pub(crate) fn largest_magnitude<S: Scalar>(values: &[S]) -> Option<f64> {
     const LANES: usize = 32;
     let mut largest = [0.0_f64; LANES];
     // Zero times a finite number is zero, and anything else is not.
@@ -28,13 +33,14 @@ pub(crate) fn largest_entry<S: Scalar>(pattern: &Pattern, values: &[S]) -> Resul
         largest[lane] = if magnitude > largest[lane] { magnitude } else { largest[lane] };
     }
     if probe.iter().all(|&probe| probe == 0.0) {
-        return Ok(largest.iter().fold(0.0, |largest, &lane| largest.max(lane)));
+        return Some(largest.iter().fold(0.0, |largest, &lane| largest.max(lane)));
     }
-    Err(first_not_finite(pattern, values))
+    None
 }
 
+/// Names the column of the first value that is not finite.
 #[cold]
-fn first_not_finite<S: Scalar>(pattern: &Pattern, values: &[S]) -> FactorError {
+pub(crate) fn first_not_finite<S: Scalar>(pattern: &Pattern, values: &[S]) -> FactorError {
     let entry = values.iter().position(|value| !value.magnitude().is_finite()).unwrap_or(0);
     let unknown = pattern.column_starts().partition_point(|&start| start <= entry) - 1;
     FactorError::NotFinite { unknown }

@@ -85,6 +85,17 @@ impl Monitor {
         Err(refusal(unknown, pivot, terms))
     }
 
+    /// Takes note of what another monitor has seen.
+    pub(crate) fn join(&mut self, other: &Monitor) {
+        if other.smallest.0 < self.smallest.0 {
+            self.smallest = other.smallest;
+        }
+        self.largest = self.largest.max(other.largest);
+        if other.cancellation.0 < self.cancellation.0 {
+            self.cancellation = other.cancellation;
+        }
+    }
+
     pub(crate) fn report(&self, largest_upper: f64, largest_entry: f64) -> FactorReport {
         let growth = if largest_entry > 0.0 { largest_upper / largest_entry } else { 0.0 };
         FactorReport {

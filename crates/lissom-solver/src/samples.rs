@@ -222,6 +222,32 @@ pub fn tree(unknowns: usize) -> Model {
     model
 }
 
+/// Rigid bodies in a row on spherical joints, the first one held.
+pub fn spherical_chain(unknowns: usize) -> Model {
+    let mut model = Model::default();
+    let mut last = None;
+    while model.size + 9 <= unknowns.max(9) {
+        let next = model.node();
+        model.element(&[next]);
+        let hosts: Vec<usize> = last.into_iter().chain([next]).collect();
+        model.constrain(&hosts, 3);
+        last = Some(next);
+    }
+    model
+}
+
+/// Beams of two nodes in a row.
+pub fn two_node_beam(unknowns: usize) -> Model {
+    let mut model = Model::default();
+    let mut last = model.node();
+    while model.size + 6 <= unknowns.max(12) {
+        let next = model.node();
+        model.element(&[last, next]);
+        last = next;
+    }
+    model
+}
+
 /// A plane frame of beams of two nodes.
 pub fn grid(unknowns: usize) -> Model {
     let side = ((unknowns as f64 / 6.0).sqrt().round() as usize).max(2);

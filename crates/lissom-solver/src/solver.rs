@@ -39,6 +39,11 @@ pub trait LinearSolver<S: Scalar>: Send {
 
     /// Count of stored numbers in L and U.
     fn factor_entries(&self) -> usize;
+
+    /// Lets that many threads share the work where it is large enough for that to pay: not before this has been called,
+    /// and not with solvers that know of one thread only. Results do not depend on it, not by a bit. To wake threads
+    /// allocates a little.
+    fn set_threads(&mut self, _threads: usize) {}
 }
 
 /// A kind of solver: one line in [`KINDS`].

@@ -126,6 +126,7 @@ impl Simulation {
         let mut work =
             Workspace::new(&system, &state, &settings.scheme, &representative, settings.solver, equilibrated);
         work.threads = Threads::new(&system, settings.threads);
+        work.factorization.set_threads(settings.threads);
         work.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
         let projection = settings
             .scheme

@@ -32,6 +32,14 @@ impl Factorization {
         }
     }
 
+    /// Lets so many threads share factorisations and solves that are large enough.
+    pub(crate) fn set_threads(&mut self, threads: usize) {
+        match self {
+            Self::Single { solver, .. } => solver.set_threads(threads),
+            Self::Pair { solver, .. } => solver.set_threads(threads),
+        }
+    }
+
     /// Stored numbers of the factors.
     pub(crate) fn entries(&self) -> usize {
         match self {

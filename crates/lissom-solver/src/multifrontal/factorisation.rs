@@ -3,7 +3,10 @@
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use super::fronts::{Child, Front, Run, Symbolic};
+use std::ops::Range;
+
+use super::elimination_tree::NONE;
+use super::fronts::{Child, Front, Part, Run, Symbolic};
 use super::kernels::{absolute_products, solve_panel, subtract_product};
 use super::square::SquareWork;
 use crate::pattern::Pattern;
@@ -17,62 +20,224 @@ const STRIP: usize = 24;
 /// Numbers of the last factorisation, and room to make the next.
 pub(super) struct Numeric<S> {
     pub(super) factors: Vec<S>,
-    stacks: [Vec<S>; 2],
-    square: SquareWork<S>,
-    /// D by step, and `L21 D` of the front at hand: of symmetric matrices only.
+    /// D by step: of symmetric matrices only.
     pub(super) pivots: Vec<S>,
-    scaled: Vec<S>,
     /// By step, the sum of the magnitudes of what the diagonal has been made of so far.
     terms: Vec<f64>,
-    front_terms: Vec<f64>,
+    /// One for each part.
+    benches: Vec<Bench<S>>,
+    /// By step, the entry on the diagonal.
     diagonal: Vec<u32>,
+}
+
+/// What a part needs for itself.
+struct Bench<S> {
+    stacks: [Vec<S>; 2],
+    square: SquareWork<S>,
+    /// `L21 D` of the front at hand: of symmetric matrices only.
+    scaled: Vec<S>,
+    front_terms: Vec<f64>,
+    outcome: Result<(Monitor, f64), FactorError>,
+}
+
+/// The numbers of some parts, in order.
+pub(super) struct Share<'a, S> {
+    pub(super) parts: &'a [Part],
+    factors: &'a mut [S],
+    pivots: &'a mut [S],
+    terms: &'a mut [f64],
+    benches: &'a mut [Bench<S>],
+}
+
+impl<'a, S> Share<'a, S> {
+    /// The first so many parts, and the others.
+    pub(super) fn split(self, count: usize) -> (Share<'a, S>, Share<'a, S>) {
+        let (parts, other_parts) = self.parts.split_at(count);
+        let factors: usize = parts.iter().map(|part| part.factors.len()).sum();
+        let steps: usize = parts.iter().map(|part| part.steps.len()).sum();
+        let (factors, other_factors) = self.factors.split_at_mut(factors);
+        let (pivots, other_pivots) = self.pivots.split_at_mut(steps.min(self.pivots.len()));
+        let (terms, other_terms) = self.terms.split_at_mut(steps);
+        let (benches, other_benches) = self.benches.split_at_mut(count);
+        (
+            Share { parts, factors, pivots, terms, benches },
+            Share {
+                parts: other_parts,
+                factors: other_factors,
+                pivots: other_pivots,
+                terms: other_terms,
+                benches: other_benches,
+            },
+        )
+    }
 }
 
 impl<S: Scalar> Numeric<S> {
     pub(super) fn new<const SYMMETRIC: bool>(symbolic: &Symbolic, pattern: &Pattern) -> Self {
         let on_diagonal = |&unknown: &u32| {
-            let unknown = unknown as usize;
-            pattern.position(unknown, unknown).expect("the diagonal is in the pattern") as u32
+            pattern.position(unknown as usize, unknown as usize).map_or(NONE, |at| at as u32)
         };
         let steps = symbolic.unknowns.len();
-        let largest_panel = symbolic.fronts.iter().map(Front::panel_length).max().unwrap_or(0);
         let of_symmetric = |length| vec![S::zero(); if SYMMETRIC { length } else { 0 }];
+        let bench = |part: &Part| Bench {
+            stacks: part.stack_lengths.map(|length| vec![S::zero(); length]),
+            square: SquareWork::new(part.largest_pivots),
+            scaled: of_symmetric(part.largest_panel),
+            front_terms: vec![0.0; super::fronts::padded(part.largest_boundary)],
+            outcome: Ok((Monitor::new(), 0.0)),
+        };
         Numeric {
             factors: vec![S::zero(); symbolic.factor_length],
-            stacks: symbolic.stack_lengths.map(|length| vec![S::zero(); length]),
-            square: SquareWork::new(symbolic.largest_pivots),
             pivots: of_symmetric(steps),
-            scaled: of_symmetric(largest_panel),
             terms: vec![0.0; steps],
-            front_terms: vec![0.0; super::fronts::padded(symbolic.largest_boundary)],
+            benches: symbolic.parts.iter().map(bench).collect(),
             diagonal: symbolic.unknowns.iter().map(on_diagonal).collect(),
         }
     }
 
+    /// The subtrees, and the entries on the diagonal.
+    pub(super) fn subtrees<'a>(&'a mut self, symbolic: &'a Symbolic) -> (Share<'a, S>, &'a [u32]) {
+        let all = Share {
+            parts: &symbolic.parts,
+            factors: &mut self.factors,
+            pivots: &mut self.pivots,
+            terms: &mut self.terms,
+            benches: &mut self.benches,
+        };
+        (all.split(symbolic.parts.len() - 1).0, &self.diagonal)
+    }
+
+    /// Factors the top, when all subtrees are done; returns the monitor and the largest magnitude in U.
+    pub(super) fn factor_top<const SYMMETRIC: bool>(
+        &mut self,
+        processor: pulp::Arch,
+        symbolic: &Symbolic,
+        values: &[S],
+    ) -> Result<(Monitor, f64), FactorError> {
+        let (top, subtrees) = symbolic.parts.split_last().expect("there always is a top");
+        let (terms_below, terms) = self.terms.split_at_mut(top.steps.start);
+        let (below, benches) = self.benches.split_at_mut(subtrees.len());
+        begin_terms(terms, &self.diagonal[top.steps.clone()], values);
+        let (mut monitor, mut largest) = (Monitor::new(), 0.0);
+        for (part, bench) in subtrees.iter().zip(&*below) {
+            for (&step, &term) in part.outside.iter().zip(&terms_below[part.places.clone()]) {
+                terms[step as usize - top.steps.start] += term;
+            }
+            let (of_part, largest_of_part) = bench.outcome?;
+            monitor.join(&of_part);
+            largest = f64::max(largest, largest_of_part);
+        }
+        let work = Work {
+            part: top,
+            factors: &mut self.factors[top.factors.clone()],
+            pivots: if SYMMETRIC { &mut self.pivots[top.steps.clone()] } else { &mut [] },
+            terms,
+            bench: &mut benches[0],
+            below,
+        };
+        let (of_top, largest_of_top) =
+            processor.dispatch(FactorPart::<S, SYMMETRIC> { symbolic, values, work })?;
+        monitor.join(&of_top);
+        Ok((monitor, f64::max(largest, largest_of_top)))
+    }
+}
+
+/// What the diagonal is made of to begin with.
+fn begin_terms<S: Scalar>(terms: &mut [f64], diagonal: &[u32], values: &[S]) {
+    for (terms, &entry) in terms.iter_mut().zip(diagonal) {
+        *terms = values.get(entry as usize).map_or(0.0, |value| value.magnitude());
+    }
+}
+
+impl<S: Scalar> Share<'_, S> {
+    /// Factors subtrees, one after the other; the benches keep the outcomes.
+    pub(super) fn factor<const SYMMETRIC: bool>(
+        self,
+        processor: pulp::Arch,
+        symbolic: &Symbolic,
+        values: &[S],
+        diagonal: &[u32],
+    ) {
+        let mut rest = self;
+        while let Some(part) = rest.parts.first() {
+            let own;
+            (own, rest) = rest.split(1);
+            let Share { factors, pivots, terms, benches, .. } = own;
+            begin_terms(terms, &diagonal[part.steps.clone()], values);
+            let work = Work { part, factors, pivots, terms, bench: &mut benches[0], below: &[] };
+            let outcome = processor.dispatch(FactorPart::<S, SYMMETRIC> { symbolic, values, work });
+            benches[0].outcome = outcome;
+        }
+    }
+}
+
+/// A part, by LU or LDLᵀ; gives the monitor and the largest magnitude in U.
+struct FactorPart<'a, S, const SYMMETRIC: bool> {
+    symbolic: &'a Symbolic,
+    values: &'a [S],
+    work: Work<'a, S>,
+}
+
+impl<S: Scalar, const SYMMETRIC: bool> pulp::WithSimd for FactorPart<'_, S, SYMMETRIC> {
+    type Output = Result<(Monitor, f64), FactorError>;
+
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) -> Self::Output {
+        let FactorPart { symbolic, values, mut work } = self;
+        // Two vectors of rows, of real or of complex numbers summed twice: twelve sums for six columns. With four
+        // lanes or more the processor multiplies and adds in one instruction.
+        if V::F64_LANES == 8 && !S::COMPLEX {
+            work.factor::<true, 16, SYMMETRIC>(symbolic, values)
+        } else if V::F64_LANES == 4 && !S::COMPLEX {
+            work.factor::<true, 8, SYMMETRIC>(symbolic, values)
+        } else if V::F64_LANES >= 4 {
+            work.factor::<true, 4, SYMMETRIC>(symbolic, values)
+        } else {
+            work.factor::<false, 4, SYMMETRIC>(symbolic, values)
+        }
+    }
+}
+
+/// The numbers of a part at work.
+struct Work<'a, S> {
+    part: &'a Part,
+    factors: &'a mut [S],
+    pivots: &'a mut [S],
+    terms: &'a mut [f64],
+    bench: &'a mut Bench<S>,
+    below: &'a [Bench<S>],
+}
+
+impl<S: Scalar> Work<'_, S> {
     /// Factors; returns the monitor and the largest magnitude in U.
     #[inline(always)]
-    pub(super) fn factor<const FUSED: bool, const ROWS: usize, const SYMMETRIC: bool>(
+    fn factor<const FUSED: bool, const ROWS: usize, const SYMMETRIC: bool>(
         &mut self,
         symbolic: &Symbolic,
         values: &[S],
     ) -> Result<(Monitor, f64), FactorError> {
-        for (terms, &entry) in self.terms.iter_mut().zip(&self.diagonal) {
-            *terms = values[entry as usize].magnitude();
-        }
         let mut monitor = Monitor::new();
         let mut largest = 0.0_f64;
-        for front in &symbolic.fronts {
+        for front in &symbolic.fronts[self.part.fronts.clone()] {
             self.assemble::<SYMMETRIC>(symbolic, front, values);
             largest = largest.max(self.eliminate::<FUSED, ROWS, SYMMETRIC>(symbolic, front, &mut monitor)?);
         }
         Ok((monitor, largest))
     }
 
+    /// Where the pieces of a front lie among the factors of its part.
+    #[inline(always)]
+    fn range(&self, front: &Front) -> Range<usize> {
+        let range = front.factor_range();
+        range.start - self.part.factors.start..range.end - self.part.factors.start
+    }
+
     /// Entries of the matrix and the children's contributions to the pivots. The square of a symmetric matrix is
     /// completed from its lower triangle.
     #[inline(always)]
     fn assemble<const SYMMETRIC: bool>(&mut self, symbolic: &Symbolic, front: &Front, values: &[S]) {
-        let pieces = &mut self.factors[front.factor_range()];
+        let range = self.range(front);
+        let pieces = &mut self.factors[range];
         pieces.fill(S::zero());
         let sources = &symbolic.sources[front.entries.clone()];
         for (&source, &target) in sources.iter().zip(&symbolic.targets[front.entries.clone()]) {
@@ -81,9 +246,9 @@ impl<S: Scalar> Numeric<S> {
         let (square, panels) = pieces.split_at_mut(front.square_length());
         let (lower, upper) = panels.split_at_mut(front.panel_length());
         let stride = front.square_stride();
-        let stack = &self.stacks[1 - front.stack];
         for child in &symbolic.children[front.children.clone()] {
-            let contribution = &stack[child.contribution.clone()];
+            let stacks = self.below.get(child.part).map_or(&self.bench.stacks, |other| &other.stacks);
+            let contribution = &stacks[1 - front.stack][child.contribution.clone()];
             let pivot_runs = &symbolic.runs[child.to_pivots.clone()];
             let boundary_runs = &symbolic.runs[child.to_boundary.clone()];
             add_columns(lower, front.panel_stride(), contribution, child, boundary_runs, pivot_runs);
@@ -111,15 +276,18 @@ impl<S: Scalar> Numeric<S> {
         monitor: &mut Monitor,
     ) -> Result<f64, FactorError> {
         let (pivots, boundary) = (front.pivots, front.boundary);
-        let steps = front.first..front.first + pivots;
-        let pieces = &mut self.factors[front.factor_range()];
+        let first = front.first - self.part.steps.start;
+        let steps = first..first + pivots;
+        let unknowns = &symbolic.unknowns[front.first..front.first + pivots];
+        let range = self.range(front);
+        let bench = &mut *self.bench;
+        let pieces = &mut self.factors[range];
         let (square, panels) = pieces.split_at_mut(front.square_length());
         let (lower, upper) = panels.split_at_mut(front.panel_length());
-        self.square.terms[..pivots].copy_from_slice(&self.terms[steps.clone()]);
-        let unknowns = &symbolic.unknowns[steps.clone()];
-        let mut largest = self.square.factor::<FUSED, ROWS>(square, unknowns, monitor)?;
+        bench.square.terms[..pivots].copy_from_slice(&self.terms[steps.clone()]);
+        let mut largest = bench.square.factor::<FUSED, ROWS>(square, unknowns, monitor)?;
         if SYMMETRIC {
-            for (pivot, &reciprocal) in self.pivots[steps.clone()].iter_mut().zip(&self.square.reciprocals) {
+            for (pivot, &reciprocal) in self.pivots[steps.clone()].iter_mut().zip(&bench.square.reciprocals) {
                 *pivot = S::one() / reciprocal;
             }
         }
@@ -128,27 +296,26 @@ impl<S: Scalar> Numeric<S> {
         }
 
         let (stride, square_stride) = (front.panel_stride(), front.square_stride());
-        let reciprocals = Some(&self.square.reciprocals[..pivots]);
-        let transposed = (&self.square.transposed[..], square_stride);
+        let reciprocals = Some(&bench.square.reciprocals[..pivots]);
+        let transposed = (&bench.square.transposed[..], square_stride);
         solve_panel::<S, FUSED, ROWS>((lower, stride), transposed, reciprocals, pivots, stride);
         let upper: &[S] = if SYMMETRIC {
-            let scaled = &mut self.scaled[..front.panel_length()];
+            let scaled = &mut bench.scaled[..front.panel_length()];
             scale_columns(scaled, lower, stride, &self.pivots[steps]);
             scaled
         } else {
             solve_panel::<S, FUSED, ROWS>((upper, stride), (square, square_stride), None, pivots, stride);
             upper
         };
-        let terms = &mut self.front_terms[..stride];
+        let terms = &mut bench.front_terms[..stride];
         terms.fill(0.0);
         largest = largest.max(absolute_products(terms, (lower, upper), stride, (stride, pivots)));
-        for (&step, &term) in symbolic.boundaries[front.rows.clone()].iter().zip(&*terms) {
-            self.terms[step as usize] += term;
+        for (&place, &term) in symbolic.places[front.rows.clone()].iter().zip(&*terms) {
+            self.terms[place as usize] += term;
         }
 
-        let (first, second) = self.stacks.split_at_mut(1);
-        let (own, others) =
-            if front.stack == 0 { (&mut first[0], &second[0]) } else { (&mut second[0], &first[0]) };
+        let (even, odd) = bench.stacks.split_at_mut(1);
+        let (own, others) = if front.stack == 0 { (&mut even[0], &odd[0]) } else { (&mut odd[0], &even[0]) };
         let contribution = &mut own[front.contribution_range()];
         let strip = if SYMMETRIC { STRIP } else { boundary };
         for begin in (0..boundary).step_by(strip) {
@@ -161,7 +328,8 @@ impl<S: Scalar> Numeric<S> {
         }
         for child in &symbolic.children[front.children.clone()] {
             let runs = &symbolic.runs[child.to_boundary.clone()];
-            let of_child = &others[child.contribution.clone()];
+            let stack = self.below.get(child.part).map_or(others, |other| &other.stacks[1 - front.stack]);
+            let of_child = &stack[child.contribution.clone()];
             if SYMMETRIC {
                 add_lower(contribution, stride, of_child, child, runs);
             } else {

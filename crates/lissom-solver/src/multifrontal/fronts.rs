@@ -6,11 +6,16 @@
 //! `U12ᵀ` (`k` columns of `b` rows each). Columns are padded with zeros to a multiple of [`PADDING`] rows. What it
 //! contributes to its parent is a square of `b` columns in one of two stacks: a front's children leave theirs
 //! in one stack, the front its own in the other.
+//!
+//! Fronts come in parts, subtrees first and the top last, which share nothing: each has its own stacks, and after its own
+//! steps places for what its fronts have to say about unknowns outside, those on the boundary of its root. What lies there is
+//! added to the top when all subtrees are done.
 
 use std::ops::Range;
 
-use super::elimination_tree::EliminationTree;
-use super::supernodes::supernodes;
+use super::elimination_tree::{EliminationTree, NONE};
+use super::subtrees;
+use super::supernodes::{Supernode, supernodes};
 use crate::ordering::{GroupGraph, minimum_degree_order};
 use crate::structure::Structure;
 
@@ -67,6 +72,8 @@ impl Front {
 /// A child's contribution: where it lies and where it goes.
 #[derive(Clone, Debug)]
 pub(super) struct Child {
+    /// The part it is in.
+    pub(super) part: usize,
     pub(super) contribution: Range<usize>,
     pub(super) stride: usize,
     /// Its runs in [`Symbolic::runs`] that go to pivots of the parent, and those that go to its boundary.
@@ -83,14 +90,46 @@ pub(super) struct Run {
     pub(super) length: u32,
 }
 
+/// A subtree, or the top: what one thread works at.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Part {
+    pub(super) fronts: Range<usize>,
+    /// Its steps, places for the outside included.
+    pub(super) steps: Range<usize>,
+    /// Those places, and the steps they stand for.
+    pub(super) places: Range<usize>,
+    pub(super) outside: Vec<u32>,
+    pub(super) factors: Range<usize>,
+    /// Time it takes, in the units of the supernodes' model.
+    pub(super) time: f64,
+    pub(super) stack_lengths: [usize; 2],
+    pub(super) largest_pivots: usize,
+    pub(super) largest_boundary: usize,
+    pub(super) largest_panel: usize,
+}
+
+impl Part {
+    /// Where the pivots of a front lie among the numbers of the part.
+    pub(super) fn steps_of(&self, front: &Front) -> Range<usize> {
+        let first = front.first - self.steps.start;
+        first..first + front.pivots
+    }
+}
+
 /// The whole symbolic factorisation.
 #[derive(Clone, Debug)]
 pub(super) struct Symbolic {
-    /// Unknown eliminated at each step.
+    /// Unknown eliminated at each step, [`NONE`] in the places for the outside of a subtree.
     pub(super) unknowns: Vec<u32>,
+    /// Step of each unknown.
+    pub(super) steps: Vec<u32>,
+    /// Subtrees, then the top.
+    pub(super) parts: Vec<Part>,
     pub(super) fronts: Vec<Front>,
     /// Steps of the boundary unknowns of all fronts.
     pub(super) boundaries: Vec<u32>,
+    /// Where a front finds those, counted from the first step of its part.
+    pub(super) places: Vec<u32>,
     /// Indices of values, sorted by front.
     pub(super) sources: Vec<u32>,
     /// Where those values go, counted from the beginning of the front's pieces.
@@ -99,9 +138,12 @@ pub(super) struct Symbolic {
     pub(super) runs: Vec<Run>,
     pub(super) factor_length: usize,
     pub(super) factor_entries: usize,
-    pub(super) stack_lengths: [usize; 2],
-    pub(super) largest_pivots: usize,
-    pub(super) largest_boundary: usize,
+}
+
+/// The first step of every group, by its place in the order of elimination, and the steps of every front.
+struct Numbering {
+    firsts: Vec<u32>,
+    steps: Vec<Range<usize>>,
 }
 
 impl Symbolic {
@@ -110,48 +152,110 @@ impl Symbolic {
         let graph = GroupGraph::new(structure);
         let order = minimum_degree_order(structure);
         let tree = EliminationTree::new(&graph, &order);
-        let nodes = supernodes(&tree);
+        let subtrees::Subtrees { nodes, parts } = subtrees::cut(supernodes(&tree));
 
         let mut symbolic = Symbolic {
             unknowns: Vec::with_capacity(structure.pattern.size()),
+            steps: vec![0; structure.pattern.size()],
+            parts: Vec::with_capacity(parts.len()),
             fronts: Vec::with_capacity(nodes.len()),
             boundaries: Vec::new(),
+            places: Vec::new(),
             sources: Vec::with_capacity(structure.pattern.entries()),
             targets: Vec::with_capacity(structure.pattern.entries()),
             children: Vec::new(),
             runs: Vec::new(),
             factor_length: 0,
             factor_entries: 0,
-            stack_lengths: [0; 2],
-            largest_pivots: 0,
-            largest_boundary: 0,
         };
-        let mut first_steps = vec![0_u32; order.len()];
-        let mut firsts = Vec::with_capacity(nodes.len());
-        for node in &nodes {
-            firsts.push(symbolic.unknowns.len());
-            for &place in &node.groups {
-                first_steps[place as usize] = symbolic.unknowns.len() as u32;
-                let unknowns = &structure.groups[order[place as usize]].unknowns;
-                symbolic.unknowns.extend(unknowns.iter().map(|&unknown| unknown as u32));
+        let groups = symbolic.number_steps(structure, &order, (&nodes, &parts), &tree);
+        for (part, fronts) in parts.iter().enumerate() {
+            for index in fronts.clone() {
+                // The last group of a supernode is an ancestor of the others: what it is coupled with later is
+                // all that any of them is.
+                let last = nodes[index].groups.last().map_or(0, |&place| place as usize);
+                let rows = symbolic.boundaries.len();
+                for &place in &tree.boundaries[last] {
+                    let first = groups.firsts[place as usize];
+                    symbolic.boundaries.extend(first..first + tree.weights[place as usize]);
+                }
+                symbolic.boundaries[rows..].sort_unstable();
+                symbolic.add_front((groups.steps[index].clone(), panels), rows, &nodes[index].children);
             }
-        }
-        firsts.push(symbolic.unknowns.len());
-        for (index, node) in nodes.iter().enumerate() {
-            // The last group of a supernode is an ancestor of the others: what it is coupled with later is
-            // all that any of them is.
-            let last = node.groups.last().map_or(0, |&place| place as usize);
-            let rows = symbolic.boundaries.len();
-            for &place in &tree.boundaries[last] {
-                let first = first_steps[place as usize];
-                symbolic.boundaries.extend(first..first + tree.weights[place as usize]);
-            }
-            symbolic.boundaries[rows..].sort_unstable();
-            symbolic.add_front((firsts[index]..firsts[index + 1], panels), rows, &node.children);
+            symbolic.finish_part(part);
         }
         symbolic.place_contributions(&nodes.iter().map(|node| &node.children[..]).collect::<Vec<_>>());
         symbolic.map_entries(structure);
         symbolic
+    }
+
+    /// Lays out the steps of all parts.
+    fn number_steps(
+        &mut self,
+        structure: &Structure,
+        order: &[usize],
+        (nodes, parts): (&[Supernode], &[Range<usize>]),
+        tree: &EliminationTree,
+    ) -> Numbering {
+        let mut numbering =
+            Numbering { firsts: vec![0; order.len()], steps: Vec::with_capacity(nodes.len()) };
+        for (part, fronts) in parts.iter().enumerate() {
+            let begin = self.unknowns.len();
+            for node in &nodes[fronts.clone()] {
+                let first = self.unknowns.len();
+                for &place in &node.groups {
+                    numbering.firsts[place as usize] = self.unknowns.len() as u32;
+                    let unknowns = &structure.groups[order[place as usize]].unknowns;
+                    self.unknowns.extend(unknowns.iter().map(|&unknown| unknown as u32));
+                }
+                numbering.steps.push(first..self.unknowns.len());
+            }
+            let end = self.unknowns.len();
+            if part + 1 < parts.len() {
+                let root = nodes[fronts.end - 1].groups.last().map_or(0, |&place| place as usize);
+                let weight = |&place: &u32| tree.weights[place as usize] as usize;
+                let outside: usize = tree.boundaries[root].iter().map(weight).sum();
+                self.unknowns.resize(end + outside, NONE);
+            }
+            self.parts.push(Part {
+                fronts: fronts.clone(),
+                steps: begin..self.unknowns.len(),
+                places: end..self.unknowns.len(),
+                time: nodes[fronts.clone()].iter().map(|node| node.time).sum(),
+                ..Part::default()
+            });
+        }
+        for (step, &unknown) in self.unknowns.iter().enumerate() {
+            if unknown != NONE {
+                self.steps[unknown as usize] = step as u32;
+            }
+        }
+        numbering
+    }
+
+    /// Sizes of a part whose fronts are all there, and places of their boundaries.
+    fn finish_part(&mut self, index: usize) {
+        let part = &mut self.parts[index];
+        let fronts = &self.fronts[part.fronts.clone()];
+        let (Some(first), Some(root)) = (fronts.first(), fronts.last()) else { return };
+        part.factors = first.factors..root.factor_range().end;
+        if !part.places.is_empty() {
+            part.outside = self.boundaries[root.rows.clone()].to_vec();
+        }
+        for front in fronts {
+            part.largest_pivots = part.largest_pivots.max(front.pivots);
+            part.largest_boundary = part.largest_boundary.max(front.boundary);
+            part.largest_panel = part.largest_panel.max(front.panel_length());
+        }
+        for &step in &self.boundaries[first.rows.start..root.rows.end] {
+            let inside = step as usize;
+            let place = if inside < part.places.start || part.outside.is_empty() {
+                inside
+            } else {
+                part.places.start + part.outside.partition_point(|&other| other < step)
+            };
+            self.places.push((place - part.steps.start) as u32);
+        }
     }
 
     fn add_front(&mut self, (steps, panels): (Range<usize>, usize), rows: usize, children: &[usize]) {
@@ -175,8 +279,6 @@ impl Symbolic {
         let square =
             if panels == 1 { front.pivots * (front.pivots + 1) / 2 } else { front.pivots * front.pivots };
         self.factor_entries += square + panels * front.pivots * front.boundary;
-        self.largest_pivots = self.largest_pivots.max(front.pivots);
-        self.largest_boundary = self.largest_boundary.max(front.boundary);
         self.fronts.push(front);
     }
 
@@ -209,6 +311,7 @@ impl Symbolic {
             }
         }
         self.children.push(Child {
+            part: self.part_of(child),
             contribution: 0..0,
             stride: self.fronts[child].panel_stride(),
             to_pivots: begin..middle,
@@ -216,7 +319,11 @@ impl Symbolic {
         });
     }
 
-    /// Plays the two stacks through once, to know where every contribution will lie.
+    fn part_of(&self, front: usize) -> usize {
+        self.parts.partition_point(|part| part.fronts.end <= front)
+    }
+
+    /// Plays the two stacks of every part through once, to know where every contribution will lie.
     fn place_contributions(&mut self, children: &[&[usize]]) {
         let mut parents = vec![None; self.fronts.len()];
         for (parent, children) in children.iter().enumerate() {
@@ -228,31 +335,30 @@ impl Symbolic {
             self.fronts[index].stack =
                 parents[index].map_or(0, |parent: usize| 1 - self.fronts[parent].stack);
         }
-        let mut tops = [0; 2];
-        for index in 0..self.fronts.len() {
-            let list = self.fronts[index].children.clone();
-            for (slot, &child) in list.zip(children[index]) {
-                self.children[slot].contribution = self.fronts[child].contribution_range();
+        for part in &mut self.parts {
+            let mut tops = [0; 2];
+            for index in part.fronts.clone() {
+                let list = self.fronts[index].children.clone();
+                for (slot, &child) in list.zip(children[index]) {
+                    self.children[slot].contribution = self.fronts[child].contribution_range();
+                }
+                // Those of other parts lie in stacks of their own.
+                if let Some(&lowest) = children[index].iter().find(|&&child| child >= part.fronts.start) {
+                    tops[self.fronts[lowest].stack] = self.fronts[lowest].contribution;
+                }
+                let front = &mut self.fronts[index];
+                front.contribution = tops[front.stack];
+                tops[front.stack] = front.contribution_range().end;
+                part.stack_lengths[front.stack] = part.stack_lengths[front.stack].max(tops[front.stack]);
             }
-            if let Some(&lowest) = children[index].first() {
-                tops[self.fronts[lowest].stack] = self.fronts[lowest].contribution;
-            }
-            let front = &mut self.fronts[index];
-            front.contribution = tops[front.stack];
-            tops[front.stack] = front.contribution_range().end;
-            self.stack_lengths[front.stack] = self.stack_lengths[front.stack].max(tops[front.stack]);
         }
     }
 
     /// Sends every entry to the front of the earlier of its row and its column.
     fn map_entries(&mut self, structure: &Structure) {
         let pattern = &structure.pattern;
-        let mut steps = vec![0_u32; pattern.size()];
-        for (step, &unknown) in self.unknowns.iter().enumerate() {
-            steps[unknown as usize] = step as u32;
-        }
         // Local row in the present front of every step on its boundary.
-        let mut local = vec![0_u32; pattern.size()];
+        let mut local = vec![0_u32; self.unknowns.len()];
         for front in &mut self.fronts {
             for (row, &step) in self.boundaries[front.rows.clone()].iter().enumerate() {
                 local[step as usize] = row as u32;
@@ -266,7 +372,7 @@ impl Symbolic {
                 let column = self.unknowns[step] as usize;
                 let start = pattern.column_starts()[column];
                 for (offset, &row) in pattern.column(column).iter().enumerate() {
-                    let other = steps[row] as usize;
+                    let other = self.steps[row] as usize;
                     if other < front.first {
                         continue;
                     }

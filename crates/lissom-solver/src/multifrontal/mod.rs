@@ -10,8 +10,11 @@ mod factorisation;
 mod fronts;
 mod kernels;
 mod square;
+mod subtrees;
 mod supernodes;
+mod sweeps;
 mod symmetric;
+mod threads;
 mod triangular;
 
 use std::sync::Arc;
@@ -20,9 +23,10 @@ pub use symmetric::Symmetric;
 
 use factorisation::Numeric;
 use fronts::Symbolic;
+use sweeps::{Factors, Sweep};
 use triangular::FrontVectors;
 
-use crate::entries::largest_entry;
+use crate::entries::{first_not_finite, largest_magnitude};
 use crate::pattern::Pattern;
 use crate::report::{FactorError, FactorReport};
 use crate::scalar::Scalar;
@@ -38,7 +42,9 @@ pub struct Multifrontal<S> {
     symbolic: Symbolic,
     numeric: Numeric<S>,
     vector: Vec<S>,
-    front_vectors: FrontVectors<S>,
+    front_vectors: Vec<FrontVectors<S>>,
+    /// How many subtrees each thread has; none with a single one.
+    crews: Vec<usize>,
 }
 
 impl<S: Scalar> Multifrontal<S> {
@@ -58,7 +64,8 @@ impl<S: Scalar> Multifrontal<S> {
             processor: pulp::Arch::new(),
             numeric: Numeric::new::<SYMMETRIC>(&symbolic, &pattern),
             vector: vec![S::zero(); symbolic.unknowns.len()],
-            front_vectors: FrontVectors::new(&symbolic),
+            front_vectors: symbolic.parts.iter().map(FrontVectors::new).collect(),
+            crews: Vec::new(),
             symbolic,
             pattern,
         }
@@ -66,21 +73,63 @@ impl<S: Scalar> Multifrontal<S> {
 
     fn factor_as<const SYMMETRIC: bool>(&mut self, values: &[S]) -> Result<FactorReport, FactorError> {
         assert_eq!(values.len(), self.pattern.entries(), "one value for each entry of the pattern");
-        let Self { pattern, symbolic, numeric, .. } = self;
-        self.processor.dispatch(Factor::<_, SYMMETRIC> { pattern, symbolic, numeric, values })
+        let Self { pattern, processor, symbolic, numeric, crews, .. } = self;
+        let largest = if crews.is_empty() {
+            let largest = processor.dispatch(Largest { values });
+            if largest.is_some() {
+                let (share, diagonal) = numeric.subtrees(symbolic);
+                share.factor::<SYMMETRIC>(*processor, symbolic, values, diagonal);
+            }
+            largest
+        } else {
+            threads::factor::<S, SYMMETRIC>(*processor, symbolic, numeric, values, crews)
+        };
+        let largest = largest.ok_or_else(|| first_not_finite(pattern, values))?;
+        let (monitor, largest_upper) = numeric.factor_top::<SYMMETRIC>(*processor, symbolic, values)?;
+        Ok(monitor.report(largest_upper, largest))
     }
 
     fn triangular(&mut self, right_hand_side: &mut [S], way: Way) {
-        assert_eq!(right_hand_side.len(), self.vector.len(), "one number for each unknown");
-        self.processor.dispatch(Solve {
-            symbolic: &self.symbolic,
-            numeric: &self.numeric,
-            right_hand_side,
-            vector: &mut self.vector,
-            front_vectors: &mut self.front_vectors,
-            way,
+        assert_eq!(right_hand_side.len(), self.pattern.size(), "one number for each unknown");
+        let Self { processor, symbolic, numeric, vector, front_vectors, crews, .. } = self;
+        let factors = Factors { symbolic, numeric, way };
+        let crews =
+            if threads::pay_in_solves(symbolic.factor_length * size_of::<S>()) { &crews[..] } else { &[] };
+        let right = Some(&*right_hand_side);
+        threads::sweep(crews, subtrees(symbolic, vector, front_vectors), |sweep| {
+            processor.dispatch(Forward { factors, right_hand_side: right, sweep });
         });
+        symbolic.hand_up(right_hand_side, vector);
+        processor.dispatch(Forward {
+            factors,
+            right_hand_side: None,
+            sweep: top(symbolic, vector, front_vectors),
+        });
+        processor.dispatch(Backward { factors, sweep: top(symbolic, vector, front_vectors) });
+        symbolic.hand_down(vector);
+        threads::sweep(crews, subtrees(symbolic, vector, front_vectors), |sweep| {
+            processor.dispatch(Backward { factors, sweep });
+        });
+        for (value, &step) in right_hand_side.iter_mut().zip(&symbolic.steps) {
+            *value = vector[step as usize];
+        }
     }
+}
+
+fn subtrees<'a, S: Scalar>(
+    symbolic: &'a Symbolic,
+    vector: &'a mut [S],
+    front_vectors: &'a mut [FrontVectors<S>],
+) -> Sweep<'a, S> {
+    Sweep { parts: &symbolic.parts, vector, front_vectors }.split(symbolic.parts.len() - 1).0
+}
+
+fn top<'a, S: Scalar>(
+    symbolic: &'a Symbolic,
+    vector: &'a mut [S],
+    front_vectors: &'a mut [FrontVectors<S>],
+) -> Sweep<'a, S> {
+    Sweep { parts: &symbolic.parts, vector, front_vectors }.split(symbolic.parts.len() - 1).1
 }
 
 impl<S: Scalar> LinearSolver<S> for Multifrontal<S> {
@@ -103,42 +152,25 @@ impl<S: Scalar> LinearSolver<S> for Multifrontal<S> {
     fn factor_entries(&self) -> usize {
         self.symbolic.factor_entries
     }
-}
 
-/// LU, or LDLᵀ.
-struct Factor<'a, S, const SYMMETRIC: bool> {
-    pattern: &'a Pattern,
-    symbolic: &'a Symbolic,
-    numeric: &'a mut Numeric<S>,
-    values: &'a [S],
-}
-
-impl<S: Scalar, const SYMMETRIC: bool> Factor<'_, S, SYMMETRIC> {
-    #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
-    #[inline(always)]
-    fn run<const FUSED: bool, const ROWS: usize>(self) -> Result<FactorReport, FactorError> {
-        let largest = largest_entry(self.pattern, self.values)?;
-        let (monitor, largest_upper) =
-            self.numeric.factor::<FUSED, ROWS, SYMMETRIC>(self.symbolic, self.values)?;
-        Ok(monitor.report(largest_upper, largest))
+    fn set_threads(&mut self, threads: usize) {
+        let (_, subtrees) = self.symbolic.parts.split_last().expect("there always is a top");
+        self.crews = threads::crews(subtrees, threads);
     }
 }
 
-impl<S: Scalar, const SYMMETRIC: bool> pulp::WithSimd for Factor<'_, S, SYMMETRIC> {
-    type Output = Result<FactorReport, FactorError>;
+/// Largest magnitude, if all values are finite.
+struct Largest<'a, S> {
+    values: &'a [S],
+}
+
+impl<S: Scalar> pulp::WithSimd for Largest<'_, S> {
+    type Output = Option<f64>;
 
     #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
     #[inline(always)]
     fn with_simd<V: pulp::Simd>(self, _: V) -> Self::Output {
-        // Two vectors of rows, of real or of complex numbers summed twice: twelve sums for six columns. With four
-        // lanes or more the processor multiplies and adds in one instruction.
-        if V::F64_LANES == 8 {
-            if S::COMPLEX { self.run::<true, 4>() } else { self.run::<true, 16>() }
-        } else if V::F64_LANES == 4 {
-            if S::COMPLEX { self.run::<true, 4>() } else { self.run::<true, 8>() }
-        } else {
-            self.run::<false, 4>()
-        }
+        largest_magnitude(self.values)
     }
 }
 
@@ -153,45 +185,43 @@ enum Way {
     Symmetric,
 }
 
-struct Solve<'a, S> {
-    symbolic: &'a Symbolic,
-    numeric: &'a Numeric<S>,
-    right_hand_side: &'a mut [S],
-    vector: &'a mut [S],
-    front_vectors: &'a mut FrontVectors<S>,
-    way: Way,
+struct Forward<'a, S> {
+    factors: Factors<'a, S>,
+    right_hand_side: Option<&'a [S]>,
+    sweep: Sweep<'a, S>,
 }
 
-impl<S: Scalar> Solve<'_, S> {
-    #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
-    #[inline(always)]
-    fn run<const FUSED: bool>(self) {
-        let unknowns = &self.symbolic.unknowns;
-        for (value, &unknown) in self.vector.iter_mut().zip(unknowns) {
-            *value = self.right_hand_side[unknown as usize];
-        }
-        let Solve { symbolic, numeric, vector, front_vectors, way, .. } = self;
-        let factors = &numeric.factors;
-        match way {
-            Way::Plain => triangular::solve::<S, FUSED>(symbolic, factors, vector, front_vectors),
-            Way::Transposed => {
-                triangular::solve_transposed::<S, FUSED>(symbolic, factors, vector, front_vectors);
-            }
-            Way::Symmetric => symmetric::solve::<S, FUSED>(symbolic, numeric, vector, front_vectors),
-        }
-        for (&value, &unknown) in vector.iter().zip(unknowns) {
-            self.right_hand_side[unknown as usize] = value;
-        }
-    }
-}
-
-impl<S: Scalar> pulp::WithSimd for Solve<'_, S> {
+impl<S: Scalar> pulp::WithSimd for Forward<'_, S> {
     type Output = ();
 
     #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
     #[inline(always)]
     fn with_simd<V: pulp::Simd>(self, _: V) {
-        if V::F64_LANES >= 4 { self.run::<true>() } else { self.run::<false>() }
+        let Forward { factors, right_hand_side, sweep } = self;
+        if V::F64_LANES >= 4 {
+            factors.forward::<true>(right_hand_side, sweep);
+        } else {
+            factors.forward::<false>(right_hand_side, sweep);
+        }
+    }
+}
+
+struct Backward<'a, S> {
+    factors: Factors<'a, S>,
+    sweep: Sweep<'a, S>,
+}
+
+impl<S: Scalar> pulp::WithSimd for Backward<'_, S> {
+    type Output = ();
+
+    #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) {
+        if V::F64_LANES >= 4 {
+            self.factors.backward::<true>(self.sweep);
+        } else {
+            self.factors.backward::<false>(self.sweep);
+        }
     }
 }
 
@@ -228,6 +258,7 @@ mod tests {
 
     /// Elimination by the book, in the solver's order: smallest pivot, growth, worst cancellation.
     fn monitor(solver: &Multifrontal<f64>, values: &[f64]) -> (f64, f64, f64) {
+        assert_eq!(solver.symbolic.parts.len(), 1, "steps without gaps");
         let order = &solver.symbolic.unknowns;
         let entry = |row: u32, column: u32| solver.pattern.position(row as usize, column as usize);
         let mut matrix: Vec<Vec<f64>> = order
@@ -269,6 +300,21 @@ mod tests {
             assert!(close(report.smallest_pivot, smallest), "{report:?}: {smallest}");
             assert!(close(report.growth, growth), "{report:?}: {growth}");
             assert!(close(report.worst_cancellation, cancellation), "{report:?}: {cancellation}");
+        }
+    }
+
+    #[test]
+    fn large_trees_are_shared_and_small_ones_are_not() {
+        for (model, subtrees) in [(chain(2_000), 0..1), (chain(20_000), 2..3), (grid(20_000), 4..100)] {
+            let mut solver = Multifrontal::<f64>::new(&model.structure());
+            let found = solver.symbolic.parts.len() - 1;
+            assert!(subtrees.contains(&found), "{found}");
+            for threads in 1..4 {
+                solver.set_threads(threads);
+                let crews = if threads == 1 || found == 0 { 0 } else { threads.min(found) };
+                assert_eq!(solver.crews.len(), crews);
+                assert_eq!(solver.crews.iter().sum::<usize>(), if crews == 0 { 0 } else { found });
+            }
         }
     }
 

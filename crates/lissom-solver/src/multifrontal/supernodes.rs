@@ -9,6 +9,8 @@ pub(super) struct Supernode {
     pub(super) groups: Vec<u32>,
     /// Supernodes that contribute to it, by their index in postorder, ascending.
     pub(super) children: Vec<usize>,
+    /// Time its front takes, in the units of [`cost`].
+    pub(super) time: f64,
 }
 
 /// Model of the time a front takes, in units of one multiplication and addition at full speed. Only ratios matter, and
@@ -130,6 +132,7 @@ impl Contraction {
                 numbers[node] = order.len() as u32;
                 let children = self.children[node].iter().map(|&child| numbers[child as usize] as usize);
                 order.push(Supernode {
+                    time: time(self.pivots[node], self.boundaries[node]),
                     children: children.collect(),
                     groups: std::mem::take(&mut self.groups[node]),
                 });

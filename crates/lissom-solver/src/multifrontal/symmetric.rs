@@ -7,7 +7,7 @@
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use super::factorisation::Numeric;
-use super::fronts::Symbolic;
+use super::fronts::{Part, Symbolic};
 use super::triangular::{self, FrontVectors};
 use super::{Multifrontal, Way};
 use crate::report::{FactorError, FactorReport};
@@ -49,39 +49,30 @@ impl<S: Scalar> LinearSolver<S> for Symmetric<S> {
     fn factor_entries(&self) -> usize {
         self.0.factor_entries()
     }
+
+    fn set_threads(&mut self, threads: usize) {
+        self.0.set_threads(threads);
+    }
 }
 
-/// `x = (L D Lᵀ)⁻¹ x`.
+/// `x = (D Lᵀ)⁻¹ x` in a part.
 #[inline(always)]
-pub(super) fn solve<S: Scalar, const FUSED: bool>(
-    symbolic: &Symbolic,
+pub(super) fn backward<S: Scalar, const FUSED: bool>(
+    (symbolic, part): (&Symbolic, &Part),
     numeric: &Numeric<S>,
     x: &mut [S],
     vectors: &mut FrontVectors<S>,
 ) {
-    triangular::forward::<S, FUSED>(symbolic, &numeric.factors, x, vectors);
-    backward::<S, FUSED>(symbolic, numeric, x, vectors);
-}
-
-/// `x = (D Lᵀ)⁻¹ x`.
-#[inline(always)]
-fn backward<S: Scalar, const FUSED: bool>(
-    symbolic: &Symbolic,
-    numeric: &Numeric<S>,
-    x: &mut [S],
-    vectors: &mut FrontVectors<S>,
-) {
-    for front in symbolic.fronts.iter().rev() {
+    for front in symbolic.fronts[part.fronts.clone()].iter().rev() {
         let (square, lower) = numeric.factors[front.factor_range()].split_at(front.square_length());
         triangular::gather(symbolic, front, x, &mut vectors.boundary);
-        let steps = front.first..front.first + front.pivots;
+        let steps = part.steps_of(front);
+        let of_front = &numeric.pivots[front.first..front.first + front.pivots];
         let pivots = &mut vectors.pivots[..front.square_stride()];
         pivots.fill(S::zero());
         let known = &vectors.boundary[..front.panel_stride()];
         triangular::subtract_dots::<S, FUSED>(&mut pivots[..front.pivots], lower, known);
-        for ((value, &right), &pivot) in
-            pivots.iter_mut().zip(&x[steps.clone()]).zip(&numeric.pivots[steps.clone()])
-        {
+        for ((value, &right), &pivot) in pivots.iter_mut().zip(&x[steps.clone()]).zip(of_front) {
             *value = S::multiply_add::<FUSED>(*value, pivot, right);
         }
         triangular::solve_upper::<S, FUSED>(pivots, square, front.pivots);

@@ -3,7 +3,7 @@
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use super::fronts::{Front, PADDING, Symbolic, padded};
+use super::fronts::{Front, PADDING, Part, Symbolic, padded};
 use crate::scalar::{Scalar, array, array_mut};
 
 /// Columns of a panel that are read side by side.
@@ -23,82 +23,72 @@ fn fetch<S: Scalar>(factors: &[S]) {
     }
 }
 
-/// Room for the pivots and for the boundary of any one front, padded.
+/// Room for the pivots and for the boundary of any one front of a part, padded.
 pub(super) struct FrontVectors<S> {
     pub(super) pivots: Vec<S>,
     pub(super) boundary: Vec<S>,
 }
 
 impl<S: Scalar> FrontVectors<S> {
-    pub(super) fn new(symbolic: &Symbolic) -> Self {
+    pub(super) fn new(part: &Part) -> Self {
         FrontVectors {
-            pivots: vec![S::zero(); padded(symbolic.largest_pivots)],
-            boundary: vec![S::zero(); padded(symbolic.largest_boundary)],
+            pivots: vec![S::zero(); padded(part.largest_pivots)],
+            boundary: vec![S::zero(); padded(part.largest_boundary)],
         }
     }
 }
 
-/// `x = U⁻¹ L⁻¹ x`.
-#[inline(always)]
-pub(super) fn solve<S: Scalar, const FUSED: bool>(
-    symbolic: &Symbolic,
-    factors: &[S],
-    x: &mut [S],
-    vectors: &mut FrontVectors<S>,
-) {
-    forward::<S, FUSED>(symbolic, factors, x, vectors);
-    backward::<S, FUSED>(symbolic, factors, x, vectors);
-}
-
-/// `x = L⁻¹ x`.
+/// `x = L⁻¹ x` in a part, `x` that of its steps.
 #[inline(always)]
 pub(super) fn forward<S: Scalar, const FUSED: bool>(
-    symbolic: &Symbolic,
+    (symbolic, part): (&Symbolic, &Part),
     factors: &[S],
     x: &mut [S],
     vectors: &mut FrontVectors<S>,
 ) {
     let far = size_of_val(factors) > NEAR;
-    for (index, front) in symbolic.fronts.iter().enumerate() {
-        if far && let Some(next) = symbolic.fronts.get(index + AHEAD) {
+    let fronts = &symbolic.fronts[part.fronts.clone()];
+    for (index, front) in fronts.iter().enumerate() {
+        if far && let Some(next) = fronts.get(index + AHEAD) {
             let (square, lower, _) = pieces(next, factors);
             fetch(square);
             fetch(lower);
         }
         let (square, lower, _) = pieces(front, factors);
         let pivots = &mut vectors.pivots[..front.square_stride()];
-        let place = &mut x[front.first..front.first + front.pivots];
+        let place = &mut x[part.steps_of(front)];
         pivots[..front.pivots].copy_from_slice(place);
         solve_lower::<S, FUSED>(pivots, square, front.pivots);
         place.copy_from_slice(&pivots[..front.pivots]);
         let sums = &mut vectors.boundary[..front.panel_stride()];
         sums.fill(S::zero());
         add_columns::<S, FUSED>(sums, lower, place);
-        for (&row, &sum) in symbolic.boundaries[front.rows.clone()].iter().zip(&*sums) {
+        for (&row, &sum) in symbolic.places[front.rows.clone()].iter().zip(&*sums) {
             x[row as usize] -= sum;
         }
     }
 }
 
-/// `x = U⁻¹ x`.
+/// `x = U⁻¹ x` in a part.
 #[inline(always)]
-fn backward<S: Scalar, const FUSED: bool>(
-    symbolic: &Symbolic,
+pub(super) fn backward<S: Scalar, const FUSED: bool>(
+    (symbolic, part): (&Symbolic, &Part),
     factors: &[S],
     x: &mut [S],
     vectors: &mut FrontVectors<S>,
 ) {
     let far = size_of_val(factors) > NEAR;
-    for (index, front) in symbolic.fronts.iter().enumerate().rev() {
+    let fronts = &symbolic.fronts[part.fronts.clone()];
+    for (index, front) in fronts.iter().enumerate().rev() {
         if far && let Some(next) = index.checked_sub(AHEAD) {
-            let (square, _, upper) = pieces(&symbolic.fronts[next], factors);
+            let (square, _, upper) = pieces(&fronts[next], factors);
             fetch(square);
             fetch(upper);
         }
         let (square, _, upper) = pieces(front, factors);
         gather(symbolic, front, x, &mut vectors.boundary);
         let pivots = &mut vectors.pivots[..front.square_stride()];
-        let place = &mut x[front.first..front.first + front.pivots];
+        let place = &mut x[part.steps_of(front)];
         pivots[..front.pivots].copy_from_slice(place);
         subtract_dots::<S, FUSED>(
             &mut pivots[..front.pivots],
@@ -164,18 +154,17 @@ pub(super) fn solve_upper<S: Scalar, const FUSED: bool>(x: &mut [S], square: &[S
     }
 }
 
-/// `x = L⁻ᵀ U⁻ᵀ x`.
+/// `x = U⁻ᵀ x` in a part.
 #[inline(always)]
-pub(super) fn solve_transposed<S: Scalar, const FUSED: bool>(
-    symbolic: &Symbolic,
+pub(super) fn forward_transposed<S: Scalar, const FUSED: bool>(
+    (symbolic, part): (&Symbolic, &Part),
     factors: &[S],
     x: &mut [S],
     vectors: &mut FrontVectors<S>,
 ) {
-    for front in &symbolic.fronts {
+    for front in &symbolic.fronts[part.fronts.clone()] {
         let (square, _, upper) = pieces(front, factors);
-        let rows = &symbolic.boundaries[front.rows.clone()];
-        let pivots = &mut x[front.first..front.first + front.pivots];
+        let pivots = &mut x[part.steps_of(front)];
         let stride = front.square_stride();
         for (step, column) in square.chunks_exact(stride.max(1)).enumerate() {
             let (known, rest) = pivots.split_at_mut(step);
@@ -184,14 +173,24 @@ pub(super) fn solve_transposed<S: Scalar, const FUSED: bool>(
         let sums = &mut vectors.boundary[..front.panel_stride()];
         sums.fill(S::zero());
         add_columns::<S, FUSED>(sums, upper, pivots);
-        for (&row, &sum) in rows.iter().zip(&*sums) {
+        for (&row, &sum) in symbolic.places[front.rows.clone()].iter().zip(&*sums) {
             x[row as usize] -= sum;
         }
     }
-    for front in symbolic.fronts.iter().rev() {
+}
+
+/// `x = L⁻ᵀ x` in a part.
+#[inline(always)]
+pub(super) fn backward_transposed<S: Scalar, const FUSED: bool>(
+    (symbolic, part): (&Symbolic, &Part),
+    factors: &[S],
+    x: &mut [S],
+    vectors: &mut FrontVectors<S>,
+) {
+    for front in symbolic.fronts[part.fronts.clone()].iter().rev() {
         let (square, lower, _) = pieces(front, factors);
         gather(symbolic, front, x, &mut vectors.boundary);
-        let pivots = &mut x[front.first..front.first + front.pivots];
+        let pivots = &mut x[part.steps_of(front)];
         subtract_dots::<S, FUSED>(pivots, lower, &vectors.boundary[..front.panel_stride()]);
         let stride = front.square_stride();
         for (step, column) in square.chunks_exact(stride.max(1)).enumerate().rev() {
@@ -210,7 +209,7 @@ fn pieces<'a, S>(front: &Front, factors: &'a [S]) -> (&'a [S], &'a [S], &'a [S])
 
 #[inline(always)]
 pub(super) fn gather<S: Scalar>(symbolic: &Symbolic, front: &Front, x: &[S], front_vector: &mut [S]) {
-    let rows = &symbolic.boundaries[front.rows.clone()];
+    let rows = &symbolic.places[front.rows.clone()];
     let (known, padding) = front_vector[..front.panel_stride()].split_at_mut(rows.len());
     for (value, &row) in known.iter_mut().zip(rows) {
         *value = x[row as usize];

@@ -12,7 +12,8 @@ use crate::structure::Structure;
 
 /// Order of elimination of the groups that keeps fill small, with every group after all of its hosts: once
 /// the last of them has gone, and what goes along with it at no fill, before any other choice is made.
-/// Deterministic; ties go to the smaller index.
+/// Deterministic; ties go to the group whose degree has been what it is for longest, then to the smaller index: so a
+/// chain is eliminated from both ends, and its two halves can be at the same time.
 ///
 /// # Panics
 /// If [`Structure::check`] refuses the structure.
@@ -56,7 +57,8 @@ struct Elimination {
     has_hosts: Vec<bool>,
     hosts: HostCount,
     freed: Vec<u32>,
-    heap: BinaryHeap<Reverse<(u64, u32)>>,
+    /// Degree, when it was found, variable.
+    heap: BinaryHeap<Reverse<(u64, u64, u32)>>,
     withheld: Vec<u32>,
     order: Vec<usize>,
     remaining_weight: u64,
@@ -94,7 +96,7 @@ impl Elimination {
         let has_hosts: Vec<bool> = structure.groups.iter().map(|group| !group.hosts.is_empty()).collect();
         let heap = (0..count)
             .filter(|&group| states[group] == State::Variable && !has_hosts[group])
-            .map(|group| Reverse((degrees[group], group as u32)))
+            .map(|group| Reverse((degrees[group], 0, group as u32)))
             .collect();
         Elimination {
             states,
@@ -119,7 +121,7 @@ impl Elimination {
     }
 
     fn run(&mut self) {
-        while let Some(Reverse((degree, variable))) = self.heap.pop() {
+        while let Some(Reverse((degree, _, variable))) = self.heap.pop() {
             let index = variable as usize;
             if self.states[index] == State::Variable && self.degrees[index] == degree {
                 self.eliminate(index);
@@ -265,7 +267,7 @@ impl Elimination {
             (outside + direct + inside).min(self.degrees[member] + inside).min(self.remaining_weight - own);
         self.degrees[member] = degree;
         if !self.has_hosts[member] {
-            self.heap.push(Reverse((degree, member as u32)));
+            self.heap.push(Reverse((degree, self.stamp, member as u32)));
         }
     }
 

@@ -1,0 +1,99 @@
+//! Which parts of the tree of fronts several threads may work at: subtrees that have nothing to do with one another, and
+//! the top that is left when they are done. The choice depends on the tree alone, never on how many threads there are,
+//! so that the arithmetic is the same with any number. Knows times of fronts, nothing else of them.
+
+use std::ops::Range;
+
+use super::supernodes::Supernode;
+
+/// Time in all, in the units of the supernodes' model, from which on work is worth sharing: some 0.2 ms of a
+/// factorisation.
+const WORTH_WHILE: f64 = 4e6;
+
+/// Threads the choice is made for.
+const THREADS: f64 = 4.0;
+
+/// The most fronts that are moved to the top in search of a better choice.
+const LARGEST_TOP: usize = 400;
+
+/// The supernodes, those of each subtree together and those of the top last, and which are whose.
+pub(super) struct Subtrees {
+    pub(super) nodes: Vec<Supernode>,
+    /// Subtrees in order, then the top.
+    pub(super) parts: Vec<Range<usize>>,
+}
+
+/// Cuts a tree in postorder.
+pub(super) fn cut(nodes: Vec<Supernode>) -> Subtrees {
+    let roots = subtree_roots(&nodes);
+    if roots.is_empty() {
+        let all = 0..nodes.len();
+        return Subtrees { nodes, parts: vec![all] };
+    }
+    let sizes = accumulated(&nodes, |_| 1.0);
+    let (mut order, mut parts) = (Vec::with_capacity(nodes.len()), Vec::new());
+    let mut is_below = vec![false; nodes.len()];
+    for &root in &roots {
+        let begin = order.len();
+        let subtree = root + 1 - sizes[root] as usize..root + 1;
+        is_below[subtree.clone()].fill(true);
+        order.extend(subtree);
+        parts.push(begin..order.len());
+    }
+    let begin = order.len();
+    order.extend((0..nodes.len()).filter(|&node| !is_below[node]));
+    parts.push(begin..order.len());
+
+    let mut numbers = vec![0; nodes.len()];
+    for (number, &node) in order.iter().enumerate() {
+        numbers[node] = number;
+    }
+    let mut old: Vec<Option<Supernode>> = nodes.into_iter().map(Some).collect();
+    let nodes = order.iter().filter_map(|&node| old[node].take()).map(|mut node| {
+        node.children.iter_mut().for_each(|child| *child = numbers[*child]);
+        node.children.sort_unstable();
+        node
+    });
+    Subtrees { nodes: nodes.collect(), parts }
+}
+
+/// Sums over the subtree of every node.
+fn accumulated(nodes: &[Supernode], of: impl Fn(&Supernode) -> f64) -> Vec<f64> {
+    let mut sums: Vec<f64> = Vec::with_capacity(nodes.len());
+    for node in nodes {
+        sums.push(of(node) + node.children.iter().map(|&child| sums[child]).sum::<f64>());
+    }
+    sums
+}
+
+/// Roots of the subtrees, ascending: of all ways to move the root of the costliest one to the top, again and again, the one
+/// that takes the least time.
+fn subtree_roots(nodes: &[Supernode]) -> Vec<usize> {
+    let times = accumulated(nodes, |node| node.time);
+    let mut is_child = vec![false; nodes.len()];
+    for &child in nodes.iter().flat_map(|node| &node.children) {
+        is_child[child] = true;
+    }
+    let mut roots: Vec<usize> = (0..nodes.len()).filter(|&node| !is_child[node]).collect();
+    let total: f64 = roots.iter().map(|&root| times[root]).sum();
+    let mut best = (0.9 * total, Vec::new());
+    if total < WORTH_WHILE {
+        return best.1;
+    }
+    let mut top = 0.0;
+    for _ in 0..LARGEST_TOP {
+        let Some(costliest) = (0..roots.len()).max_by(|&a, &b| times[roots[a]].total_cmp(&times[roots[b]]))
+        else {
+            break;
+        };
+        let together = top + times[roots[costliest]].max((total - top) / THREADS);
+        if roots.len() > 1 && together < 0.99 * best.0 {
+            best = (together, roots.clone());
+        }
+        let root = roots.swap_remove(costliest);
+        top += nodes[root].time;
+        roots.extend(&nodes[root].children);
+    }
+    best.1.sort_unstable();
+    best.1
+}

@@ -1,0 +1,85 @@
+//! Work on subtrees side by side. What a subtree comes to does not depend on who works at it, nor on when; so results are
+//! the same with any number of threads.
+
+use super::Largest;
+use super::factorisation::Numeric;
+use super::fronts::{Part, Symbolic};
+use super::sweeps::Sweep;
+use crate::scalar::Scalar;
+
+/// Bytes of factors from which on a solve is worth sharing: it takes as long as they take to be read.
+const WORTH_WHILE: usize = 4 << 20;
+
+/// Whether a solve is worth sharing.
+pub(super) fn pay_in_solves(bytes: usize) -> bool {
+    bytes >= WORTH_WHILE
+}
+
+/// How many subtrees each of so many threads works at, in order, so that all take about the same time. None if there is nothing to
+/// share.
+pub(super) fn crews(subtrees: &[Part], threads: usize) -> Vec<usize> {
+    let threads = threads.min(subtrees.len());
+    if threads < 2 {
+        return Vec::new();
+    }
+    let total: f64 = subtrees.iter().map(|part| part.time).sum();
+    let (mut crews, mut done, mut begin) = (Vec::with_capacity(threads), 0.0, 0);
+    for (index, part) in subtrees.iter().enumerate() {
+        done += part.time;
+        let others = threads - crews.len() - 1;
+        let is_full = done >= total * (crews.len() + 1) as f64 / threads as f64;
+        if others > 0 && (is_full || subtrees.len() - index - 1 == others) {
+            crews.push(index + 1 - begin);
+            begin = index + 1;
+        }
+    }
+    crews.push(subtrees.len() - begin);
+    crews
+}
+
+/// Factors all subtrees; the largest magnitude of the values, if they are finite.
+pub(super) fn factor<S: Scalar, const SYMMETRIC: bool>(
+    processor: pulp::Arch,
+    symbolic: &Symbolic,
+    numeric: &mut Numeric<S>,
+    values: &[S],
+    crews: &[usize],
+) -> Option<f64> {
+    let (mut rest, diagonal) = numeric.subtrees(symbolic);
+    let mut largest = vec![Some(0.0_f64); crews.len()];
+    let portion = values.len().div_ceil(crews.len()).max(1);
+    rayon::in_place_scope(|scope| {
+        let mut portions = values.chunks(portion);
+        for (index, (&crew, largest)) in crews.iter().zip(&mut largest).enumerate() {
+            let share;
+            (share, rest) = rest.split(crew);
+            let portion = portions.next().unwrap_or_default();
+            let work = move || {
+                *largest = processor.dispatch(Largest { values: portion });
+                share.factor::<SYMMETRIC>(processor, symbolic, values, diagonal);
+            };
+            if index + 1 < crews.len() {
+                scope.spawn(move |_| work());
+            } else {
+                work();
+            }
+        }
+    });
+    largest.into_iter().try_fold(0.0, |most, largest| Some(f64::max(most, largest?)))
+}
+
+/// Does something with every crew's subtrees, or with all of them where there are no crews.
+pub(super) fn sweep<S: Scalar>(crews: &[usize], all: Sweep<S>, work: impl Fn(Sweep<S>) + Sync) {
+    let Some((&last, others)) = crews.split_last() else { return work(all) };
+    rayon::in_place_scope(|scope| {
+        let mut rest = all;
+        for &crew in others {
+            let own;
+            (own, rest) = rest.split(crew);
+            let work = &work;
+            scope.spawn(move |_| work(own));
+        }
+        debug_assert_eq!(rest.parts.len(), last);
+        work(rest);
+    });
+}
