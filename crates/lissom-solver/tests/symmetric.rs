@@ -93,3 +93,20 @@ fn a_vanishing_pivot_is_named() {
         other => panic!("{other:?}"),
     }
 }
+
+#[test]
+fn threads_change_no_bit() {
+    let model = chain(20_000);
+    let structure = model.structure();
+    let values: Vec<f64> = symmetric_values(&model, &structure.pattern, 1.0);
+    let b: Vec<f64> = right_hand_side(model.size, 4);
+    let mut solver = Symmetric::<f64>::new(&structure);
+    let solved = [1, 2, 3].map(|threads| {
+        solver.set_threads(threads);
+        let report = solver.factor(&values).unwrap();
+        let mut x = b.clone();
+        solver.solve(&mut x);
+        (report, x)
+    });
+    assert!(solved[0] == solved[1] && solved[0] == solved[2]);
+}
