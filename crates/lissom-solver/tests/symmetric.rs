@@ -96,7 +96,7 @@ fn a_vanishing_pivot_is_named() {
 
 #[test]
 fn threads_change_no_bit() {
-    let model = chain(20_000);
+    let model = tree(20_000);
     let structure = model.structure();
     let values: Vec<f64> = symmetric_values(&model, &structure.pattern, 1.0);
     let b: Vec<f64> = right_hand_side(model.size, 4);

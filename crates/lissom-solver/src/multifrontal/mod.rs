@@ -228,7 +228,7 @@ impl<S: Scalar> pulp::WithSimd for Backward<'_, S> {
 #[cfg(all(test, feature = "samples"))]
 mod tests {
     use super::*;
-    use crate::samples::{Model, Sample, backward_error, chain, grid, right_hand_side};
+    use crate::samples::{Model, Sample, backward_error, chain, grid, right_hand_side, spherical_chain};
     use num_complex::Complex64;
 
     /// Every level of vector instructions this processor has, and none.
@@ -305,7 +305,9 @@ mod tests {
 
     #[test]
     fn large_trees_are_shared_and_small_ones_are_not() {
-        for (model, subtrees) in [(chain(2_000), 0..1), (chain(20_000), 2..3), (grid(20_000), 4..100)] {
+        for (model, subtrees) in
+            [(spherical_chain(2_000), 0..1), (spherical_chain(20_000), 2..3), (grid(20_000), 4..100)]
+        {
             let mut solver = Multifrontal::<f64>::new(&model.structure());
             let found = solver.symbolic.parts.len() - 1;
             assert!(subtrees.contains(&found), "{found}");

@@ -13,7 +13,7 @@ use crate::structure::Structure;
 /// Order of elimination of the groups that keeps fill small, with every group after all of its hosts: once
 /// the last of them has gone, and what goes along with it at no fill, before any other choice is made.
 /// Deterministic; ties go to the group whose degree has been what it is for longest, then to the smaller index: so a
-/// chain is eliminated from both ends, and its two halves can be at the same time.
+/// chain of equal links is eliminated from both ends, and its two halves can be at the same time.
 ///
 /// # Panics
 /// If [`Structure::check`] refuses the structure.
