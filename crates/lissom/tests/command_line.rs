@@ -267,7 +267,7 @@ fn load_steps_that_fail_are_halved_and_their_ends_still_met() {
     let run = hard(60);
     assert_eq!(run.code, 0, "{}", run.errors);
     let easy = history(folder.path()).column("tip", "u3").unwrap().to_vec();
-    let run = hard(7);
+    let run = hard(5);
     assert_eq!(run.code, 0, "{}", run.errors);
     let facts = summary(folder.path());
     assert!(facts["rejected_steps"].as_u64().unwrap() > 0 && facts["steps"].as_u64().unwrap() > 2, "{facts}");
