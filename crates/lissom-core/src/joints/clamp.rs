@@ -4,10 +4,7 @@
 use lissom_motion::{Real, Screw, Vector3};
 
 use super::moved::{Moved, OwnMoved};
-use super::primitives::{
-    JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient,
-    coincident_wrench, first_three, last_three,
-};
+use super::primitives::{JointRotation, coincident, coincident_curvature, coincident_gradient};
 use super::{
     Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, MOST_EQUATIONS,
     MOST_NUMBERS, Own, Relative,
@@ -47,9 +44,7 @@ impl Joint for Clamp {
         _: &OwnMoved<R>,
         _: &[R; MOST_NUMBERS],
     ) -> [R; MOST_EQUATIONS] {
-        let [a, b, c] = coincident_change(moved);
-        let [d, e, f] = JointRotation::none(moved.place.x).matches_change(moved);
-        [a, b, c, d, e, f]
+        JointRotation::none(moved.place.x).held_change(moved)
     }
 
     #[inline(always)]
@@ -59,10 +54,7 @@ impl Joint for Clamp {
         _: &[R; MOST_NUMBERS],
         mu: &[R; MOST_EQUATIONS],
     ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        let (moment, own) = JointRotation::none(mu[0]).matches_moments(moved, last_three(mu));
-        let mut wrench = coincident_wrench(moved, first_three(mu));
-        wrench.rotation = wrench.rotation + moment;
-        (wrench, own)
+        JointRotation::none(mu[0]).held_wrench(moved, mu)
     }
 
     fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {

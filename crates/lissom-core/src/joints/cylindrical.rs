@@ -7,8 +7,7 @@ use lissom_motion::{Motion, Real, Rotation, Screw, Vector3};
 use super::clamp::EQUATIONS;
 use super::moved::{Moved, OwnMoved};
 use super::primitives::{
-    JointRotation, coincident_change, coincident_curvature, coincident_gradient, coincident_wrench,
-    elementary, first_three, last_three, on_third_axis,
+    JointRotation, coincident_curvature, coincident_gradient, elementary, on_third_axis,
 };
 use super::{
     Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
@@ -81,9 +80,9 @@ impl Joint for Cylindrical {
         own: &OwnMoved<R>,
         _: &[R; MOST_NUMBERS],
     ) -> [R; MOST_EQUATIONS] {
-        let [a, b, c] = coincident_change(moved);
-        let [d, e, f] = JointRotation::about_third_axis(&own.angles[0]).matches_change(moved);
-        [a, b, c - own.change[SLIDE], d, e, f]
+        let mut change = JointRotation::about_third_axis(&own.angles[0]).held_change(moved);
+        change[2] = change[2] - own.change[SLIDE];
+        change
     }
 
     #[inline(always)]
@@ -93,10 +92,7 @@ impl Joint for Cylindrical {
         _: &[R; MOST_NUMBERS],
         mu: &[R; MOST_EQUATIONS],
     ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        let (moment, mut own) =
-            JointRotation::about_third_axis(&own.angles[0]).matches_moments(moved, last_three(mu));
-        let mut wrench = coincident_wrench(moved, first_three(mu));
-        wrench.rotation = wrench.rotation + moment;
+        let (wrench, mut own) = JointRotation::about_third_axis(&own.angles[0]).held_wrench(moved, mu);
         own[SLIDE] = -mu[2];
         (wrench, own)
     }

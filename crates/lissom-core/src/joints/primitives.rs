@@ -46,18 +46,6 @@ pub fn coincident_wrench<R: Real>(moved: &Moved<R>, mu: Triple<R>) -> Screw<R> {
     Screw::new(mu, mu.cross(moved.place))
 }
 
-/// The first three of six numbers.
-#[inline(always)]
-pub fn first_three<R: Real>(mu: &[R; 6]) -> Triple<R> {
-    Triple::new(mu[0], mu[1], mu[2])
-}
-
-/// The last three of six numbers.
-#[inline(always)]
-pub fn last_three<R: Real>(mu: &[R; 6]) -> Triple<R> {
-    Triple::new(mu[3], mu[4], mu[5])
-}
-
 /// Curvature of [`coincident`]: the moment -(Rᵀ x)~ μ = μ̃ Rᵀ x.
 pub fn coincident_curvature(relative: &Relative, mu: &Vector3, out: &mut Curvature) {
     let mu = skew(mu);
@@ -159,6 +147,25 @@ impl<R: Real> JointRotation<R> {
             own[k] = -self.axes[k].dot(turned);
         }
         (m, own)
+    }
+
+    /// Change of the violations of a joint that holds a point, then this rotation: [`coincident_change`] and
+    /// [`Self::matches_change`].
+    #[inline(always)]
+    pub fn held_change(&self, moved: &Moved<R>) -> [R; 6] {
+        let [a, b, c] = coincident_change(moved);
+        let [d, e, f] = self.matches_change(moved);
+        [a, b, c, d, e, f]
+    }
+
+    /// Wrench on the tip of a joint that holds a point, then this rotation, and forces on the coordinates:
+    /// [`coincident_wrench`] and [`Self::matches_moments`].
+    #[inline(always)]
+    pub fn held_wrench(&self, moved: &Moved<R>, mu: &[R; 6]) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let (moment, own) = self.matches_moments(moved, Triple::new(mu[3], mu[4], mu[5]));
+        let mut wrench = coincident_wrench(moved, Triple::new(mu[0], mu[1], mu[2]));
+        wrench.rotation = wrench.rotation + moment;
+        (wrench, own)
     }
 }
 

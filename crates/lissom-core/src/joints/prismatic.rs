@@ -6,10 +6,7 @@ use lissom_motion::{Motion, Real, Rotation, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
 use super::moved::{Moved, OwnMoved};
-use super::primitives::{
-    JointRotation, coincident_change, coincident_curvature, coincident_gradient, coincident_wrench,
-    first_three, last_three, on_third_axis,
-};
+use super::primitives::{JointRotation, coincident_curvature, coincident_gradient, on_third_axis};
 use super::{
     Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
     MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
@@ -67,9 +64,9 @@ impl Joint for Prismatic {
         own: &OwnMoved<R>,
         _: &[R; MOST_NUMBERS],
     ) -> [R; MOST_EQUATIONS] {
-        let [a, b, c] = coincident_change(moved);
-        let [d, e, f] = JointRotation::none(moved.place.x).matches_change(moved);
-        [a, b, c - own.change[SLIDE], d, e, f]
+        let mut change = JointRotation::none(moved.place.x).held_change(moved);
+        change[2] = change[2] - own.change[SLIDE];
+        change
     }
 
     #[inline(always)]
@@ -79,9 +76,7 @@ impl Joint for Prismatic {
         _: &[R; MOST_NUMBERS],
         mu: &[R; MOST_EQUATIONS],
     ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        let (moment, mut own) = JointRotation::none(mu[0]).matches_moments(moved, last_three(mu));
-        let mut wrench = coincident_wrench(moved, first_three(mu));
-        wrench.rotation = wrench.rotation + moment;
+        let (wrench, mut own) = JointRotation::none(mu[0]).held_wrench(moved, mu);
         own[SLIDE] = -mu[2];
         (wrench, own)
     }

@@ -6,10 +6,7 @@ use lissom_motion::{Motion, Real, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
 use super::moved::{Moved, OwnMoved};
-use super::primitives::{
-    JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient,
-    coincident_wrench, elementary, first_three, last_three,
-};
+use super::primitives::{JointRotation, coincident, coincident_curvature, coincident_gradient, elementary};
 use super::{
     Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
     MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
@@ -64,9 +61,7 @@ impl Joint for Revolute {
         own: &OwnMoved<R>,
         _: &[R; MOST_NUMBERS],
     ) -> [R; MOST_EQUATIONS] {
-        let [a, b, c] = coincident_change(moved);
-        let [d, e, f] = JointRotation::about_third_axis(&own.angles[0]).matches_change(moved);
-        [a, b, c, d, e, f]
+        JointRotation::about_third_axis(&own.angles[0]).held_change(moved)
     }
 
     #[inline(always)]
@@ -76,11 +71,7 @@ impl Joint for Revolute {
         _: &[R; MOST_NUMBERS],
         mu: &[R; MOST_EQUATIONS],
     ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        let (moment, own) =
-            JointRotation::about_third_axis(&own.angles[0]).matches_moments(moved, last_three(mu));
-        let mut wrench = coincident_wrench(moved, first_three(mu));
-        wrench.rotation = wrench.rotation + moment;
-        (wrench, own)
+        JointRotation::about_third_axis(&own.angles[0]).held_wrench(moved, mu)
     }
 
     fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {

@@ -1,12 +1,12 @@
 //! Spherical joint: two nodes share a point and turn freely about it.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use lissom_motion::{Real, Screw, Vector3};
+use lissom_motion::{Real, Screw, Triple, Vector3};
 
 use super::moved::{Moved, OwnMoved};
 use super::primitives::{
     POINT_EQUATIONS, coincident, coincident_change, coincident_curvature, coincident_gradient,
-    coincident_wrench, first_three,
+    coincident_wrench,
 };
 use super::{
     Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, MOST_EQUATIONS,
@@ -57,7 +57,7 @@ impl Joint for Spherical {
         _: &[R; MOST_NUMBERS],
         mu: &[R; MOST_EQUATIONS],
     ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        let wrench = coincident_wrench(moved, first_three(mu));
+        let wrench = coincident_wrench(moved, Triple::new(mu[0], mu[1], mu[2]));
         (wrench, [mu[0].like(0.0); MOST_COORDINATES])
     }
 

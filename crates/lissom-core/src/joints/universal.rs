@@ -6,10 +6,7 @@ use lissom_motion::{Real, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
 use super::moved::{Moved, OwnMoved};
-use super::primitives::{
-    JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient,
-    coincident_wrench, first_three, last_three,
-};
+use super::primitives::{JointRotation, coincident, coincident_curvature, coincident_gradient};
 use super::{
     Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
     MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
@@ -50,9 +47,7 @@ impl Joint for Universal {
         own: &OwnMoved<R>,
         _: &[R; MOST_NUMBERS],
     ) -> [R; MOST_EQUATIONS] {
-        let [a, b, c] = coincident_change(moved);
-        let [d, e, f] = JointRotation::about_first_and_second_axis(&own.angles).matches_change(moved);
-        [a, b, c, d, e, f]
+        JointRotation::about_first_and_second_axis(&own.angles).held_change(moved)
     }
 
     #[inline(always)]
@@ -62,11 +57,7 @@ impl Joint for Universal {
         _: &[R; MOST_NUMBERS],
         mu: &[R; MOST_EQUATIONS],
     ) -> (Screw<R>, [R; MOST_COORDINATES]) {
-        let (moment, own) =
-            JointRotation::about_first_and_second_axis(&own.angles).matches_moments(moved, last_three(mu));
-        let mut wrench = coincident_wrench(moved, first_three(mu));
-        wrench.rotation = wrench.rotation + moment;
-        (wrench, own)
+        JointRotation::about_first_and_second_axis(&own.angles).held_wrench(moved, mu)
     }
 
     fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
