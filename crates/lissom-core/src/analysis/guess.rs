@@ -138,8 +138,7 @@ impl pulp::WithSimd for Learn<'_> {
         let mut last = [[0.0]; MOST + 1];
         let whole = found.len() - found.len() % SIDE_BY_SIDE;
         for k in (0..whole).step_by(SIDE_BY_SIDE) {
-            let (found, guessed): (&[f64; SIDE_BY_SIDE], _) = (numbers(found, k), numbers(guessed, k));
-            let guessed: &[f64; SIDE_BY_SIDE] = guessed;
+            let (found, guessed) = (numbers::<SIDE_BY_SIDE>(found, k), numbers::<SIDE_BY_SIDE>(guessed, k));
             memory.note(first + k, std::array::from_fn(|i| found[i] - guessed[i]), &mut errors);
         }
         for k in whole..found.len() {
