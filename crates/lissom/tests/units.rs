@@ -1,5 +1,5 @@
-//! The same mechanism in other units and on another level of mass takes the same iterations, but for a few that
-//! round-off decides, and gives the same motion.
+//! The same mechanism in other units and on another level of mass takes the same iterations and gives the same motion.
+//! In other units places are rounded elsewhere, which decides a few iterations.
 
 use std::path::Path;
 
@@ -78,7 +78,8 @@ fn factor(unit: &str, length: f64, force: f64) -> f64 {
 fn compare(reference: &Run, other: &Run, length: f64, force: f64) {
     assert_eq!(reference.tangents, other.tangents);
     let (ours, theirs) = (reference.iterations, other.iterations);
-    assert!(ours.abs_diff(theirs) <= ours / 100, "{ours} and {theirs} iterations");
+    let most = if length == 1.0 { 0 } else { ours / 100 };
+    assert!(ours.abs_diff(theirs) <= most, "{ours} and {theirs} iterations");
     for unit in ["m", "N", "N m", "J"] {
         let in_unit = |run: &Run| -> Vec<f64> {
             run.last.iter().filter(|(_, kind, _)| kind == unit).map(|(.., value)| *value).collect()

@@ -25,9 +25,6 @@ pub(crate) const FAR: f64 = 1e-3;
 /// Roundings that add up in a force.
 const ROUNDINGS: f64 = 16.0;
 
-/// Multipliers are wanted to fewer digits than places, from which the motion goes on.
-const MULTIPLIER_WEIGHT: f64 = 1e-2;
-
 /// One step from `start`.
 pub(crate) struct StepEquations<'a> {
     pub(crate) system: &'a System,
@@ -236,7 +233,7 @@ impl StepEquations<'_> {
         let Correction { size, reference } = places;
         // Where nothing bears a load yet, as before the first wave arrives, multipliers are nothing but round-off.
         let is_known = largest > 0.0 && change > work.force_round_off;
-        let multipliers = if is_known { MULTIPLIER_WEIGHT * change / largest * reference } else { 0.0 };
+        let multipliers = if is_known { change / largest * reference } else { 0.0 };
         Correction { size: size.max(multipliers), reference }
     }
 

@@ -16,7 +16,7 @@ use super::corrections::{processor, product};
 /// Most secants in use.
 const MOST: usize = 5;
 /// Secants that are less independent of newer ones are left out.
-const DEPENDENT: f64 = 1e-6;
+const DEPENDENT: f64 = 3e-4;
 /// A secant is used for corrections up to so many times as large: beyond, its round-off would tell.
 const REACH: f64 = 10.0;
 /// A secant is kept if |P| is below this part of |Δ|: where a tangent is worse it is to be renewed, and corrections that
