@@ -12,9 +12,7 @@ use super::{approach, equilibrium};
 use crate::newton::{self, Failure, Limits, Memory};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Coupling, Scheme, Tableau};
-use crate::system::{
-    Augmentation, Chart, Kinematics, Linearization, MotionChange, Point, State, System, Threads,
-};
+use crate::system::{Kinematics, Linearization, MotionChange, State, System, Threads};
 
 /// What a simulation is told besides system and state.
 #[derive(Clone)]
@@ -107,7 +105,8 @@ impl Simulation {
         } else {
             (system, state)
         };
-        let representative = representative(&system, &state);
+        let at_start = Linearization::of_state(&system, &state.kinematics);
+        let representative = Representative::of(&system, &state.kinematics, &at_start);
         let mut velocity_correction = 0.0;
         let pivoting = lissom_solver::kind("pivoting").unwrap_or(settings.solver);
         if settings.scheme.dynamic {
@@ -391,29 +390,6 @@ fn compensate(start: &State, changes: &[MotionChange], next: &mut State) {
         frame.position = position;
         frame.rotation = frame.rotation.normalized();
     }
-}
-
-/// Representative values from the linearisation at the start.
-fn representative(system: &System, state: &State) -> Representative {
-    let still = vec![MotionChange::none(); state.kinematics.nodes.len()];
-    let unchanged = vec![0.0; state.kinematics.coordinates.len()];
-    let zero = vec![0.0; system.layout().multiplier_count];
-    let point = Point {
-        at: &state.kinematics,
-        stressed: &state.kinematics,
-        increments: crate::joints::attached::Increments {
-            start: &state.kinematics,
-            nodes: &still,
-            coordinates: &unchanged,
-            joints: None,
-        },
-        multipliers: &zero,
-        violations: &zero,
-        augmentation: Augmentation::none(),
-    };
-    let mut linearization = Linearization::new(system);
-    system.linearize(&point, Chart::Body, &mut linearization);
-    Representative::of(system, &state.kinematics, &linearization)
 }
 
 fn layout_has_constraints(system: &System) -> bool {

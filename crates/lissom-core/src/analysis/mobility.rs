@@ -3,8 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::joints::attached::Increments;
-use crate::system::{Augmentation, Chart, Linearization, MotionChange, Point, State, System};
+use crate::system::{Linearization, State, System};
 
 /// Entries below this part of a row's largest count as round-off.
 const ROUND_OFF: f64 = 1e-9;
@@ -139,25 +138,8 @@ fn eliminate(
 
 /// Rows of B by multiplier.
 fn rows(system: &System, state: &State) -> Vec<BTreeMap<usize, f64>> {
-    let still = vec![MotionChange::none(); state.kinematics.nodes.len()];
-    let unchanged = vec![0.0; state.kinematics.coordinates.len()];
     let layout = system.layout();
-    let zero = vec![0.0; layout.multiplier_rows().len()];
-    let point = Point {
-        at: &state.kinematics,
-        stressed: &state.kinematics,
-        increments: Increments {
-            start: &state.kinematics,
-            nodes: &still,
-            coordinates: &unchanged,
-            joints: None,
-        },
-        multipliers: &zero,
-        violations: &zero,
-        augmentation: Augmentation::none(),
-    };
-    let mut linearization = Linearization::new(system);
-    system.linearize(&point, Chart::Body, &mut linearization);
+    let linearization = Linearization::of_state(system, &state.kinematics);
     let pattern = system.pattern();
     layout
         .multiplier_rows()

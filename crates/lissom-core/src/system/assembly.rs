@@ -107,6 +107,24 @@ impl Linearization {
         }
     }
 
+    /// Of `system` as it stands: without increments of a step, multipliers or an augmented term.
+    pub fn of_state(system: &System, at: &Kinematics) -> Self {
+        let still = vec![MotionChange::none(); at.nodes.len()];
+        let unchanged = vec![0.0; at.coordinates.len()];
+        let zero = vec![0.0; system.layout.multiplier_count];
+        let point = Point {
+            at,
+            stressed: at,
+            increments: Increments { start: at, nodes: &still, coordinates: &unchanged, joints: None },
+            multipliers: &zero,
+            violations: &zero,
+            augmentation: Augmentation::none(),
+        };
+        let mut linearization = Self::new(system);
+        system.linearize(&point, Chart::Body, &mut linearization);
+        linearization
+    }
+
     pub(super) fn clear(&mut self) {
         for values in
             [&mut self.stiffness, &mut self.damping, &mut self.mass, &mut self.gram, &mut self.constraint]
