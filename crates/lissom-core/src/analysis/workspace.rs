@@ -97,10 +97,7 @@ impl Workspace {
         Self {
             unit: UnitStart::new(layout, scheme),
             predicted: vec![vec![0.0; count]; stages],
-            guesses: [
-                Guess::new(&sizes.repeat(stages)),
-                Guess::new(&vec![1.0; stages * layout.multiplier_count]),
-            ],
+            guesses: [Guess::new(stages, &sizes), Guess::new(stages, &vec![1.0; layout.multiplier_count])],
             extrapolates: false,
             increments: vec![vec![0.0; count]; stages],
             node_tangents: match scheme.increments {
