@@ -17,7 +17,9 @@ use lissom_motion::{
 };
 use pulp::{Simd, WithSimd};
 
-use crate::elements::blocks::{Frames, Part, Screws, gather_frames, gather_twists, parts, processor_for};
+use crate::elements::blocks::{
+    Frames, Part, Screws, gather, gather_frames, gather_twists, parts, processor_for,
+};
 use crate::schemes::MOST_STAGES;
 use crate::system::{Kinematics, LOCKED, Layout, MotionChange, NodeId};
 
@@ -170,22 +172,18 @@ impl NodeBlock {
     }
 
     /// Values by row, zero where there is none.
-    #[inline]
+    #[inline(always)]
     fn gather(&self, lanes: usize, values: &[f64], screws: &mut Screws) {
-        for lane in 0..lanes.min(WIDTH) {
+        let of = |lane: usize| {
+            let rows = &self.rows[lane];
             if self.consecutive {
-                let first = self.rows[lane][0] as usize;
-                let own = &values[first..first + 6];
-                for k in 0..6 {
-                    screws[k][lane] = own[k];
-                }
+                let first = rows[0] as usize;
+                *values[first..].first_chunk().expect("six rows in a row")
             } else {
-                for k in 0..6 {
-                    let row = self.rows[lane][k];
-                    screws[k][lane] = if row == LOCKED { 0.0 } else { values[row as usize] };
-                }
+                rows.map(|row| if row == LOCKED { 0.0 } else { values[row as usize] })
             }
-        }
+        };
+        gather(self.count, lanes, of, screws);
     }
 }
 
@@ -204,8 +202,9 @@ impl WithSimd for Entry<'_> {
     fn with_simd<S: Simd>(self, simd: S) {
         for (block, start) in self.blocks.iter().zip(self.starts) {
             let (parts, lanes) = parts::<S>(block.count);
-            gather_frames(self.start, &block.nodes[..lanes], &mut start.frame);
-            gather_twists(self.start, &block.nodes[..lanes], &mut start.twist);
+            let nodes = &block.nodes[..block.count];
+            gather_frames(self.start, nodes, lanes, &mut start.frame);
+            gather_twists(self.start, nodes, lanes, &mut start.twist);
             block.gather(lanes, self.known.rate, &mut start.rate);
             block.gather(lanes, self.known.curvature, &mut start.curvature);
             for index in 0..parts {

@@ -155,8 +155,9 @@ impl<const N: usize> WithSimd for Linearization<'_, N> {
         for index in self.blocks {
             let block = &self.beams.blocks[index];
             for i in 0..N {
-                gather_frames(self.at, &block.nodes[i], &mut frames[0][i]);
-                gather_frames(self.stressed, &block.nodes[i], &mut frames[1][i]);
+                let nodes = &block.nodes[i][..block.count];
+                gather_frames(self.at, nodes, WIDTH, &mut frames[0][i]);
+                gather_frames(self.stressed, nodes, WIDTH, &mut frames[1][i]);
             }
             block.stiffness(simd, &frames, &self.beams.shapes, &mut results);
             (self.add)(index, results.as_flattened().as_flattened().as_flattened());
@@ -214,9 +215,10 @@ impl<const N: usize> BeamBlock<N> {
         let Scratch { frames, twists, results } = scratch;
         let (parts, lanes) = parts::<S>(self.count);
         for i in 0..N {
-            gather_frames(at, &self.nodes[i][..lanes], &mut frames[i]);
+            let nodes = &self.nodes[i][..self.count];
+            gather_frames(at, nodes, lanes, &mut frames[i]);
             if self.damped {
-                gather_twists(at, &self.nodes[i][..lanes], &mut twists[i]);
+                gather_twists(at, nodes, lanes, &mut twists[i]);
             }
         }
         for index in 0..parts {

@@ -132,35 +132,47 @@ impl<S: Simd> Part<S> {
     }
 }
 
-/// The frames of up to eight nodes.
-#[inline]
-pub(crate) fn gather_frames(at: &Kinematics, nodes: &[NodeId], frames: &mut Frames) {
-    for lane in 0..nodes.len().min(WIDTH) {
-        let components = Pose::from(&at.nodes[nodes[lane]].frame).components();
-        for i in 0..7 {
-            frames[i][lane] = components[i];
+/// Lays out the numbers of `count` elements lane by lane; lanes beyond, as far as vectors reach, repeat the first.
+#[inline(always)]
+pub(crate) fn gather<const N: usize>(
+    count: usize,
+    lanes: usize,
+    of: impl Fn(usize) -> [f64; N],
+    blocks: &mut [Block; N],
+) {
+    if count < lanes {
+        let first = of(0);
+        for i in 0..N {
+            blocks[i] = [first[i]; WIDTH];
         }
     }
+    for lane in 0..count.min(WIDTH) {
+        let own = of(lane);
+        for i in 0..N {
+            blocks[i][lane] = own[i];
+        }
+    }
+}
+
+/// The frames of up to eight nodes, for as many lanes.
+#[inline]
+pub(crate) fn gather_frames(at: &Kinematics, nodes: &[NodeId], lanes: usize, frames: &mut Frames) {
+    gather(nodes.len(), lanes, |lane| Pose::from(&at.nodes[nodes[lane]].frame).components(), frames);
 }
 
 /// The twists of up to eight nodes.
 #[inline]
-pub(crate) fn gather_twists(at: &Kinematics, nodes: &[NodeId], twists: &mut Screws) {
-    for lane in 0..nodes.len().min(WIDTH) {
-        let twist = &at.nodes[nodes[lane]].twist;
-        for i in 0..6 {
-            twists[i][lane] = twist[i];
-        }
-    }
+pub(crate) fn gather_twists(at: &Kinematics, nodes: &[NodeId], lanes: usize, twists: &mut Screws) {
+    gather(nodes.len(), lanes, |lane| at.nodes[nodes[lane]].twist.into(), twists);
 }
 
 /// The accelerations of up to eight nodes.
 #[inline]
-pub(super) fn gather_accelerations(at: &Kinematics, nodes: &[NodeId], accelerations: &mut Screws) {
-    for lane in 0..nodes.len().min(WIDTH) {
-        let acceleration = &at.nodes[nodes[lane]].acceleration;
-        for i in 0..6 {
-            accelerations[i][lane] = acceleration[i];
-        }
-    }
+pub(super) fn gather_accelerations(
+    at: &Kinematics,
+    nodes: &[NodeId],
+    lanes: usize,
+    accelerations: &mut Screws,
+) {
+    gather(nodes.len(), lanes, |lane| at.nodes[nodes[lane]].acceleration.into(), accelerations);
 }

@@ -54,9 +54,10 @@ impl InertiaBlock {
     fn forces<S: Simd>(&self, simd: S, at: &Kinematics, scratch: &mut Scratch) {
         let Scratch { frames, twists, accelerations, results } = scratch;
         let (parts, lanes) = parts::<S>(self.count);
-        gather_frames(at, &self.nodes[..lanes], frames);
-        gather_twists(at, &self.nodes[..lanes], twists);
-        gather_accelerations(at, &self.nodes[..lanes], accelerations);
+        let nodes = &self.nodes[..self.count];
+        gather_frames(at, nodes, lanes, frames);
+        gather_twists(at, nodes, lanes, twists);
+        gather_accelerations(at, nodes, lanes, accelerations);
         for index in 0..parts {
             let part = Part { simd, index };
             let [x, y, z] = &self.gravity;

@@ -15,7 +15,7 @@ use super::attached::AttachedJoint;
 use super::derivatives::{Derivatives, LOCAL, OWN, TIP};
 use super::moved::{Angle, Axes, FrameChange, Moved, OwnMoved};
 use super::{Equations, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Quantity, equation_quantity};
-use crate::elements::blocks::{Frames, Part, gather_frames, parts, processor_for};
+use crate::elements::blocks::{Frames, Part, gather, gather_frames, parts, processor_for};
 use crate::system::{Chart, Kinematics, Point};
 
 /// Forces on the local unknowns and violations of eight joints, in the order of a joint's rows.
@@ -316,8 +316,8 @@ impl Pack {
         out: &mut StartBlock,
     ) {
         let (parts, lanes) = parts::<S>(self.count);
-        gather_frames(start, &self.nodes[0][..lanes], &mut frames[0]);
-        gather_frames(start, &self.nodes[1][..lanes], &mut frames[1]);
+        gather_frames(start, &self.nodes[0][..self.count], lanes, &mut frames[0]);
+        gather_frames(start, &self.nodes[1][..self.count], lanes, &mut frames[1]);
         for index in 0..parts {
             let part = Part { simd, index };
             let base = part.frame(&frames[0]) * part.frame(&self.offsets[0]);
@@ -341,25 +341,22 @@ impl Pack {
 
     #[inline(always)]
     fn gather<J: Joint>(&self, lanes: usize, point: &Point<'_>, gathered: &mut Gathered) {
+        let increments = &point.increments;
         for side in 0..2 {
-            for lane in 0..lanes {
-                let change = &point.increments.nodes[self.nodes[side][lane]];
-                let turn = change.turn.as_slice();
-                for k in 0..9 {
-                    gathered.changes[side][k][lane] = turn[k];
-                }
-                for k in 0..3 {
-                    gathered.changes[side][9 + k][lane] = change.shift[k];
-                }
-            }
+            let of = |lane: usize| {
+                let change = &increments.nodes[self.nodes[side][lane]];
+                let (turn, shift) = (change.turn.as_slice(), &change.shift);
+                std::array::from_fn(|k| if k < 9 { turn[k] } else { shift[k - 9] })
+            };
+            gather(self.count, lanes, of, &mut gathered.changes[side]);
         }
         for k in 0..J::COORDINATES.len() {
             for lane in 0..lanes {
-                gathered.coordinates[k][lane] =
-                    point.increments.coordinates[self.coordinates[k][lane] as usize];
+                gathered.coordinates[k][lane] = increments.coordinates[self.coordinates[k][lane] as usize];
             }
         }
-        for lane in 0..lanes {
+        // No formula branches on what stands in lanes beyond the last joint.
+        for lane in 0..self.count {
             let (first, count) = self.equations[lane];
             let own = first as usize..(first + count) as usize;
             let (multipliers, violations) = (&point.multipliers[own.clone()], &point.violations[own]);
