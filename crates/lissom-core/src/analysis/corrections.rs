@@ -6,7 +6,7 @@
 use crate::newton::Correction;
 
 /// Numbers side by side in a sum or a maximum, so that they need not wait for each other.
-const SIDE_BY_SIDE: usize = 8;
+pub(super) const SIDE_BY_SIDE: usize = 8;
 
 /// Systems of fewer unknowns are not worth a call of their own for wide registers.
 const FEW: usize = 24;
@@ -14,6 +14,13 @@ const FEW: usize = 24;
 /// What to go through `count` unknowns with.
 pub(super) fn processor(count: usize) -> pulp::Arch {
     if count < FEW { pulp::Arch::Scalar } else { pulp::Arch::new() }
+}
+
+/// Sum of numbers side by side, by halves: none waits for more than two others.
+#[inline(always)]
+pub(super) fn sum(values: &[f64; SIDE_BY_SIDE]) -> f64 {
+    let [a, b, c, d, e, f, g, h] = *values;
+    ((a + e) + (c + g)) + ((b + f) + (d + h))
 }
 
 /// Σ aᵢ bᵢ.
@@ -28,7 +35,7 @@ pub(super) fn product(a: &[f64], b: &[f64]) -> f64 {
         }
     }
     let rest: f64 = a_rest.iter().zip(b_rest).map(|(a, b)| a * b).sum();
-    sums.iter().sum::<f64>() + rest
+    sum(&sums) + rest
 }
 
 /// max |wᵢ vᵢ|, and whether all are finite.
@@ -46,12 +53,14 @@ pub(super) fn largest(weights: &[f64], values: &[f64]) -> (f64, bool) {
             most[k] = if value > most[k] { value } else { most[k] };
         }
     }
-    let (mut nothing, mut most) =
-        (nothing.iter().sum::<f64>(), most.iter().fold(0.0_f64, |most, &value| most.max(value)));
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let [a, b, c, d, e, f, g, h] = most;
+    let mut most = larger(larger(larger(a, e), larger(c, g)), larger(larger(b, f), larger(d, h)));
+    let mut nothing = sum(&nothing);
     for (w, v) in w_rest.iter().zip(v_rest) {
         let value = (w * v).abs();
         nothing += 0.0 * value;
-        most = most.max(value);
+        most = larger(value, most);
     }
     (most, nothing == 0.0)
 }

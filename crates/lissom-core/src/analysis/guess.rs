@@ -9,6 +9,8 @@
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
+use super::corrections::{SIDE_BY_SIDE, sum};
+
 /// Steps that are looked back at most, K.
 const MOST: usize = 8;
 /// What a step counts for after another one, φ: coefficients change as the motion does, and what has depended on round-off
@@ -16,9 +18,6 @@ const MOST: usize = 8;
 const FADING: f64 = 0.5;
 /// What depends on later steps but for this part is left out.
 const DEPENDENT: f64 = 1e-10;
-
-/// Numbers that are looked at side by side.
-const SIDE_BY_SIDE: usize = 8;
 
 type Block = [f64; SIDE_BY_SIDE];
 
@@ -128,14 +127,14 @@ impl pulp::WithSimd for Improve<'_> {
         let mut blocks = self.memory.missed.iter();
         for stage in self.guess {
             for (values, missed) in stage.chunks_mut(SIDE_BY_SIDE).zip(&mut blocks) {
-                let mut sum = [0.0; SIDE_BY_SIDE];
+                let mut missing = [0.0; SIDE_BY_SIDE];
                 for place in 0..MOST {
                     for k in 0..SIDE_BY_SIDE {
-                        sum[k] += shares[place] * missed[place][k];
+                        missing[k] += shares[place] * missed[place][k];
                     }
                 }
-                for (value, sum) in values.iter_mut().zip(sum) {
-                    *value += sum;
+                for (value, missing) in values.iter_mut().zip(missing) {
+                    *value += missing;
                 }
             }
         }
@@ -176,7 +175,7 @@ impl pulp::WithSimd for Note<'_> {
             }
             missed[oldest] = latest;
         }
-        sums.map(|sum| sum.iter().sum())
+        std::array::from_fn(|place| sum(&sums[place]))
     }
 }
 
