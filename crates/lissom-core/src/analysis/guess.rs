@@ -17,7 +17,7 @@ const MOST: usize = 8;
 /// is soon forgotten.
 const FADING: f64 = 0.5;
 /// What depends on later steps but for this part is left out.
-const DEPENDENT: f64 = 1e-10;
+const DEPENDENT: f64 = 1e-13;
 
 type Block = [f64; SIDE_BY_SIDE];
 
