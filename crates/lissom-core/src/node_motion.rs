@@ -237,7 +237,6 @@ impl WithSimd for Travel<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let mut places = Places::new();
         let mut increments = [[[0.0; WIDTH]; 6]; MOST_STAGES];
         for (block, start) in self.blocks.iter().zip(self.starts) {
             let (parts, lanes) = parts::<S>(block.count);
@@ -261,9 +260,11 @@ impl WithSimd for Travel<'_> {
                     straight: part.screw(&start.straight),
                     twist: part.screw(&start.twist),
                 };
-                places.store(part, &travel(self.table, &start, own, [rate, curvature]));
+                let reached = travel(self.table, &start, own, [rate, curvature]);
+                let first = index * S::F64_LANES;
+                let nodes = &block.nodes[first..block.count.min(first + S::F64_LANES)];
+                Places::new(&reached).scatter(nodes, self.at, self.changes);
             }
-            places.scatter(block, self.at, self.changes);
         }
     }
 }
@@ -299,7 +300,7 @@ fn travel<R: Real>(
     Reached { change, frame, twist: carried + gained, acceleration }
 }
 
-/// What is reached, lane by lane.
+/// What one part of a block reaches, lane by lane.
 struct Places {
     frame: Frames,
     twist: Screws,
@@ -310,44 +311,51 @@ struct Places {
 }
 
 impl Places {
-    fn new() -> Self {
-        Self {
-            frame: [[0.0; WIDTH]; 7],
-            twist: [[0.0; WIDTH]; 6],
-            acceleration: [[0.0; WIDTH]; 6],
-            turn: [[0.0; WIDTH]; 9],
-            shift: [[0.0; WIDTH]; 3],
-        }
-    }
-
     #[inline(always)]
-    fn store<S: Simd>(&mut self, part: Part<S>, reached: &Reached<Lanes<S>>) {
-        part.store_frame(reached.frame, &mut self.frame);
-        part.store(reached.twist, &mut self.twist);
-        part.store(reached.acceleration, &mut self.acceleration);
-        let turn = reached.change.rotation.minus_identity();
-        for i in 0..9 {
-            turn[i].store(&mut self.turn[i], part.index);
-        }
+    fn new<S: Simd>(reached: &Reached<Lanes<S>>) -> Self {
         let shift = reached.change.position;
-        shift.x.store(&mut self.shift[0], part.index);
-        shift.y.store(&mut self.shift[1], part.index);
-        shift.z.store(&mut self.shift[2], part.index);
+        Self {
+            frame: spread(reached.frame.components()),
+            twist: spread(reached.twist.components()),
+            acceleration: spread(reached.acceleration.components()),
+            turn: spread(reached.change.rotation.minus_identity()),
+            shift: spread([shift.x, shift.y, shift.z]),
+        }
     }
 
-    /// To the nodes.
-    fn scatter(&self, block: &NodeBlock, at: &mut Kinematics, changes: &mut [MotionChange]) {
-        for lane in 0..block.count {
-            let to = &mut at.nodes[block.nodes[lane]];
-            to.frame = Motion::from(Pose::from_components(self.frame.map(|values| values[lane])));
-            to.twist = Vector6::from_fn(|i, _| self.twist[i][lane]);
-            to.acceleration = Vector6::from_fn(|i, _| self.acceleration[i][lane]);
-            changes[block.nodes[lane]] = MotionChange {
-                turn: Matrix3::from_fn(|i, j| self.turn[3 * i + j][lane]),
-                shift: Vector3::from_fn(|i, _| self.shift[i][lane]),
+    /// To as many nodes as there are.
+    #[inline(always)]
+    fn scatter(&self, nodes: &[NodeId], at: &mut Kinematics, changes: &mut [MotionChange]) {
+        for (lane, &node) in nodes.iter().enumerate().take(WIDTH) {
+            let to = &mut at.nodes[node];
+            to.frame = Motion::from(Pose::from_components(of_lane(&self.frame, lane)));
+            to.twist = Vector6::from(of_lane(&self.twist, lane));
+            to.acceleration = Vector6::from(of_lane(&self.acceleration, lane));
+            changes[node] = MotionChange {
+                turn: Matrix3::from_row_slice(&of_lane(&self.turn, lane)),
+                shift: Vector3::from(of_lane(&self.shift, lane)),
             };
         }
     }
+}
+
+/// Numbers as they stand in the lanes.
+#[inline(always)]
+fn spread<S: Simd, const N: usize>(numbers: [Lanes<S>; N]) -> [Block; N] {
+    let mut blocks = [[0.0; WIDTH]; N];
+    for i in 0..N {
+        numbers[i].store(&mut blocks[i], 0);
+    }
+    blocks
+}
+
+#[inline(always)]
+fn of_lane<const N: usize>(blocks: &[Block; N], lane: usize) -> [f64; N] {
+    let mut numbers = [0.0; N];
+    for i in 0..N {
+        numbers[i] = blocks[i][lane];
+    }
+    numbers
 }
 
 #[cfg(test)]
