@@ -159,15 +159,25 @@ impl Session {
     /// # Errors
     /// If the step has no solution.
     pub fn advance(&mut self) -> Result<StepReport, StepError> {
+        let outcome = self.step();
+        self.spent.pause();
+        outcome
+    }
+
+    /// The same where another step follows at once.
+    fn step(&mut self) -> Result<StepReport, StepError> {
         loop {
             self.simulation.set_step_size(self.pace.next_size());
-            let began = self.spent.begin_step();
+            self.spent.begin_step();
             let outcome = self.simulation.step_watched(&mut self.spent);
-            self.spent.end_step(began);
+            self.spent.end_step();
             match outcome {
                 Ok(report) => {
                     let most = self.simulation.settings().limits.max_iterations;
                     self.pace.accept(2 * report.iterations <= most);
+                    if self.telemetry.will_estimate(&self.simulation, &report) {
+                        self.spent.pause();
+                    }
                     self.telemetry.note(&mut self.simulation, &report, self.spent.steps());
                     return Ok(report);
                 }
@@ -199,6 +209,7 @@ impl Session {
             Ok(ControlFlow::Break(())) => Stopped::Interrupted,
             Err(error) => Stopped::Failed(error),
         };
+        self.spent.pause();
         let finished = writers.iter_mut().try_for_each(|writer| writer.finish());
         let stopped = match (stopped, finished) {
             (Stopped::Failed(error), _) => Stopped::Failed(error),
@@ -238,7 +249,7 @@ impl Session {
         let every = self.pace.plan().output_every;
         let mut recorded = true;
         while !self.pace.is_finished() {
-            if let Err(error) = self.advance() {
+            if let Err(error) = self.step() {
                 if !recorded {
                     self.write_row(writers)?;
                 }
@@ -262,6 +273,7 @@ impl Session {
     }
 
     fn write_row(&mut self, writers: &mut [&mut dyn Writer]) -> io::Result<()> {
+        self.spent.pause();
         let began = Instant::now();
         let mut values = std::mem::take(&mut self.tally.values);
         values.clear();

@@ -40,8 +40,12 @@ impl Seconds {
 /// Watches steps.
 pub(crate) struct Spent {
     by_phase: [Duration; Phase::COUNT],
+    /// Of the steps whose end was seen.
     steps: Duration,
+    /// When the steps after those began.
+    open: Option<Instant>,
     count: u32,
+    are_short: bool,
     watching: bool,
     mark: Instant,
     phase: Phase,
@@ -54,7 +58,9 @@ impl Spent {
         Self {
             by_phase: [Duration::ZERO; Phase::COUNT],
             steps: Duration::ZERO,
+            open: None,
             count: 0,
+            are_short: false,
             watching: false,
             mark: Instant::now(),
             phase: Phase::Rest,
@@ -64,24 +70,43 @@ impl Spent {
     }
 
     /// A step begins.
-    pub(crate) fn begin_step(&mut self) -> Instant {
-        let short = self.count > 0 && self.steps / self.count < LONG;
-        self.watching = !short || self.count.is_multiple_of(STRIDE);
+    pub(crate) fn begin_step(&mut self) {
+        self.watching = !self.are_short || self.count.is_multiple_of(STRIDE);
         self.count += 1;
         self.phase = Phase::Rest;
-        self.mark = Instant::now();
-        self.mark
+        if self.watching || self.open.is_none() {
+            let now = Instant::now();
+            self.close(now);
+            self.open = Some(now);
+            self.mark = now;
+        }
     }
 
-    /// The step that began then is over.
-    pub(crate) fn end_step(&mut self, began: Instant) {
-        let now = Instant::now();
-        self.note(now);
-        self.watching = false;
-        self.steps += now - began;
+    /// The step is over.
+    pub(crate) fn end_step(&mut self) {
+        if self.watching {
+            let now = Instant::now();
+            self.note(now);
+            self.close(now);
+            self.watching = false;
+            self.are_short = self.steps / self.count < LONG;
+        }
     }
 
-    /// All steps so far, failed ones included.
+    /// What follows is no step.
+    pub(crate) fn pause(&mut self) {
+        if self.open.is_some() {
+            self.close(Instant::now());
+        }
+    }
+
+    fn close(&mut self, now: Instant) {
+        if let Some(began) = self.open.take() {
+            self.steps += now - began;
+        }
+    }
+
+    /// All steps up to the last pause, failed ones included.
     pub(crate) fn steps(&self) -> Duration {
         self.steps
     }
@@ -126,13 +151,14 @@ mod tests {
     fn the_parts_are_the_whole() {
         let mut spent = Spent::new();
         for _ in 0..40 {
-            let began = spent.begin_step();
+            spent.begin_step();
             for phase in [Phase::Evaluation, Phase::Solve, Phase::Linearisation, Phase::Factorisation] {
                 spent.begin(phase);
                 std::hint::black_box((0..1000).fold(0_u64, |sum, k| std::hint::black_box(sum ^ k)));
             }
-            spent.end_step(began);
+            spent.end_step();
         }
+        spent.pause();
         let seconds = spent.seconds();
         assert!((seconds.steps() - spent.steps().as_secs_f64()).abs() < 1e-9);
         assert!(seconds.evaluation > 0.0 && seconds.factorisation > 0.0 && seconds.solve > 0.0);

@@ -73,15 +73,25 @@ impl Telemetry {
         self.range
     }
 
+    /// Whether noting the last step will look at its tangent.
+    pub(crate) fn will_estimate(&self, simulation: &Simulation, report: &StepReport) -> bool {
+        (self.is_stale || report.factorizations > 0) && self.is_due(simulation)
+    }
+
+    fn is_due(&self, simulation: &Simulation) -> bool {
+        let step = simulation.totals().steps;
+        step == 1 || step.is_multiple_of(self.every)
+    }
+
     /// Notes a step that was completed; `solving` is the time spent on steps so far.
     pub(crate) fn note(&mut self, simulation: &mut Simulation, report: &StepReport, solving: Duration) {
         self.open.0 += report.iterations;
         self.open.1 += report.factorizations;
         self.is_stale |= report.factorizations > 0;
-        let step = simulation.totals().steps;
-        if step != 1 && !step.is_multiple_of(self.every) {
+        if !self.is_due(simulation) {
             return;
         }
+        let step = simulation.totals().steps;
         if self.is_stale && (self.condition.is_none() || self.spent <= solving.mul_f64(MOST_TIME)) {
             self.estimate(simulation);
         }
