@@ -1,6 +1,7 @@
 //! Beams eight to a block, see `blocks`.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
+use std::cell::RefCell;
 use std::ops::Range;
 
 use lissom_motion::{Block, Lanes, Pose, Screw, WIDTH};
@@ -39,11 +40,25 @@ struct StationBlock<const N: usize> {
     law: [Screws; 6],
 }
 
+/// Most nodes of a beam.
+const MOST_NODES: usize = 4;
+
 /// Node motions and forces of one block.
-struct Scratch<const N: usize> {
-    frames: [Frames; N],
-    twists: [Screws; N],
-    results: [Screws; N],
+struct Scratch {
+    frames: [Frames; MOST_NODES],
+    twists: [Screws; MOST_NODES],
+    results: [Screws; MOST_NODES],
+}
+
+thread_local! {
+    /// Of this thread: as large as it is, it is not to be cleared at each evaluation.
+    static SCRATCH: RefCell<Scratch> = const {
+        RefCell::new(Scratch {
+            frames: [[[0.0; WIDTH]; 7]; MOST_NODES],
+            twists: [[[0.0; WIDTH]; 6]; MOST_NODES],
+            results: [[[0.0; WIDTH]; 6]; MOST_NODES],
+        })
+    };
 }
 
 impl<const N: usize> BeamBlocks<N> {
@@ -94,7 +109,9 @@ impl<const N: usize> Blocks for BeamBlocks<N> {
         blocks: Range<usize>,
         add: &mut dyn FnMut(usize, &[Block]),
     ) {
-        processor.dispatch(Evaluation { beams: self, at, blocks, add });
+        SCRATCH.with_borrow_mut(|scratch| {
+            processor.dispatch(Evaluation { beams: self, at, blocks, scratch, add });
+        });
     }
 
     fn stiffness(
@@ -116,6 +133,7 @@ struct Evaluation<'a, const N: usize> {
     beams: &'a BeamBlocks<N>,
     at: &'a Kinematics,
     blocks: Range<usize>,
+    scratch: &'a mut Scratch,
     add: &'a mut dyn FnMut(usize, &[Block]),
 }
 
@@ -124,14 +142,9 @@ impl<const N: usize> WithSimd for Evaluation<'_, N> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let mut scratch = Scratch {
-            frames: [[[0.0; WIDTH]; 7]; N],
-            twists: [[[0.0; WIDTH]; 6]; N],
-            results: [[[0.0; WIDTH]; 6]; N],
-        };
         for index in self.blocks {
-            self.beams.blocks[index].forces(simd, self.at, &self.beams.shapes, &mut scratch);
-            (self.add)(index, scratch.results.as_flattened());
+            self.beams.blocks[index].forces(simd, self.at, &self.beams.shapes, self.scratch);
+            (self.add)(index, self.scratch.results[..N].as_flattened());
         }
     }
 }
@@ -211,7 +224,7 @@ impl<S: Simd, const N: usize> Constants<Lanes<S>> for Here<'_, S, N> {
 
 impl<const N: usize> BeamBlock<N> {
     #[inline(always)]
-    fn forces<S: Simd>(&self, simd: S, at: &Kinematics, shapes: &[[f64; N]], scratch: &mut Scratch<N>) {
+    fn forces<S: Simd>(&self, simd: S, at: &Kinematics, shapes: &[[f64; N]], scratch: &mut Scratch) {
         let Scratch { frames, twists, results } = scratch;
         let (parts, lanes) = parts::<S>(self.count);
         for i in 0..N {

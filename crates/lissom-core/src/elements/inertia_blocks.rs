@@ -1,6 +1,7 @@
 //! Inertias eight to a block, see `blocks`.
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
+use std::cell::RefCell;
 use std::ops::Range;
 
 use lissom_motion::{Block, Screw, Triple, WIDTH};
@@ -31,6 +32,18 @@ struct Scratch {
     twists: Screws,
     accelerations: Screws,
     results: Screws,
+}
+
+thread_local! {
+    /// Of this thread: as large as it is, it is not to be cleared at each evaluation.
+    static SCRATCH: RefCell<Scratch> = const {
+        RefCell::new(Scratch {
+            frames: [[0.0; WIDTH]; 7],
+            twists: [[0.0; WIDTH]; 6],
+            accelerations: [[0.0; WIDTH]; 6],
+            results: [[0.0; WIDTH]; 6],
+        })
+    };
 }
 
 impl InertiaBlocks {
@@ -82,7 +95,9 @@ impl Blocks for InertiaBlocks {
         blocks: Range<usize>,
         add: &mut dyn FnMut(usize, &[Block]),
     ) {
-        processor.dispatch(Evaluation { inertias: &self.0, at, blocks, add });
+        SCRATCH.with_borrow_mut(|scratch| {
+            processor.dispatch(Evaluation { inertias: &self.0, at, blocks, scratch, add });
+        });
     }
 }
 
@@ -90,6 +105,7 @@ struct Evaluation<'a> {
     inertias: &'a [InertiaBlock],
     at: &'a Kinematics,
     blocks: Range<usize>,
+    scratch: &'a mut Scratch,
     add: &'a mut dyn FnMut(usize, &[Block]),
 }
 
@@ -98,15 +114,9 @@ impl WithSimd for Evaluation<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let mut scratch = Scratch {
-            frames: [[0.0; WIDTH]; 7],
-            twists: [[0.0; WIDTH]; 6],
-            accelerations: [[0.0; WIDTH]; 6],
-            results: [[0.0; WIDTH]; 6],
-        };
         for index in self.blocks {
-            self.inertias[index].forces(simd, self.at, &mut scratch);
-            (self.add)(index, &scratch.results);
+            self.inertias[index].forces(simd, self.at, self.scratch);
+            (self.add)(index, &self.scratch.results);
         }
     }
 }

@@ -6,6 +6,7 @@
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use std::any::Any;
+use std::cell::RefCell;
 use std::ops::Range;
 
 use lissom_motion::{Block, Lanes, Matrix3, Pose, Real, Screw, Triple, Vector3, WIDTH};
@@ -167,6 +168,27 @@ struct Pack {
     equations: [(u32, u32); WIDTH],
 }
 
+/// What eight joints see at a point, and what they answer.
+struct Room {
+    gathered: Gathered,
+    results: Results,
+}
+
+thread_local! {
+    /// Of this thread: as large as it is, it is not to be cleared at each evaluation.
+    static ROOM: RefCell<Room> = const {
+        RefCell::new(Room {
+            gathered: Gathered {
+                changes: [[[0.0; WIDTH]; 12]; 2],
+                coordinates: [[0.0; WIDTH]; MOST_COORDINATES],
+                multipliers: [[0.0; WIDTH]; MOST_EQUATIONS],
+                violations: [[0.0; WIDTH]; MOST_EQUATIONS],
+            },
+            results: [[0.0; WIDTH]; LOCAL + MOST_EQUATIONS],
+        })
+    };
+}
+
 /// What eight joints see at a point.
 struct Gathered {
     /// Turn, column by column, and shift of base and tip node.
@@ -232,7 +254,9 @@ impl<J: Joint> JointBatch for Batch<J> {
             self.begin(point.increments.start, &mut own);
             &own
         });
-        self.processor.dispatch(Evaluation { batch: self, wanted, point, starts, blocks, add });
+        ROOM.with_borrow_mut(|room| {
+            self.processor.dispatch(Evaluation { batch: self, wanted, point, starts, blocks, room, add });
+        });
     }
 
     fn linearize(
@@ -507,6 +531,7 @@ struct Evaluation<'a, J> {
     point: &'a Point<'a>,
     starts: &'a [StartBlock],
     blocks: Range<usize>,
+    room: &'a mut Room,
     add: &'a mut dyn FnMut(usize, &Results),
 }
 
@@ -518,30 +543,16 @@ impl<J: Joint> WithSimd for Evaluation<'_, J> {
         let augmentation = &self.point.augmentation;
         let weights = [Quantity::Length, Quantity::Angle]
             .map(|quantity| augmentation.weight * augmentation.relative(quantity));
-        let mut results = [[0.0; WIDTH]; LOCAL + MOST_EQUATIONS];
-        let zeros = [0.0; WIDTH];
-        let mut gathered = Gathered {
-            changes: [[zeros; 12]; 2],
-            coordinates: [zeros; MOST_COORDINATES],
-            multipliers: [zeros; MOST_EQUATIONS],
-            violations: [zeros; MOST_EQUATIONS],
-        };
+        let Room { gathered, results } = self.room;
         for block in self.blocks {
             let pack = &self.batch.packs[block];
             let (parts, lanes) = parts::<S>(pack.count);
-            pack.gather::<J>(lanes, self.point, &mut gathered);
+            pack.gather::<J>(lanes, self.point, gathered);
             for index in 0..parts {
                 let part = Part { simd, index };
-                pack.evaluate::<J, S>(
-                    part,
-                    self.wanted,
-                    weights,
-                    &self.starts[block],
-                    &gathered,
-                    &mut results,
-                );
+                pack.evaluate::<J, S>(part, self.wanted, weights, &self.starts[block], gathered, results);
             }
-            (self.add)(block, &results);
+            (self.add)(block, results);
         }
     }
 }
