@@ -40,6 +40,8 @@ impl Seconds {
 /// Watches steps.
 pub(crate) struct Spent {
     by_phase: [Duration; Phase::COUNT],
+    /// Of that, the first step's, which is like no other: it makes a tangent, and all memory is new to it.
+    first: [Duration; Phase::COUNT],
     /// Of the steps whose end was seen.
     steps: Duration,
     /// When the steps after those began.
@@ -57,6 +59,7 @@ impl Spent {
     pub(crate) fn new() -> Self {
         Self {
             by_phase: [Duration::ZERO; Phase::COUNT],
+            first: [Duration::ZERO; Phase::COUNT],
             steps: Duration::ZERO,
             open: None,
             count: 0,
@@ -89,6 +92,9 @@ impl Spent {
             self.note(now);
             self.close(now);
             self.watching = false;
+            if self.count == 1 {
+                self.first = self.by_phase;
+            }
             self.are_short = self.steps / self.count < LONG;
         }
     }
@@ -119,9 +125,14 @@ impl Spent {
     }
 
     pub(crate) fn seconds(&self) -> Seconds {
-        let seen: Duration = self.by_phase.iter().sum();
-        let factor = if seen.is_zero() { 0.0 } else { self.steps.as_secs_f64() / seen.as_secs_f64() };
-        let of = |phase: Phase| factor * self.by_phase[phase as usize].as_secs_f64();
+        let first: Duration = self.first.iter().sum();
+        let seen = self.by_phase.iter().sum::<Duration>().saturating_sub(first);
+        let others = self.steps.saturating_sub(first).as_secs_f64();
+        let factor = if seen.is_zero() { 0.0 } else { others / seen.as_secs_f64() };
+        let of = |phase: Phase| {
+            let (all, first) = (self.by_phase[phase as usize], self.first[phase as usize]);
+            first.as_secs_f64() + factor * all.saturating_sub(first).as_secs_f64()
+        };
         Seconds {
             start: self.start.as_secs_f64(),
             evaluation: of(Phase::Evaluation),
