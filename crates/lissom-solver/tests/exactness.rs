@@ -87,6 +87,19 @@ fn a_second_factorisation_remembers_nothing_of_the_first() {
 }
 
 #[test]
+fn growth_is_that_of_the_factorisation_at_hand() {
+    for model in models() {
+        let structure = model.structure();
+        let values = model.values::<f64>(&structure.pattern, 7, 1.0);
+        let huge: Vec<f64> = values.iter().map(|value| 1e9 * value).collect();
+        let mut solver = (kind("sparse").unwrap().real)(&structure);
+        let growth = solver.factor(&values).unwrap().growth;
+        solver.factor(&huge).unwrap();
+        assert_eq!(solver.factor(&values).unwrap().growth, growth);
+    }
+}
+
+#[test]
 fn real_values_in_complex_numbers_give_the_real_solution() {
     for model in models() {
         let structure = model.structure();

@@ -5,9 +5,11 @@
 
 use std::ops::Range;
 
+use super::contributions::{add_all, add_columns, add_lower, add_transposed};
 use super::elimination_tree::NONE;
-use super::fronts::{Child, Front, Part, Run, Symbolic};
+use super::fronts::{Front, Part, Symbolic};
 use super::kernels::{absolute_products, solve_panel, subtract_product};
+use super::small::SmallFront;
 use super::square::SquareWork;
 use crate::pattern::Pattern;
 use crate::report::{FactorError, Monitor};
@@ -34,6 +36,7 @@ pub(super) struct Numeric<S> {
 struct Bench<S> {
     stacks: [Vec<S>; 2],
     square: SquareWork<S>,
+    small: SmallFront<S>,
     /// `L21 D` of the front at hand: of symmetric matrices only.
     scaled: Vec<S>,
     front_terms: Vec<f64>,
@@ -82,6 +85,7 @@ impl<S: Scalar> Numeric<S> {
         let bench = |part: &Part| Bench {
             stacks: part.stack_lengths.map(|length| vec![S::zero(); length]),
             square: SquareWork::new(part.largest_pivots),
+            small: SmallFront::new(),
             scaled: of_symmetric(part.largest_panel),
             front_terms: vec![0.0; super::fronts::padded(part.largest_boundary)],
             outcome: Ok((Monitor::new(), 0.0)),
@@ -182,18 +186,18 @@ impl<S: Scalar, const SYMMETRIC: bool> pulp::WithSimd for FactorPart<'_, S, SYMM
     type Output = Result<(Monitor, f64), FactorError>;
 
     #[inline(always)]
-    fn with_simd<V: pulp::Simd>(self, _: V) -> Self::Output {
+    fn with_simd<V: pulp::Simd>(self, simd: V) -> Self::Output {
         let FactorPart { symbolic, values, mut work } = self;
         // Two vectors of rows, of real or of complex numbers summed twice: twelve sums for six columns. With four
         // lanes or more the processor multiplies and adds in one instruction.
         if V::F64_LANES == 8 && !S::COMPLEX {
-            work.factor::<true, 16, SYMMETRIC>(symbolic, values)
+            work.factor::<V, true, 16, SYMMETRIC>(simd, symbolic, values)
         } else if V::F64_LANES == 4 && !S::COMPLEX {
-            work.factor::<true, 8, SYMMETRIC>(symbolic, values)
+            work.factor::<V, true, 8, SYMMETRIC>(simd, symbolic, values)
         } else if V::F64_LANES >= 4 {
-            work.factor::<true, 4, SYMMETRIC>(symbolic, values)
+            work.factor::<V, true, 4, SYMMETRIC>(simd, symbolic, values)
         } else {
-            work.factor::<false, 4, SYMMETRIC>(symbolic, values)
+            work.factor::<V, false, 4, SYMMETRIC>(simd, symbolic, values)
         }
     }
 }
@@ -211,16 +215,22 @@ struct Work<'a, S> {
 impl<S: Scalar> Work<'_, S> {
     /// Factors; returns the monitor and the largest magnitude in U.
     #[inline(always)]
-    fn factor<const FUSED: bool, const ROWS: usize, const SYMMETRIC: bool>(
+    fn factor<V: pulp::Simd, const FUSED: bool, const ROWS: usize, const SYMMETRIC: bool>(
         &mut self,
+        simd: V,
         symbolic: &Symbolic,
         values: &[S],
     ) -> Result<(Monitor, f64), FactorError> {
         let mut monitor = Monitor::new();
         let mut largest = 0.0_f64;
         for front in &symbolic.fronts[self.part.fronts.clone()] {
-            self.assemble::<SYMMETRIC>(symbolic, front, values);
-            largest = largest.max(self.eliminate::<FUSED, ROWS, SYMMETRIC>(symbolic, front, &mut monitor)?);
+            let of_front = if front.is_small() {
+                self.factor_small::<V, SYMMETRIC>(simd, (symbolic, front), values, &mut monitor)?
+            } else {
+                self.assemble::<SYMMETRIC>(symbolic, front, values);
+                self.eliminate::<FUSED, ROWS, SYMMETRIC>(symbolic, front, &mut monitor)?
+            };
+            largest = if of_front > largest { of_front } else { largest };
         }
         Ok((monitor, largest))
     }
@@ -230,6 +240,54 @@ impl<S: Scalar> Work<'_, S> {
     fn range(&self, front: &Front) -> Range<usize> {
         let range = front.factor_range();
         range.start - self.part.factors.start..range.end - self.part.factors.start
+    }
+
+    /// A small front, from its assembly to its contribution.
+    #[inline(always)]
+    fn factor_small<V: pulp::Simd, const SYMMETRIC: bool>(
+        &mut self,
+        simd: V,
+        (symbolic, front): (&Symbolic, &Front),
+        values: &[S],
+        monitor: &mut Monitor,
+    ) -> Result<f64, FactorError> {
+        let pieces = &mut self.factors[front.factors - self.part.factors.start..];
+        let Bench { stacks: [even, odd], small, .. } = &mut *self.bench;
+        let (own, others) = if front.stack == 0 { (even, &*odd) } else { (odd, &*even) };
+        let (pivots, stride) = (front.pivots, front.small_stride());
+        let matrix = &mut small.matrix.0[..];
+        matrix[..(pivots + front.boundary) * stride].fill(S::zero());
+        let sources = &symbolic.sources[front.entries.clone()];
+        for (&source, &target) in sources.iter().zip(&symbolic.targets[front.entries.clone()]) {
+            matrix[target as usize] = values[source as usize];
+        }
+        for child in &symbolic.children[front.children.clone()] {
+            let stack = self.below.get(child.part).map_or(others, |other| &other.stacks[1 - front.stack]);
+            let of_child = &stack[child.contribution.clone()];
+            let to_pivots = &symbolic.runs[child.to_pivots.clone()];
+            let to_boundary = &symbolic.runs[child.to_boundary.clone()];
+            if SYMMETRIC {
+                let (of_pivots, of_boundary) = matrix.split_at_mut(pivots * stride);
+                add_lower(of_pivots, stride, of_child, child, to_pivots);
+                add_columns(&mut of_pivots[pivots..], stride, of_child, child, to_boundary, to_pivots);
+                add_lower(&mut of_boundary[pivots..], stride, of_child, child, to_boundary);
+            } else {
+                add_all(matrix, stride, of_child, child, [(to_pivots, 0), (to_boundary, pivots)]);
+            }
+        }
+        if SYMMETRIC {
+            small.complete(front);
+        }
+        let steps = self.part.steps_of(front);
+        small.terms[..pivots].copy_from_slice(&self.terms[steps]);
+        small.terms[pivots..].fill(0.0);
+        let unknowns = &symbolic.unknowns[front.first..front.first + pivots];
+        let results = (pieces, &mut own[front.contribution_range()]);
+        let largest = small.eliminate(simd, (front, unknowns), results, monitor)?;
+        for (&place, &term) in symbolic.places[front.rows.clone()].iter().zip(&small.terms[pivots..]) {
+            self.terms[place as usize] += term;
+        }
+        Ok(largest)
     }
 
     /// Entries of the matrix and the children's contributions to the pivots. The square of a symmetric matrix is
@@ -346,79 +404,6 @@ fn scale_columns<S: Scalar>(to: &mut [S], from: &[S], stride: usize, factors: &[
     for ((to, from), &factor) in to.chunks_exact_mut(stride).zip(from.chunks_exact(stride)).zip(factors) {
         for (to, &from) in to.iter_mut().zip(from) {
             *to = from * factor;
-        }
-    }
-}
-
-/// Adds the lower triangle of the part of a contribution in the given runs. Runs ascend in child and parent alike, so
-/// that the lower triangle goes to the lower triangle.
-#[inline(always)]
-fn add_lower<S: Scalar>(target: &mut [S], stride: usize, contribution: &[S], child: &Child, runs: &[Run]) {
-    for (index, columns) in runs.iter().enumerate() {
-        for column in 0..columns.length as usize {
-            let to = &mut target[(columns.to as usize + column) * stride..][..stride];
-            let from = &contribution[(columns.from as usize + column) * child.stride..][..child.stride];
-            for (further, rows) in runs[index..].iter().enumerate() {
-                // Of the run that holds the column only what lies below the diagonal.
-                let skip = if further == 0 { column } else { 0 };
-                let length = rows.length as usize - skip;
-                let to = &mut to[rows.to as usize + skip..][..length];
-                let from = &from[rows.from as usize + skip..][..length];
-                for (to, &from) in to.iter_mut().zip(from) {
-                    *to += from;
-                }
-            }
-        }
-    }
-}
-
-/// Adds the part of a contribution in the given runs of rows and columns.
-#[inline(always)]
-fn add_columns<S: Scalar>(
-    target: &mut [S],
-    stride: usize,
-    contribution: &[S],
-    child: &Child,
-    row_runs: &[Run],
-    column_runs: &[Run],
-) {
-    for columns in column_runs {
-        for column in 0..columns.length as usize {
-            let to = &mut target[(columns.to as usize + column) * stride..][..stride];
-            let from = &contribution[(columns.from as usize + column) * child.stride..][..child.stride];
-            for rows in row_runs {
-                let length = rows.length as usize;
-                let to = &mut to[rows.to as usize..][..length];
-                let from = &from[rows.from as usize..][..length];
-                for (to, &from) in to.iter_mut().zip(from) {
-                    *to += from;
-                }
-            }
-        }
-    }
-}
-
-/// The same, where rows of the contribution go to columns of the target.
-#[inline(always)]
-fn add_transposed<S: Scalar>(
-    target: &mut [S],
-    stride: usize,
-    contribution: &[S],
-    child: &Child,
-    row_runs: &[Run],
-    column_runs: &[Run],
-) {
-    for rows in row_runs {
-        for row in 0..rows.length as usize {
-            let to = &mut target[(rows.to as usize + row) * stride..][..stride];
-            let from = &contribution[rows.from as usize + row..];
-            for columns in column_runs {
-                let to = &mut to[columns.to as usize..][..columns.length as usize];
-                let begin = columns.from as usize * child.stride;
-                for (to, &from) in to.iter_mut().zip(from[begin..].iter().step_by(child.stride)) {
-                    *to += from;
-                }
-            }
         }
     }
 }

@@ -1,11 +1,13 @@
 //! Symbolic result of the multifrontal solver: every front's size, place in memory, and the maps by which
 //! entries and contributions get there. Knows positions, never values.
 //!
-//! A front with `k` pivots and `b` boundary unknowns is stored as three column-major pieces, one after the other: the
-//! square (`k` columns, `L11` below and `U11` above the diagonal), the lower panel `L21` and the upper panel
-//! `U12ᵀ` (`k` columns of `b` rows each). Columns are padded with zeros to a multiple of [`PADDING`] rows. What it
-//! contributes to its parent is a square of `b` columns in one of two stacks: a front's children leave theirs
-//! in one stack, the front its own in the other.
+//! A front with `k` pivots and `b` boundary unknowns is stored as three column-major pieces, one after the other. A large
+//! one has its square (`k` columns, `L11` below and `U11` above the diagonal), the lower panel `L21` and the upper panel
+//! `U12ᵀ` (`k` columns of `b` rows each); a small one the inverse of its square, the lower panel `A21 A11⁻¹` and the upper panel
+//! `A11⁻¹ A12` (`b` columns of `k` rows), see [`super::small`]. Columns of large fronts are padded to a multiple of [`PADDING`] rows, and so
+//! is the room for the pivots of any front in the vector of a solve; those of small ones are not, and vectors of their numbers reach
+//! into what follows. What a front contributes to its parent is a square of `b`
+//! columns in one of two stacks: a front's children leave theirs in one stack, the front its own in the other.
 //!
 //! Fronts come in parts, subtrees first and the top last, which share nothing: each has its own stacks, and after its own
 //! steps places for what its fronts have to say about unknowns outside, those on the boundary of its root. What lies there is
@@ -14,12 +16,13 @@
 use std::ops::Range;
 
 use super::elimination_tree::{EliminationTree, NONE};
+use super::small::LARGEST;
 use super::subtrees;
 use super::supernodes::{Supernode, supernodes};
 use crate::ordering::{GroupGraph, minimum_degree_order};
 use crate::structure::Structure;
 
-/// Rows of every column are padded to a multiple of this, so that kernels have no tails.
+/// Rows of every column, and pivots of every front, are padded to a multiple of this, so that kernels have no tails.
 pub(super) const PADDING: usize = 4;
 
 pub(super) fn padded(rows: usize) -> usize {
@@ -46,9 +49,24 @@ pub(super) struct Front {
     /// Which stack its contribution goes to, and where.
     pub(super) stack: usize,
     pub(super) contribution: usize,
+    /// First place of its boundary, if the places follow one another.
+    pub(super) span: Option<usize>,
 }
 
 impl Front {
+    /// Whether it is eliminated by [`super::small`].
+    pub(super) fn is_small(&self) -> bool {
+        self.pivots <= LARGEST && self.boundary <= LARGEST
+    }
+    /// Of the columns of a small front at work.
+    pub(super) fn small_stride(&self) -> usize {
+        match self.pivots + self.boundary {
+            ..=16 => 16,
+            17..=24 => 24,
+            25..=32 => 32,
+            _ => 2 * LARGEST,
+        }
+    }
     pub(super) fn square_stride(&self) -> usize {
         padded(self.pivots)
     }
@@ -56,10 +74,10 @@ impl Front {
         padded(self.boundary)
     }
     pub(super) fn square_length(&self) -> usize {
-        self.pivots * self.square_stride()
+        self.pivots * if self.is_small() { self.pivots } else { self.square_stride() }
     }
     pub(super) fn panel_length(&self) -> usize {
-        self.pivots * self.panel_stride()
+        self.pivots * if self.is_small() { self.boundary } else { self.panel_stride() }
     }
     pub(super) fn factor_range(&self) -> Range<usize> {
         self.factors..self.factors + self.square_length() + self.panels * self.panel_length()
@@ -119,7 +137,7 @@ impl Part {
 /// The whole symbolic factorisation.
 #[derive(Clone, Debug)]
 pub(super) struct Symbolic {
-    /// Unknown eliminated at each step, [`NONE`] in the places for the outside of a subtree.
+    /// Unknown eliminated at each step, [`NONE`] in padding and in the places for the outside of a subtree.
     pub(super) unknowns: Vec<u32>,
     /// Step of each unknown.
     pub(super) steps: Vec<u32>,
@@ -209,18 +227,20 @@ impl Symbolic {
                     self.unknowns.extend(unknowns.iter().map(|&unknown| unknown as u32));
                 }
                 numbering.steps.push(first..self.unknowns.len());
+                self.unknowns.resize(first + padded(self.unknowns.len() - first), NONE);
             }
             let end = self.unknowns.len();
+            let mut outside = 0;
             if part + 1 < parts.len() {
                 let root = nodes[fronts.end - 1].groups.last().map_or(0, |&place| place as usize);
                 let weight = |&place: &u32| tree.weights[place as usize] as usize;
-                let outside: usize = tree.boundaries[root].iter().map(weight).sum();
-                self.unknowns.resize(end + outside, NONE);
+                outside = tree.boundaries[root].iter().map(weight).sum();
             }
+            self.unknowns.resize(end + outside + PADDING, NONE);
             self.parts.push(Part {
                 fronts: fronts.clone(),
                 steps: begin..self.unknowns.len(),
-                places: end..self.unknowns.len(),
+                places: end..end + outside,
                 time: nodes[fronts.clone()].iter().map(|node| node.time).sum(),
                 ..Part::default()
             });
@@ -238,7 +258,8 @@ impl Symbolic {
         let part = &mut self.parts[index];
         let fronts = &self.fronts[part.fronts.clone()];
         let (Some(first), Some(root)) = (fronts.first(), fronts.last()) else { return };
-        part.factors = first.factors..root.factor_range().end;
+        self.factor_length += PADDING;
+        part.factors = first.factors..self.factor_length;
         if !part.places.is_empty() {
             part.outside = self.boundaries[root.rows.clone()].to_vec();
         }
@@ -256,6 +277,12 @@ impl Symbolic {
             };
             self.places.push((place - part.steps.start) as u32);
         }
+        for front in &mut self.fronts[part.fronts.clone()] {
+            let places = &self.places[front.rows.clone()];
+            let first = places.first().map(|&first| first as usize);
+            front.span = first
+                .filter(|first| places.iter().zip(*first..).all(|(&at, expected)| at as usize == expected));
+        }
     }
 
     fn add_front(&mut self, (steps, panels): (Range<usize>, usize), rows: usize, children: &[usize]) {
@@ -270,6 +297,7 @@ impl Symbolic {
             children: self.children.len()..self.children.len(),
             stack: 0,
             contribution: 0,
+            span: None,
         };
         for &child in children {
             self.add_child(&front, child);
@@ -365,7 +393,7 @@ impl Symbolic {
             }
             let begin = self.sources.len();
             let steps_here = front.first..front.first + front.pivots;
-            let (square, panel) = (front.square_length(), front.panel_length());
+            let places = Places::of(front);
             let mut entries: Vec<(u32, u32)> = Vec::new();
             for step in steps_here.clone() {
                 let pivot = step - front.first;
@@ -378,23 +406,62 @@ impl Symbolic {
                     }
                     let source = (start + offset) as u32;
                     if other < steps_here.end {
-                        let target = other - front.first + pivot * front.square_stride();
+                        let target = other - front.first + pivot * places.square_stride;
                         entries.push((target as u32, source));
                         continue;
                     }
-                    let target = square + local[other] as usize + pivot * front.panel_stride();
+                    let row_of_other = local[other] as usize;
+                    let target = places.lower + row_of_other + pivot * places.lower_stride;
                     entries.push((target as u32, source));
                     if front.panels == 1 {
                         continue;
                     }
                     let mirror = pattern.position(column, row).expect("the pattern is symmetric");
-                    entries.push(((target + panel) as u32, mirror as u32));
+                    let target =
+                        places.upper + row_of_other * places.upper_step + pivot * places.upper_stride;
+                    entries.push((target as u32, mirror as u32));
                 }
             }
             entries.sort_unstable();
             self.targets.extend(entries.iter().map(|&(target, _)| target));
             self.sources.extend(entries.iter().map(|&(_, source)| source));
             front.entries = begin..self.sources.len();
+        }
+    }
+}
+
+/// Where entries of a front go: a large one's among its pieces, a small one's in the matrix it is eliminated in.
+struct Places {
+    square_stride: usize,
+    lower: usize,
+    lower_stride: usize,
+    upper: usize,
+    /// From an unknown of the boundary to the next, and from a pivot to the next.
+    upper_step: usize,
+    upper_stride: usize,
+}
+
+impl Places {
+    fn of(front: &Front) -> Places {
+        if front.is_small() {
+            let stride = front.small_stride();
+            return Places {
+                square_stride: stride,
+                lower: front.pivots,
+                lower_stride: stride,
+                upper: front.pivots * stride,
+                upper_step: stride,
+                upper_stride: 1,
+            };
+        }
+        let (square, stride) = (front.square_length(), front.panel_stride());
+        Places {
+            square_stride: front.square_stride(),
+            lower: square,
+            lower_stride: stride,
+            upper: square + front.panel_length(),
+            upper_step: 1,
+            upper_stride: stride,
         }
     }
 }

@@ -5,10 +5,13 @@
 //! (Duff & Reid 1983, ACM Trans. Math. Softw. 9, 302), each of which hands what is left to its parent in the
 //! elimination tree. Vector instructions are chosen once for every call, by the processor at hand.
 
+mod contributions;
 mod elimination_tree;
 mod factorisation;
 mod fronts;
 mod kernels;
+mod small;
+mod small_solves;
 mod square;
 mod subtrees;
 mod supernodes;
@@ -258,8 +261,14 @@ mod tests {
 
     /// Elimination by the book, in the solver's order: smallest pivot, growth, worst cancellation.
     fn monitor(solver: &Multifrontal<f64>, values: &[f64]) -> (f64, f64, f64) {
-        assert_eq!(solver.symbolic.parts.len(), 1, "steps without gaps");
-        let order = &solver.symbolic.unknowns;
+        assert_eq!(solver.symbolic.parts.len(), 1);
+        let order: Vec<u32> = solver
+            .symbolic
+            .unknowns
+            .iter()
+            .copied()
+            .filter(|&unknown| unknown != elimination_tree::NONE)
+            .collect();
         let entry = |row: u32, column: u32| solver.pattern.position(row as usize, column as usize);
         let mut matrix: Vec<Vec<f64>> = order
             .iter()

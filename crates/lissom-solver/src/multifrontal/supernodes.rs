@@ -2,6 +2,7 @@
 //! less time than two small ones, then walked in postorder. Knows sizes, never patterns of single unknowns.
 
 use super::elimination_tree::{EliminationTree, NONE};
+use super::small::LARGEST;
 
 /// Groups eliminated in one front.
 pub(super) struct Supernode {
@@ -13,25 +14,56 @@ pub(super) struct Supernode {
     pub(super) time: f64,
 }
 
-/// Model of the time a front takes, in units of one multiplication and addition at full speed. Only ratios matter, and
-/// those not much: with all but the cost of a pivot varied between a third and three times these values, chains and
-/// trees of 300 and 2 000 unknowns took the same time within 6 %, grids within 10 %.
+/// Model of the time a front takes, in cycles of a processor with vectors of eight numbers: one factorisation and the
+/// solves that follow it. Only ratios matter, and those not much.
 mod cost {
-    /// Setting up a front, in factorisation and in the solves that follow it.
-    pub(super) const FRONT: f64 = 1500.0;
-    /// Each pivot, whose reciprocal everything waits for.
-    pub(super) const PIVOT: f64 = 150.0;
-    /// Each stored factor: zeroed, filled, and read in the solves.
-    pub(super) const FACTOR: f64 = 6.0;
-    /// Each entry of a contribution: written, and added to the parent.
-    pub(super) const CONTRIBUTION: f64 = 6.0;
+    /// Solves with kept factors, by and large.
+    pub(super) const SOLVES: f64 = 20.0;
+    /// Numbers in a vector.
+    pub(super) const LANES: f64 = 8.0;
+
+    /// A small front: set up, and for each vector that is changed by a pivot; in solves, for each vector that is read.
+    pub(super) const SMALL: f64 = 300.0;
+    pub(super) const SMALL_UPDATE: f64 = 2.0;
+    pub(super) const SMALL_SOLVE: f64 = 45.0;
+    pub(super) const SMALL_FACTOR: f64 = 1.75;
+
+    /// A large front: set up, each pivot, whose reciprocal everything waits for, each factor, each entry of the
+    /// contribution, each multiplication.
+    pub(super) const LARGE: f64 = 330.0;
+    pub(super) const PIVOT: f64 = 33.0;
+    pub(super) const FACTOR: f64 = 1.3;
+    pub(super) const CONTRIBUTION: f64 = 1.3;
+    pub(super) const PRODUCT: f64 = 0.22;
+    /// The same in solves: set up, each pivot, each factor.
+    pub(super) const LARGE_SOLVE: f64 = 120.0;
+    pub(super) const PIVOT_SOLVE: f64 = 10.0;
+    pub(super) const FACTOR_SOLVE: f64 = 0.125;
 }
 
 fn time(pivots: f64, boundary: f64) -> f64 {
-    let factors = pivots * (pivots + 2.0 * boundary);
-    let products = pivots * (pivots * pivots / 3.0 + pivots * boundary + boundary * boundary);
-    let contribution = boundary * boundary;
-    cost::FRONT + cost::PIVOT * pivots + cost::FACTOR * factors + cost::CONTRIBUTION * contribution + products
+    let largest = LARGEST as f64;
+    let vectors = |rows: f64| (rows / cost::LANES).ceil();
+    let (factorisation, solve) = if pivots <= largest && boundary <= largest {
+        let size = pivots + boundary;
+        let read = pivots * vectors(boundary) + size * vectors(pivots);
+        (
+            cost::SMALL + cost::SMALL_UPDATE * pivots * size * vectors(size),
+            cost::SMALL_SOLVE + cost::SMALL_FACTOR * read,
+        )
+    } else {
+        let factors = pivots * (pivots + 2.0 * boundary);
+        let products = pivots * (pivots * pivots / 3.0 + pivots * boundary + boundary * boundary);
+        (
+            cost::LARGE
+                + cost::PIVOT * pivots
+                + cost::FACTOR * factors
+                + cost::CONTRIBUTION * boundary * boundary
+                + cost::PRODUCT * products,
+            cost::LARGE_SOLVE + cost::PIVOT_SOLVE * pivots + cost::FACTOR_SOLVE * factors,
+        )
+    };
+    factorisation + cost::SOLVES * solve
 }
 
 /// The supernodes in postorder.

@@ -94,7 +94,7 @@ impl Symbolic {
     fn take<S: Scalar>(&self, part: &Part, right_hand_side: &[S], vector: &mut [S]) {
         let (unknowns, places) = vector.split_at_mut(part.places.start - part.steps.start);
         for (value, &unknown) in unknowns.iter_mut().zip(&self.unknowns[part.steps.clone()]) {
-            *value = right_hand_side[unknown as usize];
+            *value = right_hand_side.get(unknown as usize).copied().unwrap_or_default();
         }
         places.fill(S::zero());
     }

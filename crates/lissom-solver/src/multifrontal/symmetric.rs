@@ -9,7 +9,7 @@
 use super::factorisation::Numeric;
 use super::fronts::{Part, Symbolic};
 use super::triangular::{self, FrontVectors};
-use super::{Multifrontal, Way};
+use super::{Multifrontal, Way, small_solves};
 use crate::report::{FactorError, FactorReport};
 use crate::scalar::Scalar;
 use crate::solver::LinearSolver;
@@ -64,6 +64,17 @@ pub(super) fn backward<S: Scalar, const FUSED: bool>(
     vectors: &mut FrontVectors<S>,
 ) {
     for front in symbolic.fronts[part.fronts.clone()].iter().rev() {
+        if front.is_small() {
+            let (square, lower, _) = small_solves::pieces(front, &numeric.factors);
+            small_solves::backward_symmetric::<S, FUSED>(
+                (symbolic, part),
+                front,
+                (square, lower),
+                x,
+                &mut vectors.boundary,
+            );
+            continue;
+        }
         let (square, lower) = numeric.factors[front.factor_range()].split_at(front.square_length());
         triangular::gather(symbolic, front, x, &mut vectors.boundary);
         let steps = part.steps_of(front);

@@ -4,6 +4,7 @@
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use super::fronts::{Front, PADDING, Part, Symbolic, padded};
+use super::small_solves;
 use crate::scalar::{Scalar, array, array_mut};
 
 /// Columns of a panel that are read side by side.
@@ -51,8 +52,13 @@ pub(super) fn forward<S: Scalar, const FUSED: bool>(
     for (index, front) in fronts.iter().enumerate() {
         if far && let Some(next) = fronts.get(index + AHEAD) {
             let (square, lower, _) = pieces(next, factors);
-            fetch(square);
+            fetch(if next.is_small() { &[] } else { square });
             fetch(lower);
+        }
+        if front.is_small() {
+            let (_, lower, _) = small_solves::pieces(front, factors);
+            small_solves::forward::<S, FUSED>((symbolic, part), front, lower, x);
+            continue;
         }
         let (square, lower, _) = pieces(front, factors);
         let pivots = &mut vectors.pivots[..front.square_stride()];
@@ -84,6 +90,17 @@ pub(super) fn backward<S: Scalar, const FUSED: bool>(
             let (square, _, upper) = pieces(&fronts[next], factors);
             fetch(square);
             fetch(upper);
+        }
+        if front.is_small() {
+            let (square, _, upper) = small_solves::pieces(front, factors);
+            small_solves::backward::<S, FUSED>(
+                (symbolic, part),
+                front,
+                (square, upper),
+                x,
+                &mut vectors.boundary,
+            );
+            continue;
         }
         let (square, _, upper) = pieces(front, factors);
         gather(symbolic, front, x, &mut vectors.boundary);
@@ -163,6 +180,11 @@ pub(super) fn forward_transposed<S: Scalar, const FUSED: bool>(
     vectors: &mut FrontVectors<S>,
 ) {
     for front in &symbolic.fronts[part.fronts.clone()] {
+        if front.is_small() {
+            let (_, _, upper) = small_solves::pieces(front, factors);
+            small_solves::forward_transposed::<S, FUSED>((symbolic, part), front, upper, x);
+            continue;
+        }
         let (square, _, upper) = pieces(front, factors);
         let pivots = &mut x[part.steps_of(front)];
         let stride = front.square_stride();
@@ -188,6 +210,17 @@ pub(super) fn backward_transposed<S: Scalar, const FUSED: bool>(
     vectors: &mut FrontVectors<S>,
 ) {
     for front in symbolic.fronts[part.fronts.clone()].iter().rev() {
+        if front.is_small() {
+            let (square, lower, _) = small_solves::pieces(front, factors);
+            small_solves::backward_transposed::<S, FUSED>(
+                (symbolic, part),
+                front,
+                (square, lower),
+                x,
+                &mut vectors.boundary,
+            );
+            continue;
+        }
         let (square, lower, _) = pieces(front, factors);
         gather(symbolic, front, x, &mut vectors.boundary);
         let pivots = &mut x[part.steps_of(front)];
@@ -298,7 +331,7 @@ pub(super) fn subtract_dots<S: Scalar, const FUSED: bool>(x: &mut [S], panel: &[
 }
 
 #[inline(always)]
-fn subtract_dot<S: Scalar, const FUSED: bool>(from: S, left: &[S], right: &[S]) -> S {
+pub(super) fn subtract_dot<S: Scalar, const FUSED: bool>(from: S, left: &[S], right: &[S]) -> S {
     left.iter().zip(right).fold(from, |sum, (&left, &right)| S::multiply_add::<FUSED>(-left, right, sum))
 }
 
