@@ -6,6 +6,8 @@
 //! d_n  what the scheme's guess missed at step n
 //! d_{n+1} ≈ Σ_{j<K} c_j d_{n-j},   c = argmin Σ_m φ^m |d_{n-m} - Σ_j c_j d_{n-m-1-j}|²
 //! ```
+//!
+//! After a step that this did not help, as where a motion jumps, the next guess is the scheme's alone.
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
@@ -16,6 +18,9 @@ const MOST: usize = 8;
 /// What a step counts for after another one, φ: coefficients change as the motion does, and what has depended on round-off
 /// is soon forgotten.
 const FADING: f64 = 0.5;
+/// A prediction that would have left more than this part of what was missed is not to be trusted with the next step: where
+/// motion has just jumped, or constraints lose their rank, it leads to other branches.
+const CREDIBLE: f64 = 0.5;
 /// What depends on later steps but for this part is left out.
 const DEPENDENT: f64 = 1e-13;
 
@@ -92,6 +97,18 @@ impl Guess {
             first += found.len().div_ceil(SIDE_BY_SIDE);
         }
         self.processor.dispatch(Learn { memory: self, products });
+    }
+
+    /// |d - Σ c_j d_j|² of a step that has missed d, by the products of d with what was missed before, and with itself.
+    #[inline(always)]
+    fn left(&self, toward: &[f64; MOST], whole: f64) -> f64 {
+        let mut left = whole;
+        for (i, &share) in self.coefficients.iter().enumerate() {
+            let predicted: f64 =
+                self.coefficients.iter().zip(&self.products[i]).map(|(other, product)| other * product).sum();
+            left += share * (predicted - 2.0 * toward[i]);
+        }
+        left
     }
 
     /// Place of what was missed so many steps before the last one.
@@ -199,6 +216,7 @@ impl pulp::WithSimd for Learn<'_> {
                 memory.matrix[i][j] = FADING * memory.matrix[i][j] + memory.products[i][j];
             }
         }
+        let is_credible = memory.left(&toward, products[MOST]) <= CREDIBLE * CREDIBLE * products[MOST];
         let before = memory.products;
         memory.products[0][0] = products[MOST];
         for i in 1..MOST {
@@ -212,7 +230,7 @@ impl pulp::WithSimd for Learn<'_> {
         }
         memory.is_used = !memory.is_used;
         for ago in 0..MOST {
-            memory.shares[memory.place(ago)] = memory.coefficients[ago];
+            memory.shares[memory.place(ago)] = if is_credible { memory.coefficients[ago] } else { 0.0 };
         }
     }
 }
@@ -300,6 +318,14 @@ mod tests {
         for (next, value) in next[0].iter().zip(of(40.0)) {
             assert!((next - value).abs() < 1e-6, "{next} {value}");
         }
+    }
+
+    #[test]
+    fn nothing_is_continued_after_a_jump() {
+        let jumping = |step: usize| if step == 12 { -1000.0 } else { step as f64 };
+        assert_eq!(guessed(jumping, 13), 0.0);
+        assert!((guessed(jumping, 12) - 12.0).abs() < 1e-6);
+        assert!((guessed(jumping, 60) - 60.0).abs() < 1e-3);
     }
 
     #[test]
