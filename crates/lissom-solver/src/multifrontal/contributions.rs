@@ -14,21 +14,10 @@ pub(super) fn add_all<S: Scalar>(
     child: &Child,
     all_runs: [(&[Run], usize); 2],
 ) {
-    for (column_runs, first) in all_runs {
-        for columns in column_runs {
-            for column in 0..columns.length as usize {
-                let to = &mut target[(first + columns.to as usize + column) * stride..][..stride];
-                let from = &contribution[(columns.from as usize + column) * child.stride..][..child.stride];
-                for (row_runs, first) in all_runs {
-                    for rows in row_runs {
-                        let length = rows.length as usize;
-                        add(
-                            &mut to[first + rows.to as usize..][..length],
-                            &from[rows.from as usize..][..length],
-                        );
-                    }
-                }
-            }
+    for (column_runs, column) in all_runs {
+        for (row_runs, row) in all_runs {
+            let target = &mut target[column * stride + row..];
+            add_columns(target, stride, contribution, child, row_runs, column_runs);
         }
     }
 }

@@ -1,13 +1,14 @@
 //! Symbolic result of the multifrontal solver: every front's size, place in memory, and the maps by which
 //! entries and contributions get there. Knows positions, never values.
 //!
-//! A front with `k` pivots and `b` boundary unknowns is stored as three column-major pieces, one after the other. A large
-//! one has its square (`k` columns, `L11` below and `U11` above the diagonal), the lower panel `L21` and the upper panel
-//! `U12ᵀ` (`k` columns of `b` rows each); a small one the inverse of its square, the lower panel `A21 A11⁻¹` and the upper panel
-//! `A11⁻¹ A12` (`b` columns of `k` rows), see [`super::small`]. Columns of large fronts are padded to a multiple of [`PADDING`] rows, and so
-//! is the room for the pivots of any front in the vector of a solve; those of small ones are not, and vectors of their numbers reach
-//! into what follows. What a front contributes to its parent is a square of `b`
-//! columns in one of two stacks: a front's children leave theirs in one stack, the front its own in the other.
+//! A front with `k` pivots and `b` boundary unknowns is stored as three column-major pieces, one after the other. A
+//! large one has its square (`k` columns, `L11` below and `U11` above the diagonal), the lower panel `L21` and the
+//! upper panel `U12ᵀ` (`k` columns of `b` rows each); a small one the inverse of its square, the lower panel `A21
+//! A11⁻¹` and the upper panel `A11⁻¹ A12` (`b` columns of `k` rows), see [`super::small`]. Columns of large fronts are
+//! padded to a multiple of [`PADDING`] rows, and so is the room for the pivots of any front in the vector of a solve;
+//! those of small ones are not, and vectors of their numbers reach into what follows. What a front contributes to its
+//! parent is a square of `b` columns in one of two stacks: a front's children leave theirs in one stack, the front its
+//! own in the other.
 //!
 //! Fronts come in parts, subtrees first and the top last, which share nothing: each has its own stacks, and after its own
 //! steps places for what its fronts have to say about unknowns outside, those on the boundary of its root. What lies there is

@@ -99,18 +99,18 @@ impl<S: Scalar> Multifrontal<S> {
         let crews =
             if threads::pay_in_solves(symbolic.factor_length * size_of::<S>()) { &crews[..] } else { &[] };
         let right = Some(&*right_hand_side);
-        threads::sweep(crews, subtrees(symbolic, vector, front_vectors), |sweep| {
+        threads::sweep(crews, split(symbolic, vector, front_vectors).0, |sweep| {
             processor.dispatch(Forward { factors, right_hand_side: right, sweep });
         });
         symbolic.hand_up(right_hand_side, vector);
         processor.dispatch(Forward {
             factors,
             right_hand_side: None,
-            sweep: top(symbolic, vector, front_vectors),
+            sweep: split(symbolic, vector, front_vectors).1,
         });
-        processor.dispatch(Backward { factors, sweep: top(symbolic, vector, front_vectors) });
+        processor.dispatch(Backward { factors, sweep: split(symbolic, vector, front_vectors).1 });
         symbolic.hand_down(vector);
-        threads::sweep(crews, subtrees(symbolic, vector, front_vectors), |sweep| {
+        threads::sweep(crews, split(symbolic, vector, front_vectors).0, |sweep| {
             processor.dispatch(Backward { factors, sweep });
         });
         for (value, &step) in right_hand_side.iter_mut().zip(&symbolic.steps) {
@@ -119,20 +119,13 @@ impl<S: Scalar> Multifrontal<S> {
     }
 }
 
-fn subtrees<'a, S: Scalar>(
+/// The subtrees, and the top.
+fn split<'a, S: Scalar>(
     symbolic: &'a Symbolic,
     vector: &'a mut [S],
     front_vectors: &'a mut [FrontVectors<S>],
-) -> Sweep<'a, S> {
-    Sweep { parts: &symbolic.parts, vector, front_vectors }.split(symbolic.parts.len() - 1).0
-}
-
-fn top<'a, S: Scalar>(
-    symbolic: &'a Symbolic,
-    vector: &'a mut [S],
-    front_vectors: &'a mut [FrontVectors<S>],
-) -> Sweep<'a, S> {
-    Sweep { parts: &symbolic.parts, vector, front_vectors }.split(symbolic.parts.len() - 1).1
+) -> (Sweep<'a, S>, Sweep<'a, S>) {
+    Sweep { parts: &symbolic.parts, vector, front_vectors }.split(symbolic.parts.len() - 1)
 }
 
 impl<S: Scalar> LinearSolver<S> for Multifrontal<S> {

@@ -8,28 +8,17 @@ use super::small::LARGEST;
 use super::triangular::{gather, subtract_dot};
 use crate::scalar::{Scalar, array, array_mut};
 
-/// Calls a function with the number of stored rows, as a constant.
+/// Calls a function with the number of stored rows, as its last constant.
 macro_rules! with_rows {
-    ($rows:expr, $function:ident::<$scalar:ident, $fused:ident>($($argument:expr),*)) => {
+    ($rows:expr, $function:ident::<$($generic:ident),+>($($argument:expr),*)) => {
         match $rows {
             0 => {}
-            4 => $function::<$scalar, $fused, 4>($($argument),*),
-            8 => $function::<$scalar, $fused, 8>($($argument),*),
-            12 => $function::<$scalar, $fused, 12>($($argument),*),
-            16 => $function::<$scalar, $fused, 16>($($argument),*),
-            20 => $function::<$scalar, $fused, 20>($($argument),*),
-            _ => $function::<$scalar, $fused, 24>($($argument),*),
-        }
-    };
-    ($rows:expr, $function:ident::<$scalar:ident>($($argument:expr),*)) => {
-        match $rows {
-            0 => {}
-            4 => $function::<$scalar, 4>($($argument),*),
-            8 => $function::<$scalar, 8>($($argument),*),
-            12 => $function::<$scalar, 12>($($argument),*),
-            16 => $function::<$scalar, 16>($($argument),*),
-            20 => $function::<$scalar, 20>($($argument),*),
-            _ => $function::<$scalar, 24>($($argument),*),
+            4 => $function::<$($generic),+, 4>($($argument),*),
+            8 => $function::<$($generic),+, 8>($($argument),*),
+            12 => $function::<$($generic),+, 12>($($argument),*),
+            16 => $function::<$($generic),+, 16>($($argument),*),
+            20 => $function::<$($generic),+, 20>($($argument),*),
+            _ => $function::<$($generic),+, 24>($($argument),*),
         }
     };
 }
@@ -107,77 +96,54 @@ fn forward_rows<S: Scalar, const FUSED: bool, const ROWS: usize>(
     }
 }
 
-/// `x_p = A11⁻¹ x_p - A11⁻¹ A12 x_b`.
+/// `x_p = A11⁻¹ x_p - A11⁻¹ A12 x_b`. Of a symmetric matrix the panel is `A21 A11⁻¹`, which is `(A11⁻¹ A12)ᵀ`.
 #[inline(always)]
-pub(super) fn backward<S: Scalar, const FUSED: bool>(
+pub(super) fn backward<S: Scalar, const FUSED: bool, const SYMMETRIC: bool>(
     (symbolic, part): (&Symbolic, &Part),
     front: &Front,
-    factors: (&[S], &[S]),
+    (square, panel): (&[S], &[S]),
     x: &mut [S],
     boundary: &mut [S],
 ) {
     with_rows!(
         front.square_stride(),
-        backward_rows::<S, FUSED>((symbolic, part), front, factors, x, boundary)
+        backward_rows::<S, FUSED, SYMMETRIC>((symbolic, part), front, (square, panel), x, boundary)
     );
 }
 
 #[inline(always)]
-fn backward_rows<S: Scalar, const FUSED: bool, const ROWS: usize>(
+fn backward_rows<S: Scalar, const FUSED: bool, const SYMMETRIC: bool, const ROWS: usize>(
     (symbolic, part): (&Symbolic, &Part),
     front: &Front,
-    (square, upper): (&[S], &[S]),
+    (square, panel): (&[S], &[S]),
     x: &mut [S],
     boundary: &mut [S],
 ) {
     let steps = part.steps_of(front);
     let first = steps.start;
     let mut own: [S; ROWS] = product::<S, FUSED, ROWS>((square, front.pivots), &x[steps]);
-    let known = if let Some(first) = front.span {
-        &x[first..first + front.boundary]
+    let known = known(symbolic, front, x, boundary);
+    if SYMMETRIC {
+        for (own, column) in own[..front.pivots].iter_mut().zip(panel.chunks_exact(known.len().max(1))) {
+            *own = subtract_dot_in_fours::<S, FUSED>(*own, column, known);
+        }
     } else {
-        gather(symbolic, front, x, boundary);
-        &boundary[..front.boundary]
-    };
-    let of_boundary: [S; ROWS] = product::<S, FUSED, ROWS>((upper, front.pivots), known);
-    for i in 0..ROWS {
-        own[i] -= of_boundary[i];
+        let of_boundary: [S; ROWS] = product::<S, FUSED, ROWS>((panel, front.pivots), known);
+        for i in 0..ROWS {
+            own[i] -= of_boundary[i];
+        }
     }
     *array_mut(x, first) = own;
 }
 
-/// The same, where `(A21 A11⁻¹)ᵀ` is `A11⁻¹ A12`.
+/// The numbers of the boundary: where they lie, or gathered.
 #[inline(always)]
-pub(super) fn backward_symmetric<S: Scalar, const FUSED: bool>(
-    (symbolic, part): (&Symbolic, &Part),
-    front: &Front,
-    factors: (&[S], &[S]),
-    x: &mut [S],
-    boundary: &mut [S],
-) {
-    with_rows!(
-        front.square_stride(),
-        backward_symmetric_rows::<S, FUSED>((symbolic, part), front, factors, x, boundary)
-    );
-}
-
-#[inline(always)]
-fn backward_symmetric_rows<S: Scalar, const FUSED: bool, const ROWS: usize>(
-    (symbolic, part): (&Symbolic, &Part),
-    front: &Front,
-    (square, lower): (&[S], &[S]),
-    x: &mut [S],
-    boundary: &mut [S],
-) {
-    let steps = part.steps_of(front);
-    let first = steps.start;
-    let mut own: [S; ROWS] = product::<S, FUSED, ROWS>((square, front.pivots), &x[steps]);
+fn known<'a, S: Scalar>(symbolic: &Symbolic, front: &Front, x: &'a [S], boundary: &'a mut [S]) -> &'a [S] {
+    if let Some(first) = front.span {
+        return &x[first..first + front.boundary];
+    }
     gather(symbolic, front, x, boundary);
-    let known = &boundary[..front.boundary];
-    for (own, column) in own[..front.pivots].iter_mut().zip(lower.chunks_exact(known.len().max(1))) {
-        *own = subtract_dot_in_fours::<S, FUSED>(*own, column, known);
-    }
-    *array_mut(x, first) = own;
+    &boundary[..front.boundary]
 }
 
 /// A scalar product, four sums side by side.
@@ -218,14 +184,13 @@ pub(super) fn backward_transposed<S: Scalar, const FUSED: bool>(
     x: &mut [S],
     boundary: &mut [S],
 ) {
-    gather(symbolic, front, x, boundary);
     let mut own = [S::zero(); LARGEST];
     let own = &mut own[..front.pivots];
     let steps = part.steps_of(front);
     for (value, column) in own.iter_mut().zip(square.chunks_exact(front.pivots.max(1))) {
         *value = -subtract_dot::<S, FUSED>(S::zero(), column, &x[steps.clone()]);
     }
-    let known = &boundary[..front.boundary];
+    let known = known(symbolic, front, x, boundary);
     for (own, column) in own.iter_mut().zip(lower.chunks_exact(known.len().max(1))) {
         *own = subtract_dot::<S, FUSED>(*own, column, known);
     }

@@ -66,7 +66,7 @@ pub(super) fn backward<S: Scalar, const FUSED: bool>(
     for front in symbolic.fronts[part.fronts.clone()].iter().rev() {
         if front.is_small() {
             let (square, lower, _) = small_solves::pieces(front, &numeric.factors);
-            small_solves::backward_symmetric::<S, FUSED>(
+            small_solves::backward::<S, FUSED, true>(
                 (symbolic, part),
                 front,
                 (square, lower),

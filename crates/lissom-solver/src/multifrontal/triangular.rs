@@ -93,7 +93,7 @@ pub(super) fn backward<S: Scalar, const FUSED: bool>(
         }
         if front.is_small() {
             let (square, _, upper) = small_solves::pieces(front, factors);
-            small_solves::backward::<S, FUSED>(
+            small_solves::backward::<S, FUSED, false>(
                 (symbolic, part),
                 front,
                 (square, upper),
