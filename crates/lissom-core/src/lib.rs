@@ -7,6 +7,7 @@ pub mod analysis;
 pub mod elements;
 pub mod equilibration;
 pub mod joints;
+mod lanes;
 pub mod newton;
 mod node_motion;
 pub mod registry;

@@ -17,9 +17,7 @@ use lissom_motion::{
 };
 use pulp::{Simd, WithSimd};
 
-use crate::elements::blocks::{
-    Frames, Part, Screws, gather, gather_frames, gather_twists, parts, processor_for,
-};
+use crate::lanes::{Frames, Part, Screws, gather, gather_frames, gather_twists, parts, processor_for};
 use crate::schemes::MOST_STAGES;
 use crate::system::{Kinematics, LOCKED, Layout, MotionChange, NodeId};
 

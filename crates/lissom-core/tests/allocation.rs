@@ -5,7 +5,7 @@ use std::cell::Cell;
 
 use lissom_core::analysis::{Settings, Simulation};
 use lissom_core::elements::beam::SectionLaw;
-use lissom_core::elements::beam_line::{BeamLineDescription, add_beam_line};
+use lissom_core::elements::beam::line::{BeamLineDescription, add_beam_line};
 use lissom_core::joints;
 use lissom_core::newton::Limits;
 use lissom_core::registry::Parameters;

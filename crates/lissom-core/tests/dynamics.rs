@@ -2,7 +2,7 @@
 
 use lissom_core::analysis::{Settings, Simulation};
 use lissom_core::elements::beam::SectionLaw;
-use lissom_core::elements::beam_line::{BeamLineDescription, add_beam_line};
+use lissom_core::elements::beam::line::{BeamLineDescription, add_beam_line};
 use lissom_core::elements::inertia::Inertia;
 use lissom_core::elements::{Attached, LOADS};
 use lissom_core::joints;

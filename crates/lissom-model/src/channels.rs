@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lissom_core::elements::beam_line::{BeamLine, BeamProbe};
+use lissom_core::elements::beam::line::{BeamLine, BeamProbe};
 use lissom_core::elements::quadrature::gauss_lobatto;
 use lissom_core::elements::shape::lagrange;
 use lissom_core::joints::{Equations, Quantity};

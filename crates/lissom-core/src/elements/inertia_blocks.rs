@@ -7,11 +7,9 @@ use std::ops::Range;
 use lissom_motion::{Block, Screw, Triple, WIDTH};
 use pulp::{Simd, WithSimd};
 
-use super::blocks::{
-    Blocks, Frames, Part, Screws, block_of, gather_accelerations, gather_frames, gather_twists, nodes_of,
-    parts,
-};
+use super::blocks::{Blocks, block_of, nodes_of};
 use super::inertia::Inertia;
+use crate::lanes::{Frames, Part, Screws, gather_accelerations, gather_frames, gather_twists, parts};
 use crate::system::{Kinematics, NodeId};
 
 /// Inertias eight to a block.

@@ -4,12 +4,6 @@
 //! derivatives. It knows no time step, no scheme and no scaling.
 
 pub mod beam;
-mod beam_blocks;
-mod beam_forces;
-mod beam_integrated;
-pub mod beam_line;
-mod beam_passage;
-mod beam_stiffness;
 pub mod blocks;
 pub mod coordinate_spring;
 pub mod force;

@@ -16,7 +16,7 @@ use super::attached::AttachedJoint;
 use super::derivatives::{Derivatives, LOCAL, OWN, TIP};
 use super::moved::{Angle, Axes, FrameChange, Moved, OwnMoved};
 use super::{Equations, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Quantity, equation_quantity};
-use crate::elements::blocks::{Frames, Part, gather, gather_frames, parts, processor_for};
+use crate::lanes::{Frames, Part, gather, gather_frames, parts, processor_for};
 use crate::system::{Chart, Kinematics, Point};
 
 /// Forces on the local unknowns and violations of eight joints, in the order of a joint's rows.

@@ -11,10 +11,11 @@ use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
 use super::state::{Kinematics, NodeMotion};
 use super::threads::Threads;
-use crate::elements::blocks::{Blocks, processor_for};
+use crate::elements::blocks::Blocks;
 use crate::elements::passage::{Passage, STAGES, Variation};
 use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
 use crate::joints::derivatives::IncrementTangent;
+use crate::lanes::processor_for;
 
 /// Most nodes of an element.
 const MOST_NODES: usize = 4;

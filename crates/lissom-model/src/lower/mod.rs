@@ -9,7 +9,7 @@ pub mod registry;
 use std::collections::BTreeMap;
 
 use lissom_core::analysis::Settings;
-use lissom_core::elements::beam_line::BeamLine;
+use lissom_core::elements::beam::line::BeamLine;
 use lissom_core::registry::ParameterError;
 use lissom_core::system::{Builder, CoordinateId, NodeId, State, System};
 

@@ -1,7 +1,7 @@
 //! Bodies, point masses and beams as nodes with mass and elements.
 
 use lissom_core::elements::beam::SectionLaw;
-use lissom_core::elements::beam_line::{BeamLineDescription, add_beam_line};
+use lissom_core::elements::beam::line::{BeamLineDescription, add_beam_line};
 use lissom_core::elements::inertia::Inertia;
 use lissom_core::system::{Builder, Freedoms, NodeId};
 use lissom_motion::{Matrix3, Matrix6, Motion, Rotation, Vector3, screw};

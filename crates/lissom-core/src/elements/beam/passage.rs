@@ -6,10 +6,10 @@ use lissom_motion::{
     tangent_derivative_transpose_times, tangent_rate_times, tangent_times, tangent_transpose_times,
 };
 
-use super::beam::linearize::Linearization;
-use super::beam::{Beam, Relative, Station, combine};
-use super::passage::{Passage, STAGES, above_round_off, weigh};
-use super::{MOST_UNKNOWNS, Tangents};
+use super::linearize::Linearization;
+use super::{Beam, Relative, Station, combine};
+use crate::elements::passage::{Passage, STAGES, above_round_off, weigh};
+use crate::elements::{MOST_UNKNOWNS, Tangents};
 use crate::system::Kinematics;
 
 /// Changes of relative coordinates below this [rad, element lengths] lose digits in a difference; for these the

@@ -7,10 +7,11 @@ use std::ops::Range;
 use lissom_motion::{Block, Lanes, Pose, Screw, WIDTH};
 use pulp::{Simd, WithSimd};
 
-use super::beam::Beam;
-use super::beam_forces::{Constants, forces};
-use super::beam_stiffness::stiffness;
-use super::blocks::{Blocks, Frames, Part, Screws, block_of, gather_frames, gather_twists, nodes_of, parts};
+use super::Beam;
+use super::forces::{Constants, forces};
+use super::stiffness::stiffness;
+use crate::elements::blocks::{Blocks, block_of, nodes_of};
+use crate::lanes::{Frames, Part, Screws, gather_frames, gather_twists, parts};
 use crate::system::{Kinematics, NodeId};
 
 /// Beams eight to a block.

@@ -7,10 +7,10 @@
 
 use lissom_motion::{Matrix6, Vector6};
 
-use super::beam::Beam;
-use super::beam::linearize::Gradients;
-use super::beam_passage::Visit;
-use super::passage::{Passage, STAGES, Variation};
+use super::Beam;
+use super::linearize::Gradients;
+use super::passage::Visit;
+use crate::elements::passage::{Passage, STAGES, Variation};
 
 /// A linear map from the unknowns of an element's nodes at a stage.
 type Blocks<const N: usize> = [Matrix6; N];
@@ -170,5 +170,5 @@ fn vary<const N: usize>(
 }
 
 fn add(out: &mut [f64], nodes: usize, (a, b): (usize, usize), block: &Matrix6) {
-    super::add_block(out, 6 * nodes, (6 * a, 6 * b), block);
+    crate::elements::add_block(out, 6 * nodes, (6 * a, 6 * b), block);
 }

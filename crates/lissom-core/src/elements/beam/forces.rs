@@ -3,7 +3,7 @@
 
 use lissom_motion::{InverseTangent, Pose, Real, Screw, TangentOperator};
 
-use super::beam::Beam;
+use super::Beam;
 
 /// What is constant of an element; Gauss points `k` from 0 to N - 2, nodes `i`.
 pub(super) trait Constants<R: Real> {

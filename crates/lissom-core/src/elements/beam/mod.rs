@@ -18,7 +18,13 @@
 //! All is built from relative motions: neither forces nor tangents change when the element moves
 //! rigidly.
 
-pub(super) mod linearize;
+mod blocks;
+mod forces;
+mod integrated;
+pub mod line;
+mod linearize;
+mod passage;
+mod stiffness;
 
 use lissom_motion::{
     Matrix6, Motion, Pose, Screw, Vector6, coadjoint_matrix, inverse_tangent, inverse_tangent_derivative,
@@ -27,8 +33,9 @@ use lissom_motion::{
     tangent_rate_times, tangent_times, tangent_transpose_derivative, tangent_transpose_times,
 };
 
-use super::beam_blocks::BeamBlocks;
-use super::beam_forces::{Constants, forces};
+use blocks::BeamBlocks;
+use forces::{Constants, forces};
+
 use super::blocks::Blocks;
 use super::passage::{Passage, STAGES, Variation};
 use super::quadrature::gauss_legendre;

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use lissom_motion::{Matrix6, Motion, Vector6};
 
-use super::beam::{Beam, SectionLaw};
-use super::quadrature::gauss_lobatto;
+use super::{Beam, SectionLaw};
+use crate::elements::quadrature::gauss_lobatto;
 use crate::system::{Builder, Freedoms, Kinematics, NodeId};
 
 /// Motion and section forces anywhere in a beam element, for outputs.

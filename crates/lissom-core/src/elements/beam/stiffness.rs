@@ -4,8 +4,8 @@
 
 use lissom_motion::{CurvedTangent, DualMatrix, Pose, Real, Screw, TangentOperator};
 
-use super::beam::Beam;
-use super::beam_forces::{Constants, combine_shapes, combine_slopes};
+use super::Beam;
+use super::forces::{Constants, combine_shapes, combine_slopes};
 
 /// A 6 x 6 matrix.
 pub(super) type Rows<R> = [Screw<R>; 6];
