@@ -257,7 +257,7 @@ fn errors(arguments: &BenchArguments) -> Result<(), BenchError> {
         let fine = |text: &str| ("analysis.tolerance".to_owned(), text.to_owned());
         let model = Model::from_text(&scene.name, &scene.text);
         let document = model.document(&[]).map_err(|report| failed(name, report.render(false)))?;
-        let AnalysisKind::Dynamics { step } = document.analysis.kind else { continue };
+        let AnalysisKind::Dynamics { step, .. } = document.analysis.kind else { continue };
         let short = ("analysis.step".to_owned(), format!("{:e}", step.value / REFINED));
         let end = |more: &[Override]| last_place(&model, &[&arguments.overrides()[..], more].concat());
         let (given, exact, reference) = (end(&[])?, end(&[fine("1e-11")])?, end(&[short, fine("1e-10")])?);

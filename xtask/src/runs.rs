@@ -114,10 +114,15 @@ fn grid(document: &Document) -> String {
         }
     }
     words.push(match &document.analysis.kind {
-        AnalysisKind::Dynamics { step } => {
+        AnalysisKind::Dynamics { step, control } => {
             let scheme =
                 document.analysis.scheme.as_ref().map_or("generalized-alpha", |scheme| scheme.value.as_str());
-            format!("h = {} s ({scheme})", short(step.value))
+            match control {
+                Some(control) => {
+                    format!("relative tolerance {} ({scheme})", short(control.relative_tolerance))
+                }
+                None => format!("h = {} s ({scheme})", short(step.value)),
+            }
         }
         AnalysisKind::Statics { steps } => format!("{steps} load steps"),
     });

@@ -13,6 +13,7 @@ mod node_motion;
 pub mod registry;
 pub mod scaling;
 pub mod schemes;
+pub mod stepping;
 pub mod system;
 
 /// The linear solvers, by name.

@@ -173,6 +173,15 @@ impl Scaled {
         Self { h, s, augmented, dynamic, radian }
     }
 
+    /// The same scale for steps of another size [s]: any scale will do, and a tangent made with this one may go on to
+    /// serve.
+    #[must_use]
+    pub fn resized(mut self, choice: &ScalingChoice, h: f64) -> Self {
+        self.h = h;
+        self.dynamic = if choice.by == ScaleBy::None { 1.0 } else { h * h };
+        self
+    }
+
     /// Step size h [s].
     pub fn step_size(&self) -> f64 {
         self.h

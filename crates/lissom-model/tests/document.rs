@@ -112,7 +112,9 @@ fn the_tip_crank_is_what_its_file_says() {
     let Attachment::TwoNodes { at, .. } = &pin.attachment else { panic!("{pin:?}") };
     assert_eq!(*at, Vector3::new(1.0, 0.005, -0.5));
     assert!(matches!(document.outputs[2].source, OutputSource::Joint(_)));
-    assert!(matches!(document.analysis.kind, AnalysisKind::Dynamics { step } if step.value == 5e-4));
+    assert!(
+        matches!(document.analysis.kind, AnalysisKind::Dynamics { step, control: None } if step.value == 5e-4)
+    );
     assert_eq!(document.analysis.scheme.unwrap().value, "radau-iia");
 }
 
@@ -158,7 +160,9 @@ fn overrides_change_values() {
         ("title", "\"other\""),
     ];
     let document = read_with("tip_crank.toml", &changed).map_err(|report| report.render(false)).unwrap();
-    assert!(matches!(document.analysis.kind, AnalysisKind::Dynamics { step } if step.value == 1e-4));
+    assert!(
+        matches!(document.analysis.kind, AnalysisKind::Dynamics { step, control: None } if step.value == 1e-4)
+    );
     assert_eq!(document.materials[1].constants.young, 2e11);
     assert_eq!(document.points["C"].y, 0.01);
     assert_eq!(document.title.as_deref(), Some("other"));

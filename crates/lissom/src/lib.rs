@@ -26,8 +26,8 @@
 
 mod folder;
 mod model;
-mod pace;
 mod report;
+mod schedule;
 mod session;
 mod spent;
 pub mod study;

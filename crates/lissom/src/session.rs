@@ -11,10 +11,13 @@ use lissom_model::lower::{Lowered, Plan, lower};
 use lissom_model::output::{Column, Record, Writer};
 use lissom_model::{Document, Report};
 
-use crate::pace::Pace;
 use crate::report::{EnergyChange, RunError, RunReport, Stopped};
+use crate::schedule::{Next, Schedule};
 use crate::spent::Spent;
 use crate::telemetry::Telemetry;
+
+/// Times this close to the end of a planned step, relative to the step, are its end.
+const WHOLE: f64 = 1e-9;
 
 /// A session that cannot start.
 #[derive(Debug, thiserror::Error)]
@@ -35,9 +38,9 @@ pub struct Progress {
     pub time: f64,
     /// Time at which it ends [s].
     pub end: f64,
-    /// Planned steps done.
+    /// Planned steps done; where steps are chosen by their error, thousandths of the time.
     pub done: usize,
-    /// Planned steps in all.
+    /// The same in all.
     pub planned: usize,
 }
 
@@ -46,7 +49,7 @@ pub struct Session {
     simulation: Simulation,
     channels: Vec<Channel>,
     columns: Vec<Column>,
-    pace: Pace,
+    schedule: Schedule,
     tally: Tally,
     spent: Spent,
     scale: f64,
@@ -92,7 +95,7 @@ impl Session {
     pub fn start(lowered: Lowered) -> Result<Self, InitialError> {
         let began = Instant::now();
         let Lowered { system, state, settings, plan, channels } = lowered;
-        let pace = Pace::new(plan, settings.step_size);
+        let schedule = Schedule::new(plan, settings.step_size);
         let simulation = Simulation::new(system, state, settings)?;
         let violations = vec![0.0; simulation.system().layout().multiplier_rows().len()];
         let mut spent = Spent::new();
@@ -105,7 +108,7 @@ impl Session {
             telemetry: Telemetry::default(),
             simulation,
             channels,
-            pace,
+            schedule,
             began,
         })
     }
@@ -117,7 +120,7 @@ impl Session {
 
     /// From when to when, in how many steps.
     pub fn plan(&self) -> &Plan {
-        self.pace.plan()
+        self.schedule.plan()
     }
 
     /// What is recorded, in the order of [`values`](Self::values).
@@ -137,13 +140,13 @@ impl Session {
 
     /// Where it stands.
     pub fn progress(&self) -> Progress {
-        let plan = self.pace.plan();
-        Progress { time: self.pace.time(), end: plan.end, done: self.pace.reached(), planned: plan.steps }
+        let (done, planned) = self.schedule.done();
+        Progress { time: self.schedule.time(), end: self.schedule.plan().end, done, planned }
     }
 
     /// Whether the end is reached.
     pub fn is_finished(&self) -> bool {
-        self.pace.is_finished()
+        self.schedule.is_finished()
     }
 
     /// Appends the values of all columns, now.
@@ -153,7 +156,7 @@ impl Session {
         }
     }
 
-    /// Takes one step. In statics a step that fails is halved and tried again. On failure the state stays
+    /// Takes one step: the next planned one, or one that is as long as its error allows. On failure the state stays
     /// where it was.
     ///
     /// # Errors
@@ -161,34 +164,72 @@ impl Session {
     pub fn advance(&mut self) -> Result<StepReport, StepError> {
         let outcome = self.step();
         self.spent.pause();
+        outcome.map(|(report, _)| report)
+    }
+
+    /// Goes on to `time` [s], which is met exactly; in steps of one size the last one is shorter. Does nothing where
+    /// `time` is reached already. Planned steps, and [`run`](Self::run), go on from there.
+    ///
+    /// # Errors
+    /// If a step has no solution; the session then stands at the end of the last one that has.
+    pub fn step_to(&mut self, time: f64) -> Result<(), StepError> {
+        let outcome = self.go_to(time);
+        self.spent.pause();
         outcome
     }
 
-    /// The same where another step follows at once.
-    fn step(&mut self) -> Result<StepReport, StepError> {
-        loop {
-            self.simulation.set_step_size(self.pace.next_size());
-            self.spent.begin_step();
-            let outcome = self.simulation.step_watched(&mut self.spent);
-            self.spent.end_step();
-            match outcome {
-                Ok(report) => {
-                    let most = self.simulation.settings().limits.max_iterations;
-                    self.pace.accept(2 * report.iterations <= most);
-                    if self.telemetry.will_estimate(&self.simulation, &report) {
-                        self.spent.pause();
-                    }
-                    self.telemetry.note(&mut self.simulation, &report, self.spent.steps());
-                    return Ok(report);
-                }
-                Err(error) => {
-                    if !self.pace.refuse() {
-                        return Err(error);
-                    }
-                    self.simulation.note_rejected();
-                }
+    fn go_to(&mut self, time: f64) -> Result<(), StepError> {
+        let is_controlled = self.schedule.plan().is_controlled;
+        while self.schedule.time() < time {
+            let now = self.schedule.time();
+            if is_controlled {
+                self.take(Next::Until(time))?;
+                self.schedule.divert(self.simulation.state().kinematics.time);
+                continue;
+            }
+            let planned = match self.schedule.next() {
+                Next::Planned(size) if !self.schedule.is_finished() => size,
+                _ => self.schedule.step_size(),
+            };
+            let rest = time - now;
+            if rest > planned * (1.0 + WHOLE) && !self.schedule.is_finished() {
+                self.step()?;
+            } else if (rest - planned).abs() <= WHOLE * planned && !self.schedule.is_finished() {
+                self.step()?;
+                return Ok(());
+            } else {
+                let size = rest.min(planned);
+                self.take(Next::Planned(size))?;
+                self.schedule.divert(if size == rest { time } else { now + size });
             }
         }
+        Ok(())
+    }
+
+    /// The next step where another follows at once, and whether it is to be recorded.
+    fn step(&mut self) -> Result<(StepReport, bool), StepError> {
+        let report = self.take(self.schedule.next())?;
+        let is_recorded = self.schedule.accept(self.simulation.state().kinematics.time);
+        Ok((report, is_recorded))
+    }
+
+    fn take(&mut self, next: Next) -> Result<StepReport, StepError> {
+        let limit = match next {
+            Next::Planned(size) => {
+                self.simulation.set_step_size(size);
+                f64::INFINITY
+            }
+            Next::Until(limit) => limit,
+        };
+        self.spent.begin_step();
+        let outcome = self.simulation.step_watched(limit, &mut self.spent);
+        self.spent.end_step();
+        let report = outcome?;
+        if self.telemetry.will_estimate(&self.simulation, &report) {
+            self.spent.pause();
+        }
+        self.telemetry.note(&mut self.simulation, &report, self.spent.steps());
+        Ok(report)
     }
 
     /// Condition number of the tangent in use, estimated in the 1-norm from a few solves.
@@ -218,7 +259,7 @@ impl Session {
         };
         RunReport {
             stopped,
-            time: self.pace.time(),
+            time: self.schedule.time(),
             records: self.tally.records,
             totals: *self.simulation.totals(),
             wall: self.began.elapsed(),
@@ -246,20 +287,21 @@ impl Session {
             writer.begin(&self.columns)?;
         }
         self.write_row(writers)?;
-        let every = self.pace.plan().output_every;
         let mut recorded = true;
-        while !self.pace.is_finished() {
-            if let Err(error) = self.step() {
-                if !recorded {
-                    self.write_row(writers)?;
+        while !self.schedule.is_finished() {
+            recorded = match self.step() {
+                Ok((_, is_recorded)) => is_recorded,
+                Err(error) => {
+                    if !recorded {
+                        self.write_row(writers)?;
+                    }
+                    return Err(error.into());
                 }
-                return Err(error.into());
-            }
-            recorded = self.pace.is_at_planned() && self.pace.reached().is_multiple_of(every);
+            };
             if recorded {
                 self.write_row(writers)?;
             }
-            if watch(&self.progress()).is_break() && !self.pace.is_finished() {
+            if watch(&self.progress()).is_break() && !self.schedule.is_finished() {
                 if !recorded {
                     self.write_row(writers)?;
                 }
@@ -280,7 +322,7 @@ impl Session {
         self.values(&mut values);
         self.tally.values = values;
         self.take_stock();
-        let time = self.pace.time();
+        let time = self.schedule.time();
         let written = writers.iter_mut().try_for_each(|writer| writer.row(time, &self.tally.values));
         self.spent.output += began.elapsed();
         written

@@ -33,7 +33,8 @@ pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered
     tell("end", json!(plan.end));
     tell("scheme", json!(settings.scheme.name));
     tell("step_size", json!(settings.step_size));
-    tell("planned_steps", json!(plan.steps));
+    tell("planned_steps", if plan.is_controlled { Value::Null } else { json!(plan.steps) });
+    tell("relative_tolerance", json!(settings.control.map(|control| control.relative_tolerance)));
     tell("steps", json!(0));
     let scaling = &settings.scaling;
     tell(

@@ -1,26 +1,31 @@
 //! Time steps and load steps: `Simulation::step` is the table of contents of a step.
 
+use std::sync::Arc;
+
 use lissom_solver::{FactorError, FactorReport, SolverKind};
 
 use super::conditioning::TangentValues;
 use super::equations::StepEquations;
+use super::equilibrium;
 use super::initial::{Initial, InitialError};
-use super::phase::{Phase, Stopwatch, Unwatched};
+use super::phase::{Stopwatch, Unwatched};
 use super::step_error::{StepError, pivot_hint};
 use super::workspace::Workspace;
-use super::{approach, equilibrium};
-use crate::newton::{self, Failure, Limits, Memory};
+use crate::newton::{self, Equations, Failure, Limits, Memory, Outcome};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Coupling, Scheme, Tableau};
-use crate::system::{Kinematics, Linearization, MotionChange, State, System, Threads};
+use crate::stepping::{Controller, MethodMemory, Parts, SMALLEST_REFERENCE, StepControl};
+use crate::system::{Kinematics, Layout, Linearization, MotionChange, State, System, Threads};
 
 /// What a simulation is told besides system and state.
 #[derive(Clone)]
 pub struct Settings {
     /// Time scheme.
     pub scheme: Scheme,
-    /// Step size [s]; in statics, the step of the load parameter.
+    /// Step size [s], with step-size control that of the first step; in statics, the step of the load parameter.
     pub step_size: f64,
+    /// Step-size control; none for steps of one size.
+    pub control: Option<StepControl>,
     /// Scaling and augmented term.
     pub scaling: ScalingChoice,
     /// When Newton's iterations stop.
@@ -36,14 +41,18 @@ pub struct Settings {
 /// What a step took.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct StepReport {
-    /// Newton iterations.
+    /// Newton iterations, those of attempts that were given up included.
     pub iterations: usize,
-    /// Tangents factored.
+    /// Tangents factored, likewise.
     pub factorizations: usize,
+    /// Attempts given up.
+    pub rejected: usize,
     /// Size of the last correction [-].
     pub correction: f64,
     /// Whether iterations ended at round-off rather than at the tolerance.
     pub stagnated: bool,
+    /// Estimated error over the tolerance, with step-size control [-].
+    pub error: Option<f64>,
 }
 
 /// Sums over all steps so far.
@@ -69,28 +78,41 @@ pub struct Totals {
     pub yielded_at: Option<usize>,
 }
 
-/// A step without solution is halved at most so often.
-const MOST_DIVISIONS: usize = 5;
-
 /// Tolerance of schemes whose promise holds for the exact solution of their equations.
 const EXACT: f64 = 1e-12;
 
+/// With step-size control iterations stop where they are wrong by this part of the error allowed.
+const ITERATION_SHARE: f64 = 1e-3;
+
 /// A system on its way through time.
 pub struct Simulation {
-    system: System,
-    state: State,
-    next: State,
-    settings: Settings,
-    representative: Representative,
-    scaled: Scaled,
-    work: Box<Workspace>,
+    pub(crate) system: Arc<System>,
+    /// Where the first step began.
+    pub(crate) origin: Kinematics,
+    /// Before the last step; the same as `state` before the first.
+    pub(crate) previous: State,
+    pub(crate) state: State,
+    /// Where the attempt at the next step has come.
+    pub(crate) next: State,
+    pub(crate) settings: Settings,
+    pub(crate) representative: Representative,
+    /// The scaling of the tangent in use, for the size of the present attempt.
+    pub(crate) scaled: Scaled,
+    pub(crate) work: Box<Workspace>,
     /// For schemes whose velocities leave the constraints a little.
     projection: Option<Projection>,
-    memory: Memory,
-    totals: Totals,
+    pub(crate) memory: Memory,
+    /// For schemes that remember what belongs to the step size.
+    pub(crate) method_memory: Option<MethodMemory>,
+    /// Where in a planned step it stands, and the size of the next attempt.
+    pub(crate) parts: Parts,
+    pub(crate) controller: Option<Controller>,
+    /// How far any node has moved since the start, for the error estimate [-].
+    pub(crate) farthest: f64,
+    pub(crate) totals: Totals,
     velocity_correction: f64,
-    /// Whether the engine still holds the step that led to the state.
-    is_last_step_known: bool,
+    /// Whether the workspace still holds the step that led to the state.
+    pub(crate) is_last_step_known: bool,
 }
 
 impl Simulation {
@@ -99,7 +121,12 @@ impl Simulation {
     ///
     /// # Errors
     /// If consistent initial values do not exist.
-    pub fn new(system: System, state: State, settings: Settings) -> Result<Self, InitialError> {
+    pub fn new(
+        system: impl Into<Arc<System>>,
+        state: State,
+        settings: Settings,
+    ) -> Result<Self, InitialError> {
+        let system: Arc<System> = system.into();
         let (system, mut state) = if settings.from_equilibrium && settings.scheme.dynamic {
             equilibrium::at_rest(system, state, &settings)?
         } else {
@@ -108,10 +135,8 @@ impl Simulation {
         let at_start = Linearization::of_state(&system, &state.kinematics);
         let representative = Representative::of(&system, &state.kinematics, &at_start);
         let mut velocity_correction = 0.0;
-        let pivoting = lissom_solver::kind("pivoting").unwrap_or(settings.solver);
         if settings.scheme.dynamic {
-            let kind = if settings.scaling.augmented { settings.solver } else { pivoting };
-            let mut initial = Initial::new(&system, &state, &representative, kind);
+            let mut initial = Initial::new(&system, &state, &representative, pivoting_unless(&settings));
             velocity_correction = initial.velocities(&system, &mut state)?;
             initial.accelerations(&system, &mut state)?;
             let delay = settings.scheme.memory_delay * settings.step_size;
@@ -132,7 +157,21 @@ impl Simulation {
             .tableau
             .filter(|tableau| !tableau.is_stiffly_accurate() && layout_has_constraints(&system))
             .map(|tableau| Projection::new(&system, &state, &representative, settings.solver, tableau));
+        let remembers = settings.scheme.dynamic && matches!(settings.scheme.coupling, Coupling::Single(_));
+        let method_memory = remembers.then(|| {
+            MethodMemory::new(
+                &system,
+                &state,
+                &representative,
+                pivoting_unless(&settings),
+                settings.step_size,
+            )
+        });
+        let controller = settings.control.filter(|_| settings.scheme.dynamic);
+        let controller = controller.map(|_| Controller::new(settings.step_size));
         Ok(Self {
+            origin: state.kinematics.clone(),
+            previous: state.clone(),
             next: state.clone(),
             system,
             state,
@@ -142,6 +181,10 @@ impl Simulation {
             work: Box::new(work),
             projection,
             memory: Memory::default(),
+            method_memory,
+            parts: Parts::whole(),
+            controller,
+            farthest: 0.0,
             totals: Totals { smallest_relative_pivot: f64::INFINITY, ..Totals::default() },
             velocity_correction,
             is_last_step_known: false,
@@ -149,7 +192,7 @@ impl Simulation {
     }
 
     /// System and state, given back.
-    pub(super) fn into_parts(self) -> (System, State) {
+    pub(super) fn into_parts(self) -> (Arc<System>, State) {
         (self.system, self.state)
     }
 
@@ -193,28 +236,18 @@ impl Simulation {
         self.velocity_correction
     }
 
-    /// Changes the step size; the tangent is made anew.
-    pub fn set_step_size(&mut self, step_size: f64) {
-        if step_size != self.settings.step_size {
-            self.settings.step_size = step_size;
-            self.scaled = Scaled::new(&self.settings.scaling, &self.representative, step_size);
-            self.memory = Memory::default();
-            self.work.forget_guesses();
-        }
-    }
-
     /// The tangent at the solution of the last step; none before the first step and after one that failed.
     pub(super) fn last_tangent(&mut self, scaled: Scaled, coupling: &Coupling) -> Option<TangentValues> {
         if !self.is_last_step_known {
             return None;
         }
-        self.system.begin_step(&self.next.kinematics, &mut self.work.joint_starts);
+        self.system.begin_step(&self.previous.kinematics, &mut self.work.joint_starts);
         let mut equations = StepEquations {
             system: &self.system,
             scheme: &self.settings.scheme,
             scaled,
-            rescale: &|_| scaled,
-            start: &self.next,
+            scaling: (&self.settings.scaling, &self.representative),
+            start: &self.previous,
             work: &mut self.work,
             watch: &mut Unwatched,
         };
@@ -235,80 +268,17 @@ impl Simulation {
         self.work.report.as_ref().map(FactorReport::relative_pivot)
     }
 
-    /// Takes one step. On failure the state stays where it was.
-    ///
-    /// # Errors
-    /// If Newton's iterations do not converge or the tangent has no factorisation.
-    pub fn step(&mut self) -> Result<StepReport, StepError> {
-        self.step_watched(&mut Unwatched)
-    }
-
-    /// Takes one step as [`step`](Self::step) does and tells `watch` which part of the work begins.
-    ///
-    /// # Errors
-    /// As [`step`](Self::step).
-    pub fn step_watched(&mut self, watch: &mut dyn Stopwatch) -> Result<StepReport, StepError> {
-        watch.begin(Phase::Rest);
-        self.is_last_step_known = false;
-        let outcome = self.advance(watch, MOST_DIVISIONS)?;
-        let report = StepReport {
-            iterations: outcome.iterations,
-            factorizations: outcome.factorizations,
-            correction: outcome.correction,
-            stagnated: outcome.stagnated,
-        };
-        self.count(&report);
-        Ok(report)
-    }
-
-    /// Takes a step, or both halves of one whose equations have no solution within reach. What a step of one of the
-    /// schemes without memory promises holds for its halves, and so for the whole.
-    fn advance(&mut self, watch: &mut dyn Stopwatch, divisions: usize) -> Result<newton::Outcome, StepError> {
-        let error = match self.collocate(watch) {
-            Ok(outcome) => {
-                std::mem::swap(&mut self.state, &mut self.next);
-                self.is_last_step_known = divisions == MOST_DIVISIONS;
-                return Ok(outcome);
-            }
-            Err(error) => error,
-        };
-        let has_memory = !matches!(self.settings.scheme.coupling, Coupling::Pair { .. });
-        let is_hopeless = !matches!(error, StepError::NotConverged { .. } | StepError::NotFinite { .. });
-        if has_memory || is_hopeless || divisions == 0 {
-            return Err(error);
-        }
-        self.totals.rejected_steps += 1;
-        let (start, whole) = (self.state.clone(), self.settings.step_size);
-        self.set_step_size(0.5 * whole);
-        let halves = self.advance(watch, divisions - 1).and_then(|first| {
-            let second = self.advance(watch, divisions - 1)?;
-            Ok(newton::Outcome {
-                iterations: first.iterations + second.iterations,
-                factorizations: first.factorizations + second.factorizations,
-                stagnated: first.stagnated || second.stagnated,
-                ..second
-            })
-        });
-        self.set_step_size(whole);
-        if halves.is_err() {
-            self.state = start;
-        }
-        // The first failure tells more than those of its parts.
-        halves.map_err(|_| error)
-    }
-
-    fn collocate(&mut self, watch: &mut dyn Stopwatch) -> Result<newton::Outcome, StepError> {
+    /// Solves the equations of a step of the present size from the state, and leaves what it comes to in `next`.
+    pub(crate) fn solve_step(&mut self, watch: &mut dyn Stopwatch) -> Result<Outcome, StepError> {
         let work = &mut *self.work;
         self.scaled.enter(self.system.layout(), &self.settings.scheme, &self.state, &mut work.unit);
         self.system.begin_step(&self.state.kinematics, &mut work.joint_starts);
         work.extrapolates = self.settings.scheme.dynamic;
-        let Settings { scaling, step_size, .. } = &self.settings;
-        let rescale = |share: f64| Scaled::new(scaling, &self.representative, share * step_size);
         let mut equations = StepEquations {
             system: &self.system,
             scheme: &self.settings.scheme,
             scaled: self.scaled,
-            rescale: &rescale,
+            scaling: (&self.settings.scaling, &self.representative),
             start: &self.state,
             work,
             watch,
@@ -318,15 +288,25 @@ impl Simulation {
             // The energy is as good as the solution: to round-off.
             limits.tolerance = limits.tolerance.min(EXACT);
         }
-        let outcome = approach::solve(&mut equations, &limits, &mut self.memory).map_err(|failure| {
+        if let Some(control) = self.settings.control.filter(|_| self.controller.is_some()) {
+            let reference = self.farthest.max(SMALLEST_REFERENCE);
+            limits.absolute = ITERATION_SHARE * control.relative_tolerance * reference;
+        }
+        equations.restart();
+        let mut result = newton::solve(&mut equations, &limits, &mut self.memory);
+        if self.controller.is_none() && may_be_coupled(&result) && equations.couple() {
+            self.memory = Memory::default();
+            equations.restart();
+            result = newton::solve(&mut equations, &limits, &mut self.memory);
+        }
+        self.scaled = equations.scaled;
+        let outcome = result.map_err(|failure| {
             self.memory = Memory::default();
             let failure = equations.unforgiven(failure);
-            describe(&failure, &self.system, &self.state, &self.settings, &equations.worst_unknown())
+            let time = self.state.kinematics.time + self.scaled.step_size();
+            describe(&failure, self.system.layout(), time, &self.settings, &equations.worst_unknown())
         })?;
         equations.final_violations(&mut self.next.violations);
-        if self.settings.scheme.dynamic {
-            equations.learn();
-        }
 
         let last = self.settings.scheme.stages.len() - 1;
         let Some(end) = work.motions.last() else { unreachable!("every scheme has a stage") };
@@ -340,17 +320,29 @@ impl Simulation {
                 .apply(&self.system, &mut self.next)
                 .map_err(|error| StepError::Velocities { time: self.next.kinematics.time, error })?;
         }
-        if work.end_step() {
-            self.memory = Memory::default();
-        }
         Ok(outcome)
     }
 
-    fn count(&mut self, report: &StepReport) {
+    /// Makes what the last attempt came to the state.
+    pub(crate) fn accept_step(&mut self) {
+        let work = &mut *self.work;
+        if self.settings.scheme.dynamic {
+            work.learn(&self.settings.scheme, &self.state.multipliers);
+        }
+        if work.end_step() {
+            self.memory = Memory::default();
+        }
+        std::mem::swap(&mut self.previous, &mut self.state);
+        std::mem::swap(&mut self.state, &mut self.next);
+        if let Some(memory) = &mut self.method_memory {
+            memory.renew(self.scaled.step_size());
+        }
+    }
+
+    /// Counts a step that was completed.
+    pub(crate) fn count(&mut self, report: &StepReport) {
         let totals = &mut self.totals;
         totals.steps += 1;
-        totals.newton_iterations += report.iterations;
-        totals.factorizations += report.factorizations;
         totals.stagnated_steps += usize::from(report.stagnated);
         totals.fell_back_at = self.work.fell_back.map(|(unknown, _)| unknown);
         totals.yielded_at = self.work.yielding.as_ref().map(|(_, unknown)| *unknown);
@@ -361,11 +353,17 @@ impl Simulation {
             totals.max_constraint_violation = totals.max_constraint_violation.max(violation.abs());
         }
     }
+}
 
-    /// Notes that a step was given up and will be tried again with another size.
-    pub fn note_rejected(&mut self) {
-        self.totals.rejected_steps += 1;
-    }
+/// Without the augmented term massless coordinates need pivots.
+fn pivoting_unless(settings: &Settings) -> &'static SolverKind {
+    let pivoting = lissom_solver::kind("pivoting").unwrap_or(settings.solver);
+    if settings.scaling.augmented { settings.solver } else { pivoting }
+}
+
+/// Whether a tangent of both stages might find the solution.
+fn may_be_coupled(result: &Result<Outcome, Failure>) -> bool {
+    matches!(result, Err(failure) if !matches!(failure, Failure::Factor(_)))
 }
 
 fn copy_motion(from: &Kinematics, to: &mut Kinematics) {
@@ -433,15 +431,7 @@ impl Projection {
     }
 }
 
-fn describe(
-    failure: &Failure,
-    system: &System,
-    state: &State,
-    settings: &Settings,
-    worst: &str,
-) -> StepError {
-    let time = state.kinematics.time + settings.step_size;
-    let layout = system.layout();
+fn describe(failure: &Failure, layout: &Layout, time: f64, settings: &Settings, worst: &str) -> StepError {
     match failure {
         Failure::NotConverged { iterations, correction } => StepError::NotConverged {
             time,

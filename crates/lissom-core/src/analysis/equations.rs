@@ -3,7 +3,6 @@
 use lissom_motion::Vector6;
 use lissom_solver::FactorError;
 
-use super::approach::Approachable;
 use super::compliance::Compliance;
 use super::corrections::{Add, Measure, Multiply};
 use super::phase::{Phase, Stopwatch};
@@ -12,7 +11,7 @@ use crate::joints::blocks::JointStarts;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::{Quantity, attached};
 use crate::newton::{Correction, Equations, Failure};
-use crate::scaling::{Scaled, StageIncrements, StageMotion};
+use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
 use crate::schemes::{Coupling, Increments, Scheme};
 use crate::system::{Chart, Kinematics, LOCKED, Point, Receiver, State, System};
 
@@ -30,8 +29,8 @@ pub(crate) struct StepEquations<'a> {
     pub(crate) system: &'a System,
     pub(crate) scheme: &'a Scheme,
     pub(crate) scaled: Scaled,
-    /// The scaling of the step of a given share.
-    pub(crate) rescale: &'a dyn Fn(f64) -> Scaled,
+    /// What the scaling of a new tangent follows from.
+    pub(crate) scaling: (&'a ScalingChoice, &'a Representative),
     pub(crate) start: &'a State,
     pub(crate) work: &'a mut Workspace,
     pub(crate) watch: &'a mut dyn Stopwatch,
@@ -53,17 +52,6 @@ impl StepEquations<'_> {
             of_multipliers.improve(&mut work.multipliers);
         }
         self.update_motions();
-    }
-
-    /// Takes note of what the scheme's first guess has missed.
-    pub(crate) fn learn(&mut self) {
-        let Workspace { guesses, unit, predicted, increments, multipliers, .. } = &mut *self.work;
-        for (stage, predicted) in self.scheme.stages.iter().zip(&mut *predicted) {
-            unit.predict(&stage.prediction, predicted);
-        }
-        let [of_increments, of_multipliers] = guesses;
-        of_increments.learn(increments, |stage| &predicted[stage]);
-        of_multipliers.learn(multipliers, |_| &self.start.multipliers);
     }
 
     /// Motions at all stages from the increments.
@@ -270,17 +258,12 @@ impl StepEquations<'_> {
 
     /// Takes note of how the tangent in use is scaled.
     fn note_scales(&mut self) {
-        let Workspace { row_factors, multiplier_sizes, equilibration, .. } = &mut *self.work;
-        let layout = self.system.layout();
-        row_factors.fill(1.0);
-        self.scaled.scale_residual(layout, row_factors);
-        if let Some(equilibration) = equilibration {
-            equilibration.scale(row_factors);
-        }
-        let quantities = &layout.quantities()[layout.coordinate_count()..];
-        for (size, &quantity) in multiplier_sizes.iter_mut().zip(quantities) {
-            *size = 1.0 / self.scaled.unit(quantity);
-        }
+        self.work.note_scales(self.system.layout(), &self.scaled);
+    }
+
+    /// Goes over to a tangent that knows more, and says whether there is one.
+    pub(crate) fn couple(&mut self) -> bool {
+        matches!(self.scheme.coupling, Coupling::Pair { .. }) && self.work.begin_coupling(self.system)
     }
 
     /// A failure that a pivoting solver could not help, as the vanished pivot that called for it.
@@ -318,6 +301,7 @@ impl StepEquations<'_> {
 
 impl Equations for StepEquations<'_> {
     fn correct(&mut self) -> Correction {
+        self.work.effort.iterations += 1;
         if !std::mem::take(&mut self.work.backed_off) {
             std::mem::swap(&mut self.work.residuals, &mut self.work.before);
         }
@@ -363,6 +347,9 @@ impl Equations for StepEquations<'_> {
     }
 
     fn renew_tangent(&mut self) -> Result<(), FactorError> {
+        self.work.effort.factorizations += 1;
+        let (choice, representative) = self.scaling;
+        self.scaled = Scaled::new(choice, representative, self.scaled.step_size());
         if self.work.coupled_steps > 0
             && let Some(mut coupled) = self.work.coupled.take()
         {
@@ -431,33 +418,6 @@ impl Equations for StepEquations<'_> {
         self.work.residuals = last;
         self.work.before = before;
         self.work.backed_off = true;
-        self.update_motions();
-    }
-}
-
-impl Approachable for StepEquations<'_> {
-    fn set_share(&mut self, share: f64) {
-        self.scaled = (self.rescale)(share);
-        self.scaled.enter(self.system.layout(), self.scheme, self.start, &mut self.work.unit);
-    }
-
-    fn couple(&mut self) -> bool {
-        matches!(self.scheme.coupling, Coupling::Pair { .. }) && self.work.begin_coupling(self.system)
-    }
-
-    fn save(&mut self) {
-        self.work.saved.clone_from(&self.work.increments);
-    }
-
-    fn extrapolate(&mut self, factor: f64) {
-        let factor = if self.scheme.dynamic { factor * factor } else { factor };
-        let work = &mut *self.work;
-        for (values, saved) in work.increments.iter_mut().zip(&work.saved) {
-            for (value, saved) in values.iter_mut().zip(saved) {
-                *value = factor * saved;
-            }
-        }
-        work.correction = f64::INFINITY;
         self.update_motions();
     }
 }

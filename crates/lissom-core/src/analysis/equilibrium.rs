@@ -1,6 +1,8 @@
 //! Start from static equilibrium: places at which the model would stay at rest under its loads at the first instant.
 //! Velocities that were given stay.
 
+use std::sync::Arc;
+
 use super::dynamics::{Settings, Simulation};
 use super::initial::InitialError;
 use crate::schemes::statics;
@@ -11,10 +13,10 @@ use crate::system::{State, System};
 /// # Errors
 /// If the load step has no solution, as where a part is not held.
 pub(super) fn at_rest(
-    system: System,
+    system: Arc<System>,
     state: State,
     settings: &Settings,
-) -> Result<(System, State), InitialError> {
+) -> Result<(Arc<System>, State), InitialError> {
     let mut moved = state.clone();
     // Loads act as they are at the end of the load step, which is the start of the motion.
     let step_size = 1.0;

@@ -129,4 +129,24 @@ impl Factorization {
             _ => unreachable!("a factorisation is made for its scheme's coupling"),
         }
     }
+
+    /// Solves the tangent's equations for inertia times real values: of a pair, the real part of the solution.
+    pub(crate) fn solve_inertial(&mut self, coupling: &Coupling, values: &mut [f64]) {
+        match (self, coupling) {
+            (Self::Single { solver, .. }, Coupling::Single(weights)) => {
+                values.iter_mut().for_each(|value| *value *= weights.curvature);
+                solver.solve(values);
+            }
+            (Self::Pair { solver, right_hand_side, .. }, Coupling::Pair { weights, .. }) => {
+                for (value, real) in right_hand_side.iter_mut().zip(values.iter()) {
+                    *value = weights.curvature * real;
+                }
+                solver.solve(right_hand_side);
+                for (value, real) in right_hand_side.iter().zip(values) {
+                    *real = value.re;
+                }
+            }
+            _ => unreachable!("a factorisation is made for its scheme's coupling"),
+        }
+    }
 }

@@ -113,7 +113,7 @@ fn examine(
         system,
         scheme: &settings.scheme,
         scaled,
-        rescale: &|_| scaled,
+        scaling: (choice, representative),
         start: state,
         work: &mut work,
         watch: &mut Unwatched,

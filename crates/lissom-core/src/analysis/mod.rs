@@ -1,6 +1,5 @@
 //! What the user asks for: consistent initial values, time steps, load steps, a count of freedoms.
 
-mod approach;
 mod compliance;
 pub mod conditioning;
 mod corrections;

@@ -32,6 +32,17 @@ pub enum StepError {
         /// Name of the first unknown affected.
         worst: String,
     },
+    /// The estimated error stays above the tolerance however short the step.
+    #[error(
+        "from t = {time:.6e} s: the estimated error stays above `relative_tolerance` down to steps of {size:.1e} s; \
+         look for a load or drive that jumps there, or allow a larger error"
+    )]
+    TooInaccurate {
+        /// Start of the step [s].
+        time: f64,
+        /// Size of the last attempt [s].
+        size: f64,
+    },
     /// The velocities at the end of the step could not be made consistent.
     #[error("step to t = {time:.6e} s, velocities at its end: {error}")]
     Velocities {
@@ -54,6 +65,13 @@ pub enum StepError {
         /// What to try.
         hint: &'static str,
     },
+}
+
+impl StepError {
+    /// Whether a smaller step may have a solution where this one has none.
+    pub fn may_need_a_smaller_step(&self) -> bool {
+        matches!(self, Self::NotConverged { .. } | Self::NotFinite { .. })
+    }
 }
 
 /// What to try when elimination stops at a coordinate or at a multiplier.

@@ -12,15 +12,24 @@ use crate::equilibration::Equilibration;
 use crate::joints::Quantity;
 use crate::joints::blocks::JointStarts;
 use crate::joints::derivatives::IncrementTangent;
-use crate::scaling::{Representative, StageMotion, UnitStart};
+use crate::scaling::{Representative, Scaled, StageMotion, UnitStart};
 use crate::schemes::{Increments, Scheme};
 use crate::system::{Layout, Scratch, State, System, Threads};
+
+/// What was done to find solutions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(crate) struct Effort {
+    /// Newton iterations.
+    pub(crate) iterations: usize,
+    /// Tangents factored.
+    pub(crate) factorizations: usize,
+}
 
 /// Everything a step needs besides system and state, allocated once.
 pub(crate) struct Workspace {
     pub(crate) unit: UnitStart,
     /// The scheme's first guess of the increments, by stage.
-    pub(super) predicted: Vec<Vec<f64>>,
+    pub(crate) predicted: Vec<Vec<f64>>,
     /// What first guesses of the increments have missed, and of the multipliers; stage after stage.
     pub(super) guesses: [Guess; 2],
     /// Whether the next first guess is to make use of them.
@@ -41,8 +50,11 @@ pub(crate) struct Workspace {
     pub(super) backed_off: bool,
     /// Size of the last correction of places.
     pub(super) correction: f64,
-    /// Increments of a smaller step, see `approach`.
-    pub(super) saved: Vec<Vec<f64>>,
+    /// All iterations and tangents so far, whatever they led to.
+    pub(crate) effort: Effort,
+    /// Room for the error estimate: by coordinate row, and by row.
+    pub(crate) error: Vec<f64>,
+    pub(crate) filtered: Vec<f64>,
     /// The solver to go on with where a pivot vanishes, until it is needed.
     pub(crate) fall_back: Option<&'static lissom_solver::SolverKind>,
     /// The unknown whose pivot vanished, and the pivot, once it was needed.
@@ -113,7 +125,9 @@ impl Workspace {
             before: vec![vec![0.0; layout.size()]; stages],
             backed_off: false,
             correction: f64::INFINITY,
-            saved: Vec::new(),
+            effort: Effort::default(),
+            error: vec![0.0; count],
+            filtered: vec![0.0; layout.size()],
             fall_back: None,
             fell_back: None,
             force_round_off: 0.0,
@@ -136,6 +150,34 @@ impl Workspace {
             threads: None,
             report: None,
         }
+    }
+
+    /// Takes note of what the scheme's first guess has missed; `multipliers` are those at the start of the step.
+    pub(crate) fn learn(&mut self, scheme: &Scheme, multipliers: &[f64]) {
+        for (stage, predicted) in scheme.stages.iter().zip(&mut self.predicted) {
+            self.unit.predict(&stage.prediction, predicted);
+        }
+        let [of_increments, of_multipliers] = &mut self.guesses;
+        of_increments.learn(&self.increments, |stage| &self.predicted[stage]);
+        of_multipliers.learn(&self.multipliers, |_| multipliers);
+    }
+
+    /// Takes note of how residuals are to be scaled for the tangent in use.
+    pub(crate) fn note_scales(&mut self, layout: &Layout, scaled: &Scaled) {
+        self.row_factors.fill(1.0);
+        scaled.scale_residual(layout, &mut self.row_factors);
+        if let Some(equilibration) = &self.equilibration {
+            equilibration.scale(&mut self.row_factors);
+        }
+        let quantities = &layout.quantities()[layout.coordinate_count()..];
+        for (size, &quantity) in self.multiplier_sizes.iter_mut().zip(quantities) {
+            *size = 1.0 / scaled.unit(quantity);
+        }
+    }
+
+    /// Whether the tangent of both stages is in use.
+    pub(crate) fn is_coupled(&self) -> bool {
+        self.coupled_steps > 0
     }
 
     /// Makes the next first guess from the scheme alone.

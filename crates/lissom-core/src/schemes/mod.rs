@@ -142,6 +142,8 @@ pub struct Scheme {
     pub tableau: Option<Tableau>,
     /// The memory starts as the acceleration this long after the start of the first step, in steps.
     pub memory_delay: f64,
+    /// Local error at the end of a step over what the last stage's prediction misses, both of third order.
+    pub error_constant: f64,
     /// Whether inertia takes part.
     pub dynamic: bool,
 }

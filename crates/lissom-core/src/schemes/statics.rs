@@ -17,6 +17,7 @@ pub fn statics() -> Scheme {
         coupling: Coupling::Single(Weights { rate: 0.0, curvature: 0.0 }),
         tableau: None,
         memory_delay: 0.0,
+        error_constant: 0.0,
         dynamic: false,
     }
 }

@@ -14,8 +14,10 @@ use crate::report::{Located, Problem, Span};
 pub enum AnalysisKind {
     /// Motion in time.
     Dynamics {
-        /// Time step [s].
+        /// Time step, or the first one where steps are chosen [s].
         step: Located<f64>,
+        /// Steps are chosen by their error; none where all are of one size.
+        control: Option<StepChoice>,
     },
     /// Equilibrium under loads that grow with the time.
     Statics {
@@ -23,6 +25,25 @@ pub enum AnalysisKind {
         steps: usize,
     },
 }
+
+/// How steps are chosen.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StepChoice {
+    /// Error allowed per step, relative to the motion.
+    pub relative_tolerance: f64,
+    /// Longest step [s].
+    pub max_step: f64,
+    /// Time from record to record, if not every step is recorded [s].
+    pub output_step: Option<f64>,
+}
+
+/// Error allowed per step where a model names neither step nor tolerance.
+const DEFAULT_RELATIVE_TOLERANCE: f64 = 1e-5;
+/// Scheme where steps are chosen and none is named.
+const CONTROLLED_SCHEME: &str = "radau-iia";
+/// Part of the whole duration that the longest step and the first step are where they are not given.
+const LONGEST_PART: f64 = 0.05;
+const FIRST_PART: f64 = 1e-4;
 
 /// How the equations are scaled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -86,19 +107,25 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         Some(_) => reader.number(key),
     };
     let dynamics = word == "dynamics";
+    let start = number("start", 0.0);
+    let end = if reader.has("end") { reader.number("end") } else { Some(Located::new(1.0, name)) };
     let kind = if dynamics {
-        reader.number("step").map(|step| AnalysisKind::Dynamics { step })
+        stepping(&reader, end.as_ref()?.value - start.as_ref()?.value)
     } else {
         Some(AnalysisKind::Statics { steps: reader.count("steps").map_or(10, |steps| steps.value) })
     };
-    let start = number("start", 0.0);
-    let end = if reader.has("end") { reader.number("end") } else { Some(Located::new(1.0, name)) };
     let scaling = reader.choice("scaling").map_or(Scaling::Physical, |word| match word.value {
         "unit" => Scaling::Unit,
         "none" => Scaling::None,
         _ => Scaling::Physical,
     });
-    let scheme = dynamics.then(|| chosen(&reader, "scheme", &registry.schemes)).flatten();
+    let is_controlled = matches!(kind, Some(AnalysisKind::Dynamics { control: Some(_), .. }));
+    let scheme = match dynamics.then(|| chosen(&reader, "scheme", &registry.schemes)).flatten() {
+        Some(_) if is_controlled && !reader.has("scheme") => {
+            Some(Located::new(CONTROLLED_SCHEME.to_owned(), reader.name))
+        }
+        chosen => chosen,
+    };
     let parameters =
         if dynamics { scheme_parameters(&reader, scheme.as_ref(), registry) } else { Parameters::new() };
     let solver = chosen(&reader, "solver", &registry.solvers);
@@ -124,13 +151,42 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     Some(analysis)
 }
 
+/// Steps of one size, or chosen by their error, over `duration` [s].
+fn stepping(reader: &Reader<'_, '_>, duration: f64) -> Option<AnalysisKind> {
+    let given = |key: &str| reader.node(key).map_or(Some(None), |_| reader.number(key).map(Some));
+    let (step, tolerance) = (given("step")?, given("relative_tolerance")?);
+    let (max_step, output_step) = (given("max_step")?, given("output_step")?);
+    if tolerance.is_none() && step.is_some() {
+        for stray in [max_step, output_step].into_iter().flatten() {
+            return reader.context.fail(
+                stray.span,
+                "this is for steps that are chosen by their error, but `step` is given alone".to_owned(),
+                "add `relative_tolerance`, or leave this out; `output_every` counts steps of one size",
+            );
+        }
+    }
+    if tolerance.is_none()
+        && let Some(step) = step
+    {
+        return Some(AnalysisKind::Dynamics { step, control: None });
+    }
+    let max_step = max_step.map_or(LONGEST_PART * duration, |most| most.value);
+    let step = step.unwrap_or(Located::new((FIRST_PART * duration).min(max_step), reader.name));
+    let relative_tolerance = tolerance.map_or(DEFAULT_RELATIVE_TOLERANCE, |tolerance| tolerance.value);
+    let output_step = output_step.map(|step| step.value);
+    Some(AnalysisKind::Dynamics {
+        step,
+        control: Some(StepChoice { relative_tolerance, max_step, output_step }),
+    })
+}
+
 fn check_times(context: &Context<'_>, analysis: &Analysis, end: Span) {
     let duration = analysis.end - analysis.start;
     if !(duration > 0.0 && duration.is_finite()) {
         let message =
             format!("the analysis ends at {} s, not after its start at {} s", analysis.end, analysis.start);
         context.fail::<()>(end, message, "`end` must be greater than `start`");
-    } else if let AnalysisKind::Dynamics { step } = &analysis.kind
+    } else if let AnalysisKind::Dynamics { step, .. } = &analysis.kind
         && step.value > duration
     {
         let message = format!("the time step {} s is longer than the analysis of {duration} s", step.value);

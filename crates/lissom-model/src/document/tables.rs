@@ -365,7 +365,22 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
     let mut dynamics = common();
     dynamics.push(optional("scheme", words(&registry.schemes), "", "time integration scheme"));
     dynamics.push(required("end", Shape::Number, "s", "last time"));
-    dynamics.push(required("step", Shape::Positive, "s", "time step"));
+    dynamics.extend([
+        optional("step", Shape::Positive, "s", "time step; with `relative_tolerance` the first one"),
+        optional(
+            "relative_tolerance",
+            Shape::Between(1e-12, 0.1),
+            "",
+            "error allowed per step, relative to the motion: steps are chosen to keep it; default 1e-5 without `step`",
+        ),
+        optional("max_step", Shape::Positive, "s", "longest step that is chosen, default a twentieth of the whole"),
+        optional(
+            "output_step",
+            Shape::Positive,
+            "s",
+            "time from record to record where steps are chosen; default every step",
+        ),
+    ]);
     for parameter in registry.schemes.iter().flat_map(|scheme| scheme.parameters) {
         if !dynamics.iter().any(|key| key.name == parameter.name) {
             let mut key = of_parameter(parameter);

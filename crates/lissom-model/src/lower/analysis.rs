@@ -4,12 +4,14 @@ use lissom_core::analysis::Settings;
 use lissom_core::newton::Limits;
 use lissom_core::scaling::{ScaleBy, ScalingChoice};
 use lissom_core::schemes::{self, Scheme, SchemeParameters, statics};
+use lissom_core::stepping::StepControl;
+use serde::{Deserialize, Serialize};
 
-use crate::document::{Analysis, AnalysisKind, Scaling};
+use crate::document::{Analysis, AnalysisKind, Scaling, StepChoice};
 use crate::report::Problem;
 
 /// From when to when, in how many steps.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Plan {
     /// First time [s].
     pub start: f64,
@@ -21,18 +23,24 @@ pub struct Plan {
     pub output_every: usize,
     /// Whether it is a load history without inertia.
     pub is_static: bool,
+    /// Whether steps are chosen by their error: then `steps` tells nothing.
+    pub is_controlled: bool,
+    /// Time from record to record where steps are chosen; none where each is recorded [s].
+    pub output_step: Option<f64>,
 }
 
 /// Settings and plan of an analysis.
 pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(Settings, Plan), Problem> {
     let duration = analysis.end - analysis.start;
-    let (scheme, step_size, steps) = match &analysis.kind {
-        AnalysisKind::Dynamics { step } => {
+    let (scheme, step_size, steps, choice) = match &analysis.kind {
+        AnalysisKind::Dynamics { step, control } => {
             let steps = (duration / step.value - 1e-6).ceil().max(1.0);
-            (scheme(analysis)?, step.value, steps as usize)
+            (scheme(analysis)?, step.value, steps as usize, *control)
         }
-        AnalysisKind::Statics { steps } => (statics::statics(), duration / *steps as f64, *steps),
+        AnalysisKind::Statics { steps } => (statics::statics(), duration / *steps as f64, *steps, None),
     };
+    let control = choice
+        .map(|StepChoice { relative_tolerance, max_step, .. }| StepControl { relative_tolerance, max_step });
     let solver = analysis.solver.as_ref().map_or("sparse", |solver| solver.value.as_str());
     let Some(solver) = lissom_core::solvers::kind(solver) else {
         return Err(Problem::error(analysis.span, format!("unknown solver `{solver}`")));
@@ -40,6 +48,7 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
     let settings = Settings {
         scheme,
         step_size,
+        control,
         scaling: ScalingChoice {
             by: match analysis.scaling {
                 Scaling::Physical => ScaleBy::Physical,
@@ -50,7 +59,11 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
             augmented: analysis.augmented,
             penalty: analysis.penalty,
         },
-        limits: Limits { tolerance: analysis.tolerance, max_iterations: analysis.max_iterations },
+        limits: Limits {
+            tolerance: analysis.tolerance,
+            absolute: 0.0,
+            max_iterations: analysis.max_iterations,
+        },
         solver,
         threads: 1,
         from_equilibrium,
@@ -61,6 +74,8 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
         steps,
         output_every: analysis.output_every.max(1),
         is_static: matches!(analysis.kind, AnalysisKind::Statics { .. }),
+        is_controlled: choice.is_some(),
+        output_step: choice.and_then(|choice| choice.output_step),
     };
     Ok((settings, plan))
 }

@@ -102,6 +102,12 @@ fn unknowns(lowered: &Lowered, freedom: &Mobility) -> String {
 fn analysis(lowered: &Lowered) -> String {
     let (plan, settings) = (&lowered.plan, &lowered.settings);
     let kind = if plan.is_static { "load steps" } else { "steps" };
+    if let Some(control) = &settings.control {
+        return format!(
+            "{} … {} s in steps chosen for a relative error of {}, {}, solver {}",
+            plan.start, plan.end, control.relative_tolerance, settings.scheme.name, settings.solver.name
+        );
+    }
     format!(
         "{} … {} s in {} {kind} of {} s, {}, solver {}",
         plan.start, plan.end, plan.steps, settings.step_size, settings.scheme.name, settings.solver.name

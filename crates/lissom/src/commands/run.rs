@@ -69,7 +69,7 @@ impl Run {
                 return Err(Failure::new(Exit::Failed, error));
             }
         };
-        let mut bar = Bar::new(session.plan().steps, !self.quiet);
+        let mut bar = Bar::new(session.progress().planned, !self.quiet);
         let mut record = Record::default();
         let mut writers: Vec<&mut dyn Writer> = vec![&mut history];
         if !self.no_plots {

@@ -66,7 +66,8 @@ pub(super) fn observe(
     lowered.channels.retain(|channel| channel.name == name);
     let start = lowered.plan.start;
     let end = start + steps as f64 * lowered.settings.step_size;
-    lowered.plan = Plan { start, end, steps, output_every: every, is_static: false };
+    lowered.plan = Plan { start, end, steps, output_every: every, is_controlled: false, ..lowered.plan };
+    lowered.settings.control = None;
     let mut session = Session::start(lowered)?;
     let mut record = Record::default();
     let watch = &mut |progress: &crate::session::Progress| match progress.done {

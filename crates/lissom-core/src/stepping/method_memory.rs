@@ -1,0 +1,144 @@
+//! What schemes of one stage remember belongs to the size of the step, and changes with it.
+//!
+//! Legend: a algorithmic acceleration, h step size, r ratio of the new to the old one, v velocities, B gradient of the
+//! constraints.
+//!
+//! ```text
+//! a ← a + δ (h_new - h_old) ȧ,   ȧ = (a_n - a_(n-1))/h_n,   δ = α_m - α_f
+//! v ← v + (r² - 1) v_B,          v_B = M⁻¹Bᵀ (B M⁻¹ Bᵀ)⁻¹ (B v + ∂c/∂t)
+//! ```
+//!
+//! a approximates the acceleration δ h after the state [Arnold and Brüls 2007]. In the direction of the constraint
+//! gradients the velocity of an index-3 scheme errs by a multiple of h² that belongs to the step in use. Without the
+//! second change multipliers lose an order when steps change.
+
+use lissom_solver::SolverKind;
+
+use crate::analysis::InitialError;
+use crate::analysis::initial::Initial;
+use crate::scaling::Representative;
+use crate::system::{LOCKED, State, System};
+
+/// Changes the memory of a state in place.
+pub(crate) struct MethodMemory {
+    initial: Initial,
+    /// Step size that the memory belongs to [s].
+    step: f64,
+    /// ȧ by row; v_B for the present step size by row.
+    slope: Vec<f64>,
+    across: Vec<f64>,
+    /// Whether these two belong to the present state.
+    is_known: bool,
+    has_constraints: bool,
+}
+
+impl MethodMemory {
+    pub(crate) fn new(
+        system: &System,
+        state: &State,
+        representative: &Representative,
+        solver: &SolverKind,
+        step: f64,
+    ) -> Self {
+        let rows = system.layout().coordinate_count();
+        Self {
+            initial: Initial::new(system, state, representative, solver),
+            step,
+            slope: vec![0.0; rows],
+            across: vec![0.0; rows],
+            is_known: false,
+            has_constraints: !system.layout().multiplier_rows().is_empty(),
+        }
+    }
+
+    /// The state is another one, found with a step of this size.
+    pub(crate) fn renew(&mut self, step: f64) {
+        self.step = step;
+        self.is_known = false;
+    }
+
+    /// Makes the memory of `state` that of another step size. `previous` is the state before the last step, or the
+    /// same where there was none; `scratch` is overwritten.
+    ///
+    /// # Errors
+    /// If the velocities cannot be taken apart.
+    pub(crate) fn change(
+        &mut self,
+        system: &System,
+        delay: f64,
+        (previous, state, scratch): (&State, &mut State, &mut State),
+        step: f64,
+    ) -> Result<(), InitialError> {
+        if !self.is_known {
+            self.look(system, delay, (previous, state, scratch))?;
+            self.is_known = true;
+        }
+        for (value, slope) in state.algorithmic.iter_mut().zip(&self.slope) {
+            *value += delay * (step - self.step) * slope;
+        }
+        let square = (step / self.step).powi(2);
+        add_velocities(system, square - 1.0, &self.across, state);
+        self.across.iter_mut().for_each(|value| *value *= square);
+        self.step = step;
+        Ok(())
+    }
+
+    /// Finds ȧ and v_B.
+    fn look(
+        &mut self,
+        system: &System,
+        delay: f64,
+        (previous, state, scratch): (&State, &State, &mut State),
+    ) -> Result<(), InitialError> {
+        let layout = system.layout();
+        let elapsed = state.kinematics.time - previous.kinematics.time;
+        if elapsed > 0.0 {
+            let before = previous.algorithmic.iter();
+            for ((slope, now), before) in self.slope.iter_mut().zip(&state.algorithmic).zip(before) {
+                *slope = (now - before) / elapsed;
+            }
+        } else if delay != 0.0 {
+            // At the start the memory is the acceleration a little later.
+            self.slope.copy_from_slice(&state.algorithmic);
+            for (rows, node) in layout.node_rows.iter().zip(&state.kinematics.nodes) {
+                for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+                    self.slope[row as usize] -= node.acceleration[k];
+                }
+            }
+            for (&row, own) in layout.coordinate_rows.iter().zip(&state.kinematics.coordinates) {
+                self.slope[row as usize] -= own.acceleration;
+            }
+            self.slope.iter_mut().for_each(|value| *value /= delay * self.step);
+        }
+        self.across.fill(0.0);
+        if !self.has_constraints || elapsed <= 0.0 {
+            return Ok(());
+        }
+        scratch.clone_from(state);
+        self.initial.velocities(system, scratch)?;
+        for ((rows, own), projected) in
+            layout.node_rows.iter().zip(&state.kinematics.nodes).zip(&scratch.kinematics.nodes)
+        {
+            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+                self.across[row as usize] = own.twist[k] - projected.twist[k];
+            }
+        }
+        let coordinates = state.kinematics.coordinates.iter().zip(&scratch.kinematics.coordinates);
+        for (&row, (own, projected)) in layout.coordinate_rows.iter().zip(coordinates) {
+            self.across[row as usize] = own.rate - projected.rate;
+        }
+        Ok(())
+    }
+}
+
+fn add_velocities(system: &System, share: f64, velocities: &[f64], state: &mut State) {
+    let layout = system.layout();
+    for (rows, node) in layout.node_rows.iter().zip(&mut state.kinematics.nodes) {
+        for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+            node.twist[k] += share * velocities[row as usize];
+        }
+    }
+    for (&row, own) in layout.coordinate_rows.iter().zip(&mut state.kinematics.coordinates) {
+        own.rate += share * velocities[row as usize];
+    }
+}

@@ -1,0 +1,245 @@
+//! The one place that decides about steps: how long the next one is, whether an attempt is accepted, what is tried
+//! after one that is not.
+//!
+//! A step of planned size that has no solution is taken in parts. With step-size control every step is as long as its
+//! estimated error allows. What the scheme and Newton's method remember goes over to the new size.
+
+mod controller;
+mod dense;
+mod error_estimate;
+mod method_memory;
+mod parts;
+
+pub(crate) use controller::Controller;
+pub use controller::StepControl;
+pub(crate) use error_estimate::SMALLEST_REFERENCE;
+pub(crate) use method_memory::MethodMemory;
+pub(crate) use parts::Parts;
+
+use crate::analysis::{Phase, Simulation, StepError, StepReport, Stopwatch, Unwatched};
+use crate::newton::{Memory, Outcome};
+use crate::scaling::ScaleBy;
+use crate::system::State;
+use error_estimate::{excursion, inertial_part};
+
+/// Attempts at a step that are given up before the step is.
+const MOST_REJECTED: usize = 60;
+/// Part of the tolerance that a single step may use up, so that errors at the end of a run are near the tolerance.
+const SHARE_OF_STEP: f64 = 0.1;
+/// A node may turn by so much in a step of controlled size: what it turns further cannot be told from less [rad].
+const LARGEST_TURN: f64 = 1.0;
+/// Steps shorter than this part of the largest one are not tried [-].
+const SHORTEST: f64 = 1e-12;
+
+impl Simulation {
+    /// Changes the size of the planned steps [s]. Has no effect on the size of controlled steps.
+    pub fn set_step_size(&mut self, step_size: f64) {
+        if step_size != self.settings.step_size {
+            self.settings.step_size = step_size;
+            self.parts = Parts::whole();
+        }
+    }
+
+    /// Takes one step. On failure the state stays where it was.
+    ///
+    /// # Errors
+    /// If Newton's iterations do not converge or the tangent has no factorisation.
+    pub fn step(&mut self) -> Result<StepReport, StepError> {
+        self.step_watched(f64::INFINITY, &mut Unwatched)
+    }
+
+    /// Takes one step as [`step`](Self::step) does, with step-size control not beyond the time `limit` [s], which is met
+    /// exactly where it is reached. Tells `watch` which part of the work begins.
+    ///
+    /// # Errors
+    /// As [`step`](Self::step).
+    pub fn step_watched(&mut self, limit: f64, watch: &mut dyn Stopwatch) -> Result<StepReport, StepError> {
+        watch.begin(Phase::Rest);
+        self.is_last_step_known = false;
+        let before = self.work.effort;
+        let mut report = StepReport::default();
+        let result = match self.controller {
+            Some(controller) => self.controlled_step(controller, limit, watch, &mut report),
+            None => self.planned_step(watch, &mut report),
+        };
+        let effort = self.work.effort;
+        report.iterations = effort.iterations - before.iterations;
+        report.factorizations = effort.factorizations - before.factorizations;
+        self.totals.newton_iterations += report.iterations;
+        self.totals.factorizations += report.factorizations;
+        self.totals.rejected_steps += report.rejected;
+        result?;
+        self.count(&report);
+        Ok(report)
+    }
+
+    /// The state at `time` [s] within the last step, to the order of the scheme; `out` must be a state of this system.
+    pub fn interpolate(&self, time: f64, out: &mut State) {
+        dense::interpolate(&self.previous, &self.state, time, out);
+    }
+
+    /// Takes a step of planned size: as a whole, or in parts where that has no solution. What a step of a scheme
+    /// promises holds for its parts, and so for the whole.
+    fn planned_step(&mut self, watch: &mut dyn Stopwatch, report: &mut StepReport) -> Result<(), StepError> {
+        let whole = self.settings.step_size;
+        let mut start: Option<State> = None;
+        let mut first_error = None;
+        self.parts.restart();
+        loop {
+            let share = self.parts.share();
+            match self.attempt(share * whole, watch) {
+                Ok(outcome) => {
+                    if share < 1.0 && start.is_none() {
+                        start = Some(self.state.clone());
+                    }
+                    self.accept_step();
+                    note(report, &outcome);
+                    self.is_last_step_known = share == 1.0;
+                    if self.parts.accept(2 * outcome.iterations <= self.settings.limits.max_iterations) {
+                        return Ok(());
+                    }
+                }
+                Err(error) => {
+                    let may_help = error.may_need_a_smaller_step() && report.rejected < MOST_REJECTED;
+                    // The first failure tells more than those of its parts.
+                    let first = first_error.get_or_insert(error);
+                    if !(may_help && self.parts.refuse()) {
+                        let error = first.clone();
+                        if let Some(start) = start {
+                            self.state = start;
+                        }
+                        self.parts = Parts::whole();
+                        return Err(error);
+                    }
+                    report.rejected += 1;
+                }
+            }
+        }
+    }
+
+    /// Takes a step whose size follows from the estimated error.
+    fn controlled_step(
+        &mut self,
+        mut controller: Controller,
+        limit: f64,
+        watch: &mut dyn Stopwatch,
+        report: &mut StepReport,
+    ) -> Result<(), StepError> {
+        let Some(control) = self.settings.control else { unreachable!("a controller has its settings") };
+        let rest = limit - (self.state.kinematics.time + self.state.time_remainder);
+        loop {
+            let size = controller.propose(rest).min(control.max_step).min(self.turning_limit());
+            let error = match self.attempt(size, watch) {
+                Ok(outcome) => {
+                    watch.begin(Phase::Rest);
+                    let error = self.estimated_error(control.relative_tolerance);
+                    if error <= 1.0 {
+                        note(report, &outcome);
+                        report.error = Some(error);
+                        controller.accept(size, error, control.max_step);
+                        break;
+                    }
+                    controller.reject(size, error);
+                    None
+                }
+                Err(error) => {
+                    controller.fail(size);
+                    Some(error)
+                }
+            };
+            report.rejected += 1;
+            let is_hopeless = error.as_ref().is_some_and(|error| !error.may_need_a_smaller_step());
+            if is_hopeless
+                || report.rejected > MOST_REJECTED
+                || controller.size() < SHORTEST * control.max_step
+            {
+                self.controller = Some(controller);
+                let time = self.state.kinematics.time;
+                return Err(error.unwrap_or(StepError::TooInaccurate { time, size }));
+            }
+        }
+        self.accept_step();
+        if self.scaled.step_size() == rest {
+            (self.state.kinematics.time, self.state.time_remainder) = (limit, 0.0);
+        }
+        self.farthest = self.farthest.max(self.excursion_of(&self.state));
+        self.controller = Some(controller);
+        self.is_last_step_known = true;
+        Ok(())
+    }
+
+    /// Solves a step of `size` [s] from the state.
+    fn attempt(&mut self, size: f64, watch: &mut dyn Stopwatch) -> Result<Outcome, StepError> {
+        if size != self.scaled.step_size() {
+            self.resize(size)?;
+        }
+        self.solve_step(watch)
+    }
+
+    /// Goes over to steps of another size with all that is remembered.
+    fn resize(&mut self, size: f64) -> Result<(), StepError> {
+        let Self { system, settings, work, .. } = self;
+        if let Some(memory) = &mut self.method_memory {
+            let time = self.state.kinematics.time;
+            let states = (&self.previous, &mut self.state, &mut self.next);
+            memory
+                .change(system, settings.scheme.memory_delay, states, size)
+                .map_err(|error| StepError::Velocities { time, error })?;
+        }
+        self.scaled = self.scaled.resized(&settings.scaling, size);
+        // Scaled tangents of motions hardly depend on the step size, those of load steps and unscaled ones do.
+        if !settings.scheme.dynamic || settings.scaling.by == ScaleBy::None || work.is_coupled() {
+            self.memory = Memory::default();
+        }
+        work.note_scales(system.layout(), &self.scaled);
+        work.forget_guesses();
+        Ok(())
+    }
+
+    /// The largest step in which no node turns too far [s].
+    fn turning_limit(&self) -> f64 {
+        let nodes = &self.state.kinematics.nodes;
+        let fastest = nodes.iter().fold(0.0_f64, |most, node| most.max(node.twist.fixed_rows::<3>(3).norm()));
+        if fastest > 0.0 { LARGEST_TURN / fastest } else { f64::INFINITY }
+    }
+
+    fn excursion_of(&self, state: &State) -> f64 {
+        excursion(&self.origin, &state.kinematics, self.representative.length)
+    }
+
+    /// Estimated error of the last attempt over what is allowed.
+    fn estimated_error(&mut self, tolerance: f64) -> f64 {
+        let reference =
+            self.farthest.max(self.excursion_of(&self.next)).max(error_estimate::SMALLEST_REFERENCE);
+        let scheme = &self.settings.scheme;
+        let work = &mut *self.work;
+        let Some((stage, (predicted, found))) =
+            scheme.stages.iter().zip(work.predicted.iter_mut().zip(&work.increments)).last()
+        else {
+            unreachable!("every scheme has a stage")
+        };
+        work.unit.predict(&stage.prediction, predicted);
+        for ((error, found), predicted) in work.error.iter_mut().zip(found).zip(&*predicted) {
+            *error = scheme.error_constant * (found - predicted);
+        }
+        let (motion, constraints) = work.filtered.split_at_mut(work.error.len());
+        inertial_part(&self.system, &work.error, motion);
+        constraints.fill(0.0);
+        if let Some(equilibration) = &work.equilibration {
+            equilibration.scale(&mut work.filtered);
+        }
+        work.factorization.solve_inertial(&scheme.coupling, &mut work.filtered);
+        if let Some(equilibration) = &work.equilibration {
+            equilibration.scale(&mut work.filtered);
+        }
+        let largest = work.filtered.iter().zip(&work.sizes).fold(0.0_f64, |most, (error, size)| {
+            if (error * size).abs() <= most { most } else { (error * size).abs() }
+        });
+        largest / (SHARE_OF_STEP * tolerance * reference)
+    }
+}
+
+fn note(report: &mut StepReport, outcome: &Outcome) {
+    report.correction = outcome.correction;
+    report.stagnated |= outcome.stagnated;
+}

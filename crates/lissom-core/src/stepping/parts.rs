@@ -1,0 +1,106 @@
+//! A planned step that has no solution is taken in parts: halves, as often as necessary. Knows no system.
+
+/// Smallest parts a planned step may be cut into: twelve halvings.
+pub(crate) const PARTS: u32 = 1 << 12;
+/// After so many easy parts in a row the next one is twice as long.
+const EASY_PARTS: u32 = 3;
+
+/// The place within a planned step. Places are whole multiples of the current part's size, so that the end of the
+/// planned step is met exactly.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Parts {
+    /// Parts done, of [`PARTS`].
+    done: u32,
+    /// Parts in the next attempt.
+    size: u32,
+    /// Easy parts in a row.
+    easy: u32,
+}
+
+impl Parts {
+    /// At the start of a planned step that is tried as a whole.
+    pub(crate) fn whole() -> Self {
+        Self { done: 0, size: PARTS, easy: 0 }
+    }
+
+    /// Share of the planned step that the next attempt takes.
+    pub(crate) fn share(&self) -> f64 {
+        f64::from(self.size) / f64::from(PARTS)
+    }
+
+    /// Back to the start of the planned step.
+    pub(crate) fn restart(&mut self) {
+        self.done = 0;
+    }
+
+    /// A part was taken; `easy` if it may be longer next time. Whether the end of the planned step is reached.
+    pub(crate) fn accept(&mut self, easy: bool) -> bool {
+        self.done += self.size;
+        let is_complete = self.done >= PARTS;
+        if is_complete {
+            self.done = 0;
+        }
+        self.easy = if easy { self.easy + 1 } else { 0 };
+        // A doubled part must end where whole doubled parts end.
+        if self.easy >= EASY_PARTS && self.size < PARTS && self.done.is_multiple_of(2 * self.size) {
+            self.size *= 2;
+            self.easy = 0;
+        }
+        is_complete
+    }
+
+    /// A part failed. Whether it is to be tried again with half its size.
+    pub(crate) fn refuse(&mut self) -> bool {
+        self.easy = 0;
+        let can_halve = self.size > 1;
+        if can_halve {
+            self.size /= 2;
+        }
+        can_halve
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_halve_grow_back_and_meet_the_end_of_every_planned_step() {
+        let mut parts = Parts::whole();
+        let (mut planned, mut time) = (0, 0.0);
+        let mut sizes = Vec::new();
+        while planned < 6 {
+            let size = parts.share();
+            // Between 1.1 and 1.4 nothing longer than 0.1 is possible.
+            if size > 0.1 && time + size > 1.1 && time < 1.4 {
+                assert!(parts.refuse());
+                continue;
+            }
+            sizes.push(size);
+            time += size;
+            if parts.accept(true) {
+                planned += 1;
+                assert_eq!(time, f64::from(planned));
+            }
+        }
+        assert_eq!(sizes.iter().copied().fold(1.0, f64::min), 0.0625);
+        assert_eq!(sizes.last(), Some(&1.0), "{sizes:?}");
+    }
+
+    #[test]
+    fn hard_parts_do_not_grow() {
+        let mut parts = Parts::whole();
+        assert!(parts.refuse());
+        for k in 1..5 {
+            assert_eq!(parts.share(), 0.5);
+            assert_eq!(parts.accept(false), k % 2 == 0);
+        }
+    }
+
+    #[test]
+    fn twelve_halvings_are_the_end() {
+        let mut parts = Parts::whole();
+        let halvings = (0..100).take_while(|_| parts.refuse()).count();
+        assert_eq!(halvings, 12);
+    }
+}

@@ -1,0 +1,138 @@
+//! Steps of changing size: chosen by their error, or given. References are runs with far smaller steps of one size.
+
+use lissom_core::analysis::Simulation;
+use lissom_core::system::State;
+use lissom_model::Document;
+use lissom_model::lower::{Lowered, lower, registry::registry};
+
+const PENDULUM: &str = r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[bodies.arm]
+mass = 1.3
+inertia = [0.02, 0.05, 0.04]
+position = [0.4, 0.1, 0]
+[bodies.tip]
+mass = 0.4
+inertia = [0.001, 0.002, 0.003]
+position = [0.9, 0.1, 0.1]
+[joints.base]
+kind = "spherical"
+base = "ground"
+tip = "arm"
+at = [0, 0, 0]
+[joints.elbow]
+kind = "revolute"
+base = "arm"
+tip = "tip"
+at = [0.8, 0.1, 0]
+axis = [0, 1, 0]
+[analysis]
+kind = "dynamics"
+"#;
+
+fn simulation(analysis: &str) -> Simulation {
+    let text = format!("{PENDULUM}{analysis}");
+    let document = Document::parse(&text, "pendulum.toml", &registry()).expect("it is right");
+    let Lowered { system, state, settings, .. } = lower(&document).expect("it is right");
+    Simulation::new(system, state, settings).expect("it starts")
+}
+
+fn run_to(simulation: &mut Simulation, end: f64) {
+    while simulation.state().kinematics.time < end {
+        simulation.step_watched(end, &mut lissom_core::analysis::Unwatched).expect("it has a solution");
+    }
+}
+
+fn distance(a: &State, b: &State) -> f64 {
+    let nodes = a.kinematics.nodes.iter().zip(&b.kinematics.nodes);
+    nodes.map(|(a, b)| (a.frame.position - b.frame.position).norm()).fold(0.0, f64::max)
+}
+
+fn reference() -> State {
+    let mut fine = simulation("scheme = \"radau-iia\"\nend = 1\nstep = 2e-4\ntolerance = 1e-12\n");
+    for _ in 0..5000 {
+        fine.step().expect("it has a solution");
+    }
+    fine.state().clone()
+}
+
+#[test]
+fn errors_follow_the_tolerance_with_every_scheme() {
+    let exact = reference();
+    for scheme in ["generalized-alpha", "hht", "radau-iia", "energy-decaying"] {
+        let mut errors = Vec::new();
+        for tolerance in [1e-4, 1e-5, 1e-6] {
+            let mut controlled = simulation(&format!(
+                "scheme = \"{scheme}\"\nend = 1\nstep = 1e-3\nrelative_tolerance = {tolerance:e}\n"
+            ));
+            run_to(&mut controlled, 1.0);
+            assert_eq!(controlled.state().kinematics.time, 1.0, "{scheme}");
+            let error = distance(controlled.state(), &exact);
+            println!(
+                "{scheme} {tolerance:.0e}: {error:.1e} in {} steps, {} rejected",
+                controlled.totals().steps,
+                controlled.totals().rejected_steps
+            );
+            assert!(error < 30.0 * tolerance, "{scheme} {tolerance}: {error}");
+            errors.push(error);
+        }
+        assert!(errors[2] < 0.2 * errors[0], "{scheme}: {errors:?}");
+    }
+}
+
+/// Largest error of the multipliers over the second half of 0.4 s, with steps that are 1.2 times as long every other time.
+fn multiplier_error(scheme: &str, step: f64, exact: &[(f64, Vec<f64>)]) -> f64 {
+    let mut run = simulation(&format!("{scheme}end = 1\nstep = {step:e}\ntolerance = 1e-11\n"));
+    let mut worst = 0.0_f64;
+    for (time, multipliers) in exact {
+        while run.state().kinematics.time < time - 1e-9 {
+            for ratio in [1.0, 1.2] {
+                run.set_step_size(ratio * step);
+                run.step().expect("it has a solution");
+            }
+        }
+        assert!((run.state().kinematics.time - time).abs() < 1e-9);
+        let pairs = run.state().multipliers.iter().zip(multipliers);
+        worst = pairs.map(|(a, b)| (a - b).abs()).fold(worst, f64::max);
+    }
+    worst
+}
+
+#[test]
+fn multipliers_keep_second_order_when_steps_change() {
+    let mut fine = simulation("scheme = \"radau-iia\"\nend = 1\nstep = 1e-4\ntolerance = 1e-12\n");
+    let mut exact = Vec::new();
+    for step in 1..=4400 {
+        fine.step().expect("it has a solution");
+        if step >= 2200 && step % 220 == 0 {
+            exact.push((f64::from(step) * 1e-4, fine.state().multipliers.clone()));
+        }
+    }
+    for scheme in ["scheme = \"generalized-alpha\"\n", "scheme = \"hht\"\nalpha = -0.3\n"] {
+        let errors = [1e-3, 5e-4].map(|step| multiplier_error(scheme, 0.5 * step, &exact));
+        let order = (errors[0] / errors[1]).log2();
+        println!("{scheme}: {errors:?}, order {order:.2}");
+        assert!((1.8..2.2).contains(&order), "{scheme}: {errors:?}, order {order}");
+    }
+}
+
+#[test]
+fn values_within_a_step_are_of_the_scheme_s_order() {
+    let mut coarse = simulation("scheme = \"radau-iia\"\nend = 1\nstep = 0.02\n");
+    let mut fine = simulation("scheme = \"radau-iia\"\nend = 1\nstep = 1e-3\n");
+    for _ in 0..5 {
+        coarse.step().expect("it has a solution");
+    }
+    for _ in 0..87 {
+        fine.step().expect("it has a solution");
+    }
+    let mut between = coarse.state().clone();
+    coarse.interpolate(0.087, &mut between);
+    assert_eq!(between.kinematics.time, 0.087);
+    let error = distance(&between, fine.state());
+    assert!(error < 2e-6, "{error}");
+    let at_end = coarse.state().clone();
+    coarse.interpolate(0.1, &mut between);
+    assert!(distance(&between, &at_end) < 1e-14);
+}
