@@ -34,6 +34,11 @@ impl Equilibration {
         &self.factors
     }
 
+    /// Takes over factors that were found before.
+    pub(crate) fn set_factors(&mut self, factors: &[f64]) {
+        self.factors.copy_from_slice(factors);
+    }
+
     /// Finds the factors of the tangent with `values` on `pattern` and applies them to it.
     pub fn apply<S: Scalar>(&mut self, pattern: &Pattern, values: &mut [S]) {
         let (starts, rows) = (pattern.column_starts(), pattern.row_indices());

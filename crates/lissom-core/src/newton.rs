@@ -3,6 +3,7 @@
 //! corrections no longer shrink because round-off is reached.
 
 use lissom_solver::FactorError;
+use serde::{Deserialize, Serialize};
 
 /// What Newton's method sees of a problem.
 pub trait Equations {
@@ -55,7 +56,7 @@ impl Default for Limits {
 }
 
 /// What is remembered from one solution to the next.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Memory {
     /// Whether there is a factored tangent that may still serve.
     pub has_tangent: bool,
@@ -86,7 +87,7 @@ impl Memory {
 
 /// What a tangent and the solutions found with it have cost, in iterations. An old tangent needs more of them: it is best
 /// renewed when a solution costs more than all since it was made have cost on average, its making included.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Account {
     spent: f64,
     solutions: f64,

@@ -12,6 +12,7 @@
 use std::ops::Mul;
 
 use lissom_motion::{Motion, Vector6};
+use serde::{Deserialize, Serialize};
 
 use crate::joints::Quantity;
 use crate::node_motion::{Known, Meaning, Nodes, StageTable};
@@ -146,7 +147,7 @@ fn spread(at: &Kinematics) -> f64 {
 }
 
 /// The scaled equations for one step size.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scaled {
     h: f64,
     s: f64,

@@ -8,6 +8,8 @@ use lissom_model::files::{self, FileError};
 use lissom_model::output::{CsvWriter, FigureError, Record, RecordError, Summary, figures};
 use serde_json::Value;
 
+use crate::checkpoint::Checkpoint;
+
 /// Name of the table in the folder.
 const HISTORY: &str = "history.csv";
 /// Name of the summary in the folder.
@@ -91,6 +93,30 @@ impl ResultFolder {
     /// If the file cannot be created.
     pub fn history(&self) -> Result<CsvWriter<BufWriter<File>>, FileError> {
         files::create_file(&self.path.join(HISTORY)).map(CsvWriter::new)
+    }
+
+    /// Where its table is.
+    pub fn history_path(&self) -> PathBuf {
+        self.path.join(HISTORY)
+    }
+
+    /// The folder of a run that goes on from a checkpoint, and the rows it has recorded up to there.
+    ///
+    /// # Errors
+    /// If the table is missing or shorter than the checkpoint says.
+    pub fn resume(path: &Path, checkpoint: &Checkpoint) -> Result<(Self, Record), FolderError> {
+        let history = path.join(HISTORY);
+        checkpoint.open_history(&history)?;
+        let (folder, record, _) = Self::open(path)?;
+        Ok((folder, record))
+    }
+
+    /// A writer that goes on with its table.
+    ///
+    /// # Errors
+    /// If the file cannot be written.
+    pub fn resumed_history(&self, checkpoint: &Checkpoint) -> Result<CsvWriter<BufWriter<File>>, FileError> {
+        checkpoint.open_history(&self.history_path()).map(|file| CsvWriter::new(BufWriter::new(file)))
     }
 
     /// Writes the summary.

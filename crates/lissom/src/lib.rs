@@ -24,6 +24,7 @@
 //! # Ok::<(), lissom::SessionError>(())
 //! ```
 
+mod checkpoint;
 mod folder;
 mod model;
 mod report;
@@ -34,6 +35,7 @@ pub mod study;
 pub mod summary;
 pub mod telemetry;
 
+pub use checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFile};
 pub use folder::{FolderError, ResultFolder};
 pub use lissom_core as core;
 pub use lissom_model::files::FileError;
@@ -41,7 +43,7 @@ pub use lissom_model::output::{Column, Record, Summary, Writer};
 pub use lissom_model::{Document, Report};
 pub use model::{Model, Override};
 pub use report::{EnergyChange, RunError, RunReport, Stopped};
-pub use session::{Progress, Session, SessionError};
+pub use session::{Checkpoints, Progress, Session, SessionError, SessionSnapshot};
 pub use spent::Seconds;
 
 /// Version of the program, as it stands in every summary.

@@ -37,6 +37,11 @@ impl Model {
         &self.name
     }
 
+    /// The text.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+
     /// The checked document, with `overrides` put in place.
     ///
     /// # Errors

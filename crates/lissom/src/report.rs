@@ -6,6 +6,8 @@ use std::time::Duration;
 use lissom_core::analysis::{StepError, Totals};
 use lissom_core::elements::Energy;
 
+use serde::{Deserialize, Serialize};
+
 use crate::spent::Seconds;
 
 /// Why a run ended early.
@@ -43,7 +45,7 @@ impl Stopped {
 }
 
 /// Energies at the first and last recorded instant, and the largest change between.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct EnergyChange {
     /// At the first record [J].
     pub start: Energy,

@@ -6,10 +6,13 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use lissom_core::analysis::{InitialError, Simulation, StepError, StepReport};
+use lissom_core::stepping::{Snapshot, SnapshotError};
 use lissom_model::channels::Channel;
 use lissom_model::lower::{Lowered, Plan, lower};
 use lissom_model::output::{Column, Record, Writer};
 use lissom_model::{Document, Report};
+
+use serde::{Deserialize, Serialize};
 
 use crate::report::{EnergyChange, RunError, RunReport, Stopped};
 use crate::schedule::{Next, Schedule};
@@ -44,6 +47,36 @@ pub struct Progress {
     pub planned: usize,
 }
 
+/// Where a run leaves snapshots.
+pub trait Checkpoints {
+    /// Whether any are wanted.
+    fn are_wanted(&self) -> bool;
+
+    /// Whether one is due after so many steps.
+    fn is_due(&mut self, steps: usize) -> bool;
+
+    /// Keeps one. All rows that were recorded before it have been written.
+    ///
+    /// # Errors
+    /// If it cannot be kept.
+    fn keep(&mut self, snapshot: &SessionSnapshot) -> io::Result<()>;
+}
+
+/// None.
+struct NoCheckpoints;
+
+impl Checkpoints for NoCheckpoints {
+    fn are_wanted(&self) -> bool {
+        false
+    }
+    fn is_due(&mut self, _: usize) -> bool {
+        false
+    }
+    fn keep(&mut self, _: &SessionSnapshot) -> io::Result<()> {
+        Ok(())
+    }
+}
+
 /// A model on its way.
 pub struct Session {
     simulation: Simulation,
@@ -55,6 +88,32 @@ pub struct Session {
     scale: f64,
     telemetry: Telemetry,
     began: Instant,
+}
+
+/// A session between two steps. Serialises with serde.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SessionSnapshot {
+    simulation: Snapshot,
+    schedule: Schedule,
+    records: usize,
+    violation: f64,
+    energy: EnergyChange,
+    telemetry: Telemetry,
+}
+
+impl SessionSnapshot {
+    /// As bytes, to be kept or sent.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        postcard::to_stdvec(self).expect("plain numbers can always be written to memory")
+    }
+
+    /// From what [`to_bytes`](Self::to_bytes) gave.
+    ///
+    /// # Errors
+    /// If the bytes are no snapshot of this version.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, SnapshotError> {
+        postcard::from_bytes(bytes).map_err(|_| SnapshotError::Damaged)
+    }
 }
 
 /// What is summed up over the records.
@@ -228,13 +287,38 @@ impl Session {
         if self.telemetry.will_estimate(&self.simulation, &report) {
             self.spent.pause();
         }
-        self.telemetry.note(&mut self.simulation, &report, self.spent.steps());
+        self.telemetry.note(&mut self.simulation, &report);
         Ok(report)
     }
 
     /// Condition number of the tangent in use, estimated in the 1-norm from a few solves.
     fn condition_estimate(&mut self) -> Option<f64> {
         self.simulation.condition_estimate().map(|condition| condition.value)
+    }
+
+    /// Where the session stands, with all that is needed to go on from there to the last bit.
+    pub fn snapshot(&self) -> SessionSnapshot {
+        SessionSnapshot {
+            simulation: self.simulation.snapshot(),
+            schedule: self.schedule.clone(),
+            records: self.tally.records,
+            violation: self.tally.violation,
+            energy: self.tally.energy,
+            telemetry: self.telemetry.clone(),
+        }
+    }
+
+    /// Goes back, or on, to where a snapshot of this model was taken.
+    ///
+    /// # Errors
+    /// If it was taken of another model, or by another version of the program. The session is then as it was.
+    pub fn restore(&mut self, from: &SessionSnapshot) -> Result<(), SnapshotError> {
+        self.simulation.restore(&from.simulation)?;
+        self.schedule.clone_from(&from.schedule);
+        (self.tally.records, self.tally.violation) = (from.records, from.violation);
+        self.tally.energy = from.energy;
+        self.telemetry.clone_from(&from.telemetry);
+        Ok(())
     }
 
     /// Runs to the end. `writers` receive a row at the start, after every `output_every` planned steps, and
@@ -245,7 +329,19 @@ impl Session {
         writers: &mut [&mut dyn Writer],
         watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
     ) -> RunReport {
-        let stopped = match self.steps(writers, watch) {
+        self.run_with_checkpoints(writers, watch, &mut NoCheckpoints, false)
+    }
+
+    /// Runs to the end as [`run`](Self::run) does, and offers `checkpoints` every step that is done. With `goes_on` the
+    /// writers hold the rows up to now already.
+    pub fn run_with_checkpoints(
+        &mut self,
+        writers: &mut [&mut dyn Writer],
+        watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+        checkpoints: &mut dyn Checkpoints,
+        goes_on: bool,
+    ) -> RunReport {
+        let stopped = match self.steps(writers, watch, checkpoints, goes_on) {
             Ok(ControlFlow::Continue(())) => Stopped::End,
             Ok(ControlFlow::Break(())) => Stopped::Interrupted,
             Err(error) => Stopped::Failed(error),
@@ -282,12 +378,17 @@ impl Session {
         &mut self,
         writers: &mut [&mut dyn Writer],
         watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+        checkpoints: &mut dyn Checkpoints,
+        goes_on: bool,
     ) -> Result<ControlFlow<()>, RunError> {
-        for writer in writers.iter_mut() {
-            writer.begin(&self.columns)?;
+        if !goes_on {
+            for writer in writers.iter_mut() {
+                writer.begin(&self.columns)?;
+            }
+            self.write_row(writers)?;
         }
-        self.write_row(writers)?;
         let mut recorded = true;
+        self.keep(writers, checkpoints)?;
         while !self.schedule.is_finished() {
             recorded = match self.step() {
                 Ok((_, is_recorded)) => is_recorded,
@@ -301,6 +402,9 @@ impl Session {
             if recorded {
                 self.write_row(writers)?;
             }
+            if checkpoints.is_due(self.simulation.totals().steps) {
+                self.keep(writers, checkpoints)?;
+            }
             if watch(&self.progress()).is_break() && !self.schedule.is_finished() {
                 if !recorded {
                     self.write_row(writers)?;
@@ -312,6 +416,16 @@ impl Session {
             self.write_row(writers)?;
         }
         Ok(ControlFlow::Continue(()))
+    }
+
+    /// Hands a snapshot over, once all rows before it are written.
+    fn keep(&mut self, writers: &mut [&mut dyn Writer], checkpoints: &mut dyn Checkpoints) -> io::Result<()> {
+        if !checkpoints.are_wanted() {
+            return Ok(());
+        }
+        self.spent.pause();
+        writers.iter_mut().try_for_each(|writer| writer.finish())?;
+        checkpoints.keep(&self.snapshot())
     }
 
     fn write_row(&mut self, writers: &mut [&mut dyn Writer]) -> io::Result<()> {

@@ -1,18 +1,16 @@
 //! What every step tells of its tangent: condition, pivots, iterations. Long runs are thinned out, so that the
-//! summary stays small, and estimates of the condition never take more than a small share of the time.
-
-use std::time::{Duration, Instant};
+//! summary stays small, and the condition is estimated ever more rarely. Nothing depends on the clock: a run that is
+//! continued tells the same as one that was not interrupted.
 
 use lissom_core::analysis::{Simulation, StepReport};
+use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
 
 /// Most samples kept.
 const MOST_SAMPLES: usize = 512;
-/// Most time spent on estimates, as a share of the time spent on steps.
-const MOST_TIME: f64 = 0.05;
 
 /// One step, or several in a row where the run is long.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Sample {
     /// Number of the step, from 1.
     pub step: usize,
@@ -29,7 +27,7 @@ pub struct Sample {
 }
 
 /// Samples over a run.
-#[derive(Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Telemetry {
     samples: Vec<Sample>,
     /// Steps from one sample to the next.
@@ -40,20 +38,11 @@ pub struct Telemetry {
     condition: Option<f64>,
     is_stale: bool,
     range: Option<(f64, f64)>,
-    spent: Duration,
 }
 
 impl Default for Telemetry {
     fn default() -> Self {
-        Self {
-            samples: Vec::new(),
-            every: 1,
-            open: (0, 0),
-            condition: None,
-            is_stale: true,
-            range: None,
-            spent: Duration::ZERO,
-        }
+        Self { samples: Vec::new(), every: 1, open: (0, 0), condition: None, is_stale: true, range: None }
     }
 }
 
@@ -75,7 +64,7 @@ impl Telemetry {
 
     /// Whether noting the last step will look at its tangent.
     pub(crate) fn will_estimate(&self, simulation: &Simulation, report: &StepReport) -> bool {
-        (self.is_stale || report.factorizations > 0) && self.is_due(simulation)
+        (self.is_stale || report.factorizations > 0) && is_estimated(simulation.totals().steps)
     }
 
     fn is_due(&self, simulation: &Simulation) -> bool {
@@ -83,17 +72,17 @@ impl Telemetry {
         step == 1 || step.is_multiple_of(self.every)
     }
 
-    /// Notes a step that was completed; `solving` is the time spent on steps so far.
-    pub(crate) fn note(&mut self, simulation: &mut Simulation, report: &StepReport, solving: Duration) {
+    /// Notes a step that was completed.
+    pub(crate) fn note(&mut self, simulation: &mut Simulation, report: &StepReport) {
         self.open.0 += report.iterations;
         self.open.1 += report.factorizations;
         self.is_stale |= report.factorizations > 0;
+        let step = simulation.totals().steps;
+        if self.is_stale && is_estimated(step) {
+            self.estimate(simulation);
+        }
         if !self.is_due(simulation) {
             return;
-        }
-        let step = simulation.totals().steps;
-        if self.is_stale && (self.condition.is_none() || self.spent <= solving.mul_f64(MOST_TIME)) {
-            self.estimate(simulation);
         }
         let (iterations, factorizations) = std::mem::take(&mut self.open);
         self.samples.push(Sample {
@@ -110,7 +99,6 @@ impl Telemetry {
     }
 
     fn estimate(&mut self, simulation: &mut Simulation) {
-        let began = Instant::now();
         if let Some(condition) = simulation.condition_estimate() {
             let value = condition.value;
             self.condition = Some(value);
@@ -118,7 +106,6 @@ impl Telemetry {
             self.range = Some((least.min(value), most.max(value)));
             self.is_stale = false;
         }
-        self.spent += began.elapsed();
     }
 
     /// Joins pairs of samples.
@@ -152,4 +139,9 @@ impl Telemetry {
             "factorizations": column(|sample| json!(sample.factorizations)),
         })
     }
+}
+
+/// Whether the condition is estimated after so many steps: the first ones, then ever more rarely.
+fn is_estimated(steps: usize) -> bool {
+    steps <= 8 || steps.is_power_of_two()
 }

@@ -9,6 +9,7 @@
 //! makes the multipliers unique: of all that hold the same motion, those of least size. Every pivot is at least δ.
 
 use lissom_solver::{Pattern, Scalar};
+use serde::{Deserialize, Serialize};
 
 use crate::equilibration::Equilibration;
 
@@ -16,7 +17,7 @@ use crate::equilibration::Equilibration;
 const YIELD: f64 = 1e-8;
 
 /// The compliance of all constraints.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Compliance {
     /// Positions of the multipliers' diagonal entries.
     diagonals: Vec<usize>,

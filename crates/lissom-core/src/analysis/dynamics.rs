@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use lissom_solver::{FactorError, FactorReport, SolverKind};
+use serde::{Deserialize, Serialize};
 
 use super::conditioning::TangentValues;
 use super::equations::StepEquations;
@@ -47,6 +48,8 @@ pub struct StepReport {
     pub factorizations: usize,
     /// Attempts given up.
     pub rejected: usize,
+    /// Parts the step was taken in.
+    pub parts: usize,
     /// Size of the last correction [-].
     pub correction: f64,
     /// Whether iterations ended at round-off rather than at the tolerance.
@@ -56,9 +59,9 @@ pub struct StepReport {
 }
 
 /// Sums over all steps so far.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Totals {
-    /// Steps completed.
+    /// Steps completed; a planned step that was taken in parts counts as so many.
     pub steps: usize,
     /// Steps given up and tried again.
     pub rejected_steps: usize,
@@ -110,7 +113,7 @@ pub struct Simulation {
     /// How far any node has moved since the start, for the error estimate [-].
     pub(crate) farthest: f64,
     pub(crate) totals: Totals,
-    velocity_correction: f64,
+    pub(crate) velocity_correction: f64,
     /// Whether the workspace still holds the step that led to the state.
     pub(crate) is_last_step_known: bool,
 }
@@ -342,7 +345,7 @@ impl Simulation {
     /// Counts a step that was completed.
     pub(crate) fn count(&mut self, report: &StepReport) {
         let totals = &mut self.totals;
-        totals.steps += 1;
+        totals.steps += report.parts;
         totals.stagnated_steps += usize::from(report.stagnated);
         totals.fell_back_at = self.work.fell_back.map(|(unknown, _)| unknown);
         totals.yielded_at = self.work.yielding.as_ref().map(|(_, unknown)| *unknown);

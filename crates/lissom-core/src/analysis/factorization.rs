@@ -7,6 +7,7 @@ use num_complex::Complex64;
 
 use super::compliance::Compliance;
 use super::conditioning::TangentValues;
+use super::snapshot_parts::TangentNumbers;
 use crate::equilibration::Equilibration;
 use crate::schemes::Coupling;
 
@@ -61,6 +62,27 @@ impl Factorization {
         match self {
             Self::Single { values, .. } => TangentValues::Real(std::mem::take(values)),
             Self::Pair { values, .. } => TangentValues::Complex(std::mem::take(values)),
+        }
+    }
+
+    /// The tangent's values as plain numbers.
+    pub(crate) fn numbers(&self) -> TangentNumbers {
+        match self {
+            Self::Single { values, .. } => TangentNumbers::Real(values.clone()),
+            Self::Pair { values, .. } => TangentNumbers::of_complex(values),
+        }
+    }
+
+    /// Takes the values of a tangent as plain numbers.
+    pub(crate) fn set_numbers(&mut self, numbers: &TangentNumbers) {
+        match (self, numbers) {
+            (Self::Single { values, .. }, TangentNumbers::Real(numbers)) => values.copy_from_slice(numbers),
+            (Self::Pair { values, .. }, TangentNumbers::Complex(numbers)) => {
+                for (value, [re, im]) in values.iter_mut().zip(numbers) {
+                    *value = Complex64::new(*re, *im);
+                }
+            }
+            _ => unreachable!("a snapshot belongs to the scheme it was taken with"),
         }
     }
 

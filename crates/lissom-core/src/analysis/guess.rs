@@ -11,7 +11,9 @@
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use super::corrections::{SIDE_BY_SIDE, sum};
+use serde::{Deserialize, Serialize};
+
+use super::corrections::{Processor, SIDE_BY_SIDE, sum};
 
 /// Steps that are looked back at most, K.
 const MOST: usize = 8;
@@ -27,7 +29,7 @@ const DEPENDENT: f64 = 1e-13;
 type Block = [f64; SIDE_BY_SIDE];
 
 /// Numbers that are guessed together.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Guess {
     /// Squared weight of each number's error, zero beyond the last number of a stage.
     weights: Vec<Block>,
@@ -47,7 +49,8 @@ pub(crate) struct Guess {
     is_used: bool,
     /// Steps that are looked back: a few numbers tell few coefficients.
     most: usize,
-    processor: pulp::Arch,
+    #[serde(skip)]
+    processor: Processor,
 }
 
 impl Guess {
@@ -67,7 +70,7 @@ impl Guess {
             shares: [0.0; MOST],
             is_used: true,
             most: MOST.min(2 + 2 * stages * weights.len()),
-            processor: pulp::Arch::new(),
+            processor: Processor::default(),
         }
     }
 
@@ -79,9 +82,14 @@ impl Guess {
         self.is_used = true;
     }
 
+    /// Takes over what another one has learned.
+    pub(crate) fn restore(&mut self, from: &Self) {
+        self.clone_from(from);
+    }
+
     /// Adds to the scheme's guess, given stage by stage, what it is expected to miss.
     pub(crate) fn improve(&self, guess: &mut [Vec<f64>]) {
-        self.processor.dispatch(Improve { memory: self, guess });
+        self.processor.0.dispatch(Improve { memory: self, guess });
     }
 
     /// Takes note of what was found, and so of what the scheme's guess, given by stage, has missed.
@@ -90,13 +98,13 @@ impl Guess {
         let mut first = 0;
         for (stage, found) in found.iter().enumerate() {
             let guessed = guessed(stage);
-            let more = self.processor.dispatch(Note { memory: self, first, found, guessed });
+            let more = self.processor.0.dispatch(Note { memory: self, first, found, guessed });
             for (product, more) in products.iter_mut().zip(more) {
                 *product += more;
             }
             first += found.len().div_ceil(SIDE_BY_SIDE);
         }
-        self.processor.dispatch(Learn { memory: self, products });
+        self.processor.0.dispatch(Learn { memory: self, products });
     }
 
     /// |d - Σ c_j d_j|² of a step that has missed d, by the products of d with what was missed before, and with itself.

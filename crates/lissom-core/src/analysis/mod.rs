@@ -15,6 +15,7 @@ pub mod initial;
 pub mod mobility;
 pub mod phase;
 mod secants;
+pub(crate) mod snapshot_parts;
 mod step_error;
 mod workspace;
 

@@ -11,7 +11,9 @@
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
-use super::corrections::{processor, product};
+use serde::{Deserialize, Serialize};
+
+use super::corrections::{Processor, processor, product};
 
 /// Most secants in use.
 const MOST: usize = 5;
@@ -24,7 +26,7 @@ const REACH: f64 = 10.0;
 const CREDIBLE: f64 = 0.7;
 
 /// The last corrections, of all stages.
-#[derive(Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Secants {
     /// Weights of the coordinates.
     sizes: Vec<f64>,
@@ -46,7 +48,8 @@ pub(crate) struct Secants {
     /// d of that one and of the present one, weighted.
     last_weighted: Vec<f64>,
     weighted: Vec<f64>,
-    processor: pulp::Arch,
+    #[serde(skip)]
+    processor: Processor,
 }
 
 impl Secants {
@@ -65,7 +68,7 @@ impl Secants {
             taken: vec![0.0; rows],
             last_weighted: vec![0.0; coordinates],
             weighted: vec![0.0; coordinates],
-            processor: processor(size),
+            processor: Processor(processor(size)),
         }
     }
 
@@ -76,6 +79,13 @@ impl Secants {
         self.goes_on = false;
     }
 
+    /// Takes over what another one has learned.
+    pub(crate) fn restore(&mut self, from: &Self) {
+        let processor = self.processor;
+        self.clone_from(from);
+        self.processor = processor;
+    }
+
     /// The next correction does not follow on the last one.
     pub(crate) fn interrupt(&mut self) {
         self.goes_on = false;
@@ -83,7 +93,7 @@ impl Secants {
 
     /// Improves the corrections of all stages.
     pub(crate) fn improve(&mut self, corrections: &mut [Vec<f64>]) {
-        self.processor.dispatch(Improve { secants: self, corrections });
+        self.processor.0.dispatch(Improve { secants: self, corrections });
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! What a step works with, allocated once.
 
 use lissom_solver::FactorReport;
+use serde::{Deserialize, Serialize};
 
 use super::compliance::Compliance;
 use super::corrections::processor;
@@ -17,7 +18,7 @@ use crate::schemes::{Increments, Scheme};
 use crate::system::{Layout, Scratch, State, System, Threads};
 
 /// What was done to find solutions.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Effort {
     /// Newton iterations.
     pub(crate) iterations: usize,

@@ -21,12 +21,13 @@ use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
 use blocks::Blocks;
 use lissom_motion::Vector3;
 use passage::{Passage, STAGES, Variation};
+use serde::{Deserialize, Serialize};
 
 /// Most local unknowns an element may have: four nodes and two coordinates.
 pub const MOST_UNKNOWNS: usize = 26;
 
 /// Energies of an element or a system [J].
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Energy {
     /// Kinetic energy.
     pub kinetic: f64,

@@ -51,6 +51,18 @@ impl MethodMemory {
         }
     }
 
+    /// What is remembered, as plain numbers.
+    pub(crate) fn to_numbers(&self) -> (f64, bool, Vec<f64>, Vec<f64>) {
+        (self.step, self.is_known, self.slope.clone(), self.across.clone())
+    }
+
+    /// Takes over what was remembered.
+    pub(crate) fn set_numbers(&mut self, (step, is_known, slope, across): &(f64, bool, Vec<f64>, Vec<f64>)) {
+        (self.step, self.is_known) = (*step, *is_known);
+        self.slope.copy_from_slice(slope);
+        self.across.copy_from_slice(across);
+    }
+
     /// The state is another one, found with a step of this size.
     pub(crate) fn renew(&mut self, step: f64) {
         self.step = step;

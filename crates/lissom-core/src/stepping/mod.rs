@@ -9,12 +9,14 @@ mod dense;
 mod error_estimate;
 mod method_memory;
 mod parts;
+mod snapshot;
 
 pub(crate) use controller::Controller;
 pub use controller::StepControl;
 pub(crate) use error_estimate::SMALLEST_REFERENCE;
 pub(crate) use method_memory::MethodMemory;
 pub(crate) use parts::Parts;
+pub use snapshot::{Snapshot, SnapshotError};
 
 use crate::analysis::{Phase, Simulation, StepError, StepReport, Stopwatch, Unwatched};
 use crate::newton::{Memory, Outcome};
@@ -94,8 +96,9 @@ impl Simulation {
                     }
                     self.accept_step();
                     note(report, &outcome);
+                    report.parts += 1;
                     self.is_last_step_known = share == 1.0;
-                    if self.parts.accept(2 * outcome.iterations <= self.settings.limits.max_iterations) {
+                    if self.parts.accept() {
                         return Ok(());
                     }
                 }
@@ -135,6 +138,7 @@ impl Simulation {
                     let error = self.estimated_error(control.relative_tolerance);
                     if error <= 1.0 {
                         note(report, &outcome);
+                        report.parts = 1;
                         report.error = Some(error);
                         controller.accept(size, error, control.max_step);
                         break;

@@ -1,26 +1,28 @@
 //! A planned step that has no solution is taken in parts: halves, as often as necessary. Knows no system.
 
+use serde::{Deserialize, Serialize};
+
 /// Smallest parts a planned step may be cut into: twelve halvings.
 pub(crate) const PARTS: u32 = 1 << 12;
-/// After so many easy parts in a row the next one is twice as long.
-const EASY_PARTS: u32 = 3;
+/// After so many parts in a row the next one is twice as long.
+const PARTS_TO_GROW: u32 = 3;
 
 /// The place within a planned step. Places are whole multiples of the current part's size, so that the end of the
 /// planned step is met exactly.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Parts {
     /// Parts done, of [`PARTS`].
     done: u32,
     /// Parts in the next attempt.
     size: u32,
-    /// Easy parts in a row.
-    easy: u32,
+    /// Parts taken in a row since the size last changed.
+    taken: u32,
 }
 
 impl Parts {
     /// At the start of a planned step that is tried as a whole.
     pub(crate) fn whole() -> Self {
-        Self { done: 0, size: PARTS, easy: 0 }
+        Self { done: 0, size: PARTS, taken: 0 }
     }
 
     /// Share of the planned step that the next attempt takes.
@@ -33,25 +35,25 @@ impl Parts {
         self.done = 0;
     }
 
-    /// A part was taken; `easy` if it may be longer next time. Whether the end of the planned step is reached.
-    pub(crate) fn accept(&mut self, easy: bool) -> bool {
+    /// A part was taken. Whether the end of the planned step is reached.
+    pub(crate) fn accept(&mut self) -> bool {
         self.done += self.size;
         let is_complete = self.done >= PARTS;
         if is_complete {
             self.done = 0;
         }
-        self.easy = if easy { self.easy + 1 } else { 0 };
+        self.taken += 1;
         // A doubled part must end where whole doubled parts end.
-        if self.easy >= EASY_PARTS && self.size < PARTS && self.done.is_multiple_of(2 * self.size) {
+        if self.taken >= PARTS_TO_GROW && self.size < PARTS && self.done.is_multiple_of(2 * self.size) {
             self.size *= 2;
-            self.easy = 0;
+            self.taken = 0;
         }
         is_complete
     }
 
     /// A part failed. Whether it is to be tried again with half its size.
     pub(crate) fn refuse(&mut self) -> bool {
-        self.easy = 0;
+        self.taken = 0;
         let can_halve = self.size > 1;
         if can_halve {
             self.size /= 2;
@@ -78,23 +80,13 @@ mod tests {
             }
             sizes.push(size);
             time += size;
-            if parts.accept(true) {
+            if parts.accept() {
                 planned += 1;
                 assert_eq!(time, f64::from(planned));
             }
         }
         assert_eq!(sizes.iter().copied().fold(1.0, f64::min), 0.0625);
         assert_eq!(sizes.last(), Some(&1.0), "{sizes:?}");
-    }
-
-    #[test]
-    fn hard_parts_do_not_grow() {
-        let mut parts = Parts::whole();
-        assert!(parts.refuse());
-        for k in 1..5 {
-            assert_eq!(parts.share(), 0.5);
-            assert_eq!(parts.accept(false), k % 2 == 0);
-        }
     }
 
     #[test]

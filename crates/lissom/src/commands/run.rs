@@ -6,10 +6,13 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use lissom::{FolderError, Record, ResultFolder, RunReport, Session, Stopped, Summary, Writer, summary};
+use lissom::{
+    Checkpoint, CheckpointEvery, CheckpointFile, FolderError, Model, Override, Progress, Record,
+    ResultFolder, RunReport, Session, Stopped, Summary, Writer, summary,
+};
 use lissom_model::lower::lower;
 
-use super::{Exit, Failure, ModelArguments, show_warnings};
+use super::{Exit, Failure, show_warnings};
 use crate::terminal::{self, Bar, Interrupt};
 
 /// Simulate a model as its table `[analysis]` asks.
@@ -23,12 +26,19 @@ Examples:
   lissom run examples/tip-crank.toml
   lissom run examples/tip-crank.toml --out results/fine --set analysis.step=1e-4
   lissom run examples/top.toml --set analysis.scheme=hht --set bodies.top.mass=20 --no-plots --quiet
+  lissom run examples/tip-crank.toml --checkpoint-every 10s
+  lissom run --resume out/tip-crank             goes on where a run with checkpoints was cut off
 
 Ctrl-C ends the run after the current step and keeps the results; a second Ctrl-C ends it at once.
 Exit code: 0 all is done; 2 wrong model or command line; 3 no solution; 130 interrupted by Ctrl-C.")]
 pub(super) struct Run {
-    #[command(flatten)]
-    model: ModelArguments,
+    /// The model file.
+    #[arg(value_name = "MODEL.toml", required_unless_present = "resume")]
+    model: Option<PathBuf>,
+
+    /// Put another value into the model, as `analysis.step=1e-4`; may be repeated.
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
+    set: Vec<Override>,
 
     /// Folder for the results [default: out/<name of the model file>].
     #[arg(long, value_name = "DIR")]
@@ -42,25 +52,53 @@ pub(super) struct Run {
     #[arg(long)]
     no_plots: bool,
 
+    /// Leave a checkpoint in the folder after so much time or so many steps, as `10s` or `1000steps`.
+    #[arg(long, value_name = "TIME|STEPS", value_parser = |text: &str| text.parse::<CheckpointEvery>().map(|_| text.to_owned()))]
+    checkpoint_every: Option<String>,
+
+    /// Go on with the run in this folder from its last checkpoint, as if it had not been cut off.
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["model", "set", "out", "checkpoint_every"])]
+    resume: Option<PathBuf>,
+
     /// Threads for models of thousands of elements or joints; results do not depend on their number [default: all
     /// processors].
     #[arg(long, value_name = "N")]
     threads: Option<NonZero<usize>>,
 }
 
+/// What a run is made of, whether it starts or goes on.
+struct Task {
+    model: Model,
+    overrides: Vec<Override>,
+    folder: PathBuf,
+    plots: bool,
+    every: Option<String>,
+    resumed: Option<Checkpoint>,
+}
+
 impl Run {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let interrupt = Interrupt::listen();
-        let (model, document) = self.model.read()?;
+        let task = self.task()?;
+        let document = task.model.document(&task.overrides)?;
         if !self.quiet {
             show_warnings(&document);
         }
         let mut lowered = lower(&document)?;
         let processors = || std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
         lowered.settings.threads = self.threads.unwrap_or_else(processors).get();
-        let folder = ResultFolder::create(&self.folder()).map_err(unwritable)?;
-        let mut history = folder.history().map_err(unwritable)?;
-        let mut summary = summary::of_model(model.name(), &self.model.set, &document, &lowered);
+        let (folder, mut record) = match &task.resumed {
+            None => (ResultFolder::create(&task.folder).map_err(unwritable)?, Record::default()),
+            Some(checkpoint) => ResultFolder::resume(&task.folder, checkpoint).map_err(unwritable)?,
+        };
+        let mut history = match &task.resumed {
+            None => {
+                CheckpointFile::remove(&task.folder);
+                folder.history().map_err(unwritable)?
+            }
+            Some(checkpoint) => folder.resumed_history(checkpoint).map_err(unwritable)?,
+        };
+        let mut summary = summary::of_model(task.model.name(), &task.overrides, &document, &lowered);
         let mut session = match Session::start(lowered) {
             Ok(session) => session,
             Err(error) => {
@@ -69,42 +107,70 @@ impl Run {
                 return Err(Failure::new(Exit::Failed, error));
             }
         };
+        if let Some(checkpoint) = &task.resumed {
+            session.restore(&checkpoint.session).map_err(|error| Failure::new(Exit::Failed, error))?;
+            record.columns = session.columns().to_vec();
+        }
         let mut bar = Bar::new(session.progress().planned, !self.quiet);
-        let mut record = Record::default();
         let mut writers: Vec<&mut dyn Writer> = vec![&mut history];
-        if !self.no_plots {
+        if task.plots {
             writers.push(&mut record);
         }
-        let report = session.run(&mut writers, &mut |progress| {
+        let mut watch = |progress: &Progress| {
             bar.show(progress);
             if interrupt.is_noted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
-        });
+        };
+        let report = match task.checkpoints(&folder) {
+            Some(mut checkpoints) => {
+                let goes_on = task.resumed.is_some();
+                session.run_with_checkpoints(&mut writers, &mut watch, &mut checkpoints, goes_on)
+            }
+            None => session.run(&mut writers, &mut watch),
+        };
         bar.clear();
         let title = document.title.as_deref().unwrap_or_default();
         summary::of_run(&mut summary, &session, &report);
-        let kept = self.keep(&folder, &summary, &record, title);
+        let kept = self.keep(&folder, &summary, (&record, task.plots), title);
         if !self.quiet {
-            let heading = if title.is_empty() { model.name() } else { title };
+            let heading = if title.is_empty() { task.model.name() } else { title };
             terminal::print(&told(heading, &session, &report, folder.path()));
         }
         kept?;
+        if report.is_complete() {
+            CheckpointFile::remove(&task.folder);
+        }
         self.exit(&report, &folder)
     }
 
-    fn folder(&self) -> PathBuf {
-        let stem = self.model.model.file_stem().unwrap_or_default();
-        self.out.clone().unwrap_or_else(|| Path::new("out").join(stem))
+    fn task(&self) -> Result<Task, Failure> {
+        if let Some(folder) = &self.resume {
+            let checkpoint = Checkpoint::read(folder).map_err(|error| Failure::new(Exit::BadModel, error))?;
+            return Ok(Task {
+                model: Model::from_text(&checkpoint.model, &checkpoint.text),
+                overrides: checkpoint.overrides.clone(),
+                folder: folder.clone(),
+                plots: checkpoint.plots && !self.no_plots,
+                every: Some(checkpoint.every.clone()),
+                resumed: Some(checkpoint),
+            });
+        }
+        let path = self.model.as_deref().unwrap_or(Path::new(""));
+        let model = Model::read(path).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let stem = path.file_stem().unwrap_or_default();
+        let folder = self.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
+        let (overrides, every) = (self.set.clone(), self.checkpoint_every.clone());
+        Ok(Task { model, overrides, folder, plots: !self.no_plots, every, resumed: None })
     }
 
     fn keep(
         &self,
         folder: &ResultFolder,
         summary: &Summary,
-        record: &Record,
+        (record, plots): (&Record, bool),
         title: &str,
     ) -> Result<(), Failure> {
         folder.write_summary(summary).map_err(unwritable)?;
-        if self.no_plots {
+        if !plots {
             return Ok(());
         }
         match folder.write_plots(record, title) {
@@ -136,6 +202,26 @@ impl Run {
             }
             Stopped::Failed(error) => Err(Failure::new(Exit::Failed, format!("{error}\n  {saved}"))),
         }
+    }
+}
+
+impl Task {
+    /// Where checkpoints go, if any are wanted.
+    fn checkpoints(&self, folder: &ResultFolder) -> Option<CheckpointFile> {
+        let every = self.every.clone()?;
+        let parsed = every.parse().ok()?;
+        let (model, text) = (self.model.name().to_owned(), self.model.text().to_owned());
+        let (overrides, plots) = (self.overrides.clone(), self.plots);
+        let frame = move |session, history_length| Checkpoint {
+            model: model.clone(),
+            text: text.clone(),
+            overrides: overrides.clone(),
+            plots,
+            every: every.clone(),
+            history_length,
+            session,
+        };
+        Some(CheckpointFile::new(&self.folder, &folder.history_path(), parsed, frame))
     }
 }
 

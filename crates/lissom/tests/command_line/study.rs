@@ -64,7 +64,7 @@ fn convergence_leaves_table_and_plot() {
 #[test]
 fn a_run_that_fails_is_told_in_its_row() {
     let folder = Folder::new("convergence-failure");
-    // Two iterations are enough for small steps only. Other schemes would halve the large ones.
+    // Two iterations are enough for small steps only, and not for the parts of a large one.
     let mut arguments = vec!["study".to_owned(), "convergence".to_owned(), example("pendulum")];
     let runs = ["--schemes", "hht(-0.3)", "--steps", "1,1e-3", "--output", "bob"];
     let limits = ["analysis.end=1", "analysis.max_iterations=2"];

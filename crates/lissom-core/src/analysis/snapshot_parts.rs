@@ -1,0 +1,100 @@
+//! What a workspace has learned from step to step, taken out of it and put back.
+
+use lissom_solver::FactorError;
+use serde::{Deserialize, Serialize};
+
+use super::compliance::Compliance;
+use super::coupled::Coupled;
+use super::guess::Guess;
+use super::secants::Secants;
+use super::workspace::{Effort, Workspace};
+use crate::system::System;
+
+/// Values of a tangent as plain numbers.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) enum TangentNumbers {
+    /// Of a scheme of one stage.
+    Real(Vec<f64>),
+    /// Of a pair, real and imaginary part.
+    Complex(Vec<[f64; 2]>),
+}
+
+/// All that outlives a step besides the state.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Learned {
+    guesses: [Guess; 2],
+    secants: Secants,
+    effort: Effort,
+    backed_off: bool,
+    /// The tangent factored last, if any was, and what belongs to it.
+    tangent: Option<TangentNumbers>,
+    equilibration: Option<Vec<f64>>,
+    force_round_off: f64,
+    yielding: Option<(Compliance, usize)>,
+    fell_back: Option<(usize, f64)>,
+    /// Values of the tangent of both stages, if it is in use, and for how many steps it is and will be.
+    coupled: Option<Vec<f64>>,
+    coupled_steps: usize,
+    coupled_next: usize,
+}
+
+impl Workspace {
+    pub(crate) fn learned(&self) -> Learned {
+        Learned {
+            guesses: self.guesses.clone(),
+            secants: self.secants.clone(),
+            effort: self.effort,
+            backed_off: self.backed_off,
+            tangent: self.report.as_ref().map(|_| self.factorization.numbers()),
+            equilibration: self.equilibration.as_ref().map(|found| found.factors().to_vec()),
+            force_round_off: self.force_round_off,
+            yielding: self.yielding.clone(),
+            fell_back: self.fell_back,
+            coupled: self
+                .coupled
+                .as_ref()
+                .filter(|_| self.coupled_steps > 0)
+                .map(|coupled| coupled.values.clone()),
+            coupled_steps: self.coupled_steps,
+            coupled_next: self.coupled_next,
+        }
+    }
+
+    /// Puts back what was learned, and factors the tangent again.
+    ///
+    /// # Errors
+    /// If a tangent cannot be factored: it is not the one that was taken.
+    pub(crate) fn restore(&mut self, system: &System, from: &Learned) -> Result<(), FactorError> {
+        for (guess, learned) in self.guesses.iter_mut().zip(&from.guesses) {
+            guess.restore(learned);
+        }
+        self.secants.restore(&from.secants);
+        self.effort = from.effort;
+        self.backed_off = from.backed_off;
+        if let (Some(equilibration), Some(factors)) = (&mut self.equilibration, &from.equilibration) {
+            equilibration.set_factors(factors);
+        }
+        self.force_round_off = from.force_round_off;
+        self.yielding.clone_from(&from.yielding);
+        if from.fell_back.is_some() && self.fell_back.is_none() {
+            let pivoting = lissom_solver::kind("pivoting").unwrap_or(self.solver);
+            self.factorization.replace_solver(self.fall_back.take().unwrap_or(pivoting), system.structure());
+        }
+        self.fell_back = from.fell_back;
+        self.report = None;
+        if let Some(tangent) = &from.tangent {
+            self.factorization.set_numbers(tangent);
+            self.report = Some(self.factorization.factor()?);
+        }
+        self.coupled_steps = from.coupled_steps;
+        self.coupled_next = from.coupled_next;
+        if let Some(values) = &from.coupled {
+            let mut coupled =
+                self.coupled.take().unwrap_or_else(|| Box::new(Coupled::new(system, self.solver)));
+            coupled.values.copy_from_slice(values);
+            self.report = Some(coupled.factor()?);
+            self.coupled = Some(coupled);
+        }
+        Ok(())
+    }
+}

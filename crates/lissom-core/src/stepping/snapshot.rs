@@ -1,0 +1,202 @@
+//! A simulation between two steps, as plain numbers: enough to go on to the last bit. Holds the state, and all that is
+//! learned from step to step: the tangent in use, round-off seen, predictions, secants, the controller.
+//!
+//! Factors are not kept: the tangent's values are, and they are factored again.
+
+use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
+use num_complex::Complex64;
+use serde::{Deserialize, Serialize};
+
+use super::{Controller, Parts};
+use crate::analysis::snapshot_parts::{Learned, TangentNumbers};
+use crate::analysis::{Simulation, Totals};
+use crate::newton::Memory;
+use crate::scaling::Scaled;
+use crate::system::{CoordinateMotion, Kinematics, NodeMotion, State};
+
+/// Changes whenever what a snapshot holds does.
+const VERSION: u32 = 1;
+
+/// A simulation between two steps.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Snapshot {
+    version: u32,
+    /// Scheme, unknowns, nodes and entries of the tangent: what it belongs to.
+    belongs_to: (String, usize, usize, usize),
+    states: [StateNumbers; 2],
+    origin: StateNumbers,
+    step_size: f64,
+    scaled: Scaled,
+    memory: Memory,
+    method_memory: Option<(f64, bool, Vec<f64>, Vec<f64>)>,
+    parts: Parts,
+    controller: Option<Controller>,
+    farthest: f64,
+    totals: Totals,
+    velocity_correction: f64,
+    learned: Learned,
+}
+
+/// A snapshot that cannot be restored.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SnapshotError {
+    /// It was taken by another version of the program.
+    #[error("the snapshot is of version {found}, this program reads version {VERSION}: run the model again")]
+    Version {
+        /// The snapshot's version.
+        found: u32,
+    },
+    /// It was taken of another model, or with another scheme.
+    #[error("the snapshot belongs to another model or scheme ({found}): restore it where it was taken")]
+    OtherModel {
+        /// What it belongs to.
+        found: String,
+    },
+    /// The tangent in use cannot be factored again.
+    #[error("the tangent of the snapshot cannot be factored: it was damaged")]
+    Damaged,
+}
+
+/// A state as numbers, in the order of its fields.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+struct StateNumbers {
+    time: f64,
+    elapsed: f64,
+    time_remainder: f64,
+    nodes: Vec<[f64; 19]>,
+    coordinates: Vec<[f64; 3]>,
+    multipliers: Vec<f64>,
+    violations: Vec<f64>,
+    algorithmic: Vec<f64>,
+    position_remainders: Vec<[f64; 3]>,
+}
+
+impl From<&State> for StateNumbers {
+    fn from(state: &State) -> Self {
+        let State { kinematics, multipliers, violations, algorithmic, time_remainder, position_remainders } =
+            state;
+        let Kinematics { time, elapsed, nodes, coordinates } = kinematics;
+        let of_node = |node: &NodeMotion| {
+            let mut numbers = [0.0; 19];
+            numbers[..4].copy_from_slice(&node.frame.rotation.quaternion());
+            numbers[4..7].copy_from_slice(node.frame.position.as_slice());
+            numbers[7..13].copy_from_slice(node.twist.as_slice());
+            numbers[13..].copy_from_slice(node.acceleration.as_slice());
+            numbers
+        };
+        Self {
+            time: *time,
+            elapsed: *elapsed,
+            time_remainder: *time_remainder,
+            nodes: nodes.iter().map(of_node).collect(),
+            coordinates: coordinates.iter().map(|own| [own.value, own.rate, own.acceleration]).collect(),
+            multipliers: multipliers.clone(),
+            violations: violations.clone(),
+            algorithmic: algorithmic.clone(),
+            position_remainders: position_remainders.iter().map(|place| (*place).into()).collect(),
+        }
+    }
+}
+
+impl From<&StateNumbers> for State {
+    fn from(numbers: &StateNumbers) -> Self {
+        let of_node = |numbers: &[f64; 19]| {
+            let vector = Vector3::new(numbers[1], numbers[2], numbers[3]);
+            let rotation = Rotation::from(Versor { scalar: numbers[0], vector: (&vector).into() });
+            NodeMotion {
+                frame: Motion::new(rotation, Vector3::new(numbers[4], numbers[5], numbers[6])),
+                twist: Vector6::from_column_slice(&numbers[7..13]),
+                acceleration: Vector6::from_column_slice(&numbers[13..]),
+            }
+        };
+        Self {
+            kinematics: Kinematics {
+                time: numbers.time,
+                elapsed: numbers.elapsed,
+                nodes: numbers.nodes.iter().map(of_node).collect(),
+                coordinates: numbers
+                    .coordinates
+                    .iter()
+                    .map(|&[value, rate, acceleration]| CoordinateMotion { value, rate, acceleration })
+                    .collect(),
+            },
+            multipliers: numbers.multipliers.clone(),
+            violations: numbers.violations.clone(),
+            algorithmic: numbers.algorithmic.clone(),
+            time_remainder: numbers.time_remainder,
+            position_remainders: numbers.position_remainders.iter().map(|&place| place.into()).collect(),
+        }
+    }
+}
+
+impl TangentNumbers {
+    /// From complex values.
+    pub(crate) fn of_complex(values: &[Complex64]) -> Self {
+        Self::Complex(values.iter().map(|value| [value.re, value.im]).collect())
+    }
+}
+
+impl Simulation {
+    /// What the simulation is between two steps: a simulation of the same model to which it is given back goes on as
+    /// this one does, to the last bit.
+    pub fn snapshot(&self) -> Snapshot {
+        let origin = State { kinematics: self.origin.clone(), ..self.state.clone() };
+        Snapshot {
+            version: VERSION,
+            belongs_to: self.belonging(),
+            states: [(&self.previous).into(), (&self.state).into()],
+            origin: (&origin).into(),
+            step_size: self.settings.step_size,
+            scaled: self.scaled,
+            memory: self.memory,
+            method_memory: self.method_memory.as_ref().map(|memory| memory.to_numbers()),
+            parts: self.parts,
+            controller: self.controller,
+            farthest: self.farthest,
+            totals: self.totals,
+            velocity_correction: self.velocity_correction,
+            learned: self.work.learned(),
+        }
+    }
+
+    /// Goes back, or on, to where a snapshot was taken.
+    ///
+    /// # Errors
+    /// If it was taken of another model, or by another version of the program. The simulation is then as it was.
+    pub fn restore(&mut self, from: &Snapshot) -> Result<(), SnapshotError> {
+        if from.version != VERSION {
+            return Err(SnapshotError::Version { found: from.version });
+        }
+        if from.belongs_to != self.belonging() {
+            let (scheme, unknowns, nodes, _) = &from.belongs_to;
+            return Err(SnapshotError::OtherModel {
+                found: format!("{scheme}, {unknowns} unknowns, {nodes} nodes"),
+            });
+        }
+        self.work.restore(&self.system, &from.learned).map_err(|_| SnapshotError::Damaged)?;
+        self.previous = (&from.states[0]).into();
+        self.state = (&from.states[1]).into();
+        self.origin = State::from(&from.origin).kinematics;
+        self.settings.step_size = from.step_size;
+        self.scaled = from.scaled;
+        self.memory = from.memory;
+        if let (Some(memory), Some(numbers)) = (&mut self.method_memory, &from.method_memory) {
+            memory.set_numbers(numbers);
+        }
+        self.parts = from.parts;
+        self.controller = from.controller;
+        self.farthest = from.farthest;
+        self.totals = from.totals;
+        self.velocity_correction = from.velocity_correction;
+        self.work.note_scales(self.system.layout(), &self.scaled);
+        self.is_last_step_known = false;
+        Ok(())
+    }
+
+    fn belonging(&self) -> (String, usize, usize, usize) {
+        let layout = self.system.layout();
+        let entries = self.system.structure().pattern.entries();
+        (self.settings.scheme.name.clone(), layout.size(), layout.node_count(), entries)
+    }
+}
