@@ -103,6 +103,9 @@ pub struct SessionSnapshot {
 
 impl SessionSnapshot {
     /// As bytes, to be kept or sent.
+    ///
+    /// # Panics
+    /// Never: plain numbers can always be written to memory.
     pub fn to_bytes(&self) -> Vec<u8> {
         postcard::to_stdvec(self).expect("plain numbers can always be written to memory")
     }

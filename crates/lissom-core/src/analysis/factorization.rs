@@ -156,7 +156,9 @@ impl Factorization {
     pub(crate) fn solve_inertial(&mut self, coupling: &Coupling, values: &mut [f64]) {
         match (self, coupling) {
             (Self::Single { solver, .. }, Coupling::Single(weights)) => {
-                values.iter_mut().for_each(|value| *value *= weights.curvature);
+                for value in values.iter_mut() {
+                    *value *= weights.curvature;
+                }
                 solver.solve(values);
             }
             (Self::Pair { solver, right_hand_side, .. }, Coupling::Pair { weights, .. }) => {

@@ -7,7 +7,7 @@ use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
-use super::{Controller, Parts};
+use super::{Controller, MethodMemory, Parts};
 use crate::analysis::snapshot_parts::{Learned, TangentNumbers};
 use crate::analysis::{Simulation, Totals};
 use crate::newton::Memory;
@@ -150,7 +150,7 @@ impl Simulation {
             step_size: self.settings.step_size,
             scaled: self.scaled,
             memory: self.memory,
-            method_memory: self.method_memory.as_ref().map(|memory| memory.to_numbers()),
+            method_memory: self.method_memory.as_ref().map(MethodMemory::to_numbers),
             parts: self.parts,
             controller: self.controller,
             farthest: self.farthest,

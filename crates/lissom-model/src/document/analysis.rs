@@ -156,14 +156,15 @@ fn stepping(reader: &Reader<'_, '_>, duration: f64) -> Option<AnalysisKind> {
     let given = |key: &str| reader.node(key).map_or(Some(None), |_| reader.number(key).map(Some));
     let (step, tolerance) = (given("step")?, given("relative_tolerance")?);
     let (max_step, output_step) = (given("max_step")?, given("output_step")?);
-    if tolerance.is_none() && step.is_some() {
-        for stray in [max_step, output_step].into_iter().flatten() {
-            return reader.context.fail(
-                stray.span,
-                "this is for steps that are chosen by their error, but `step` is given alone".to_owned(),
-                "add `relative_tolerance`, or leave this out; `output_every` counts steps of one size",
-            );
-        }
+    if tolerance.is_none()
+        && step.is_some()
+        && let Some(stray) = max_step.or(output_step)
+    {
+        return reader.context.fail(
+            stray.span,
+            "this is for steps that are chosen by their error, but `step` is given alone".to_owned(),
+            "add `relative_tolerance`, or leave this out; `output_every` counts steps of one size",
+        );
     }
     if tolerance.is_none()
         && let Some(step) = step
