@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use lissom::{Document, Model, Session, Stopped};
+use lissom::{Document, Model, Record, Session, Stopped};
 
 const SPRING: &str = r#"
 lissom = 1
@@ -232,4 +232,68 @@ step = 2.5e-4
     let (_, report) = Session::new(&document).unwrap().record();
     assert!(report.error().is_none(), "{:?}", report.error());
     assert!(report.totals.newton_iterations < 24, "{}", report.totals.newton_iterations);
+}
+
+const THROWN: &str = r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[point_masses.bob]
+mass = 1
+position = [1, 0, 0]
+[joints.string]
+kind = "distance"
+base = "ground"
+tip = "bob"
+at_base = [0, 0, 0]
+[outputs.bob]
+kind = "position"
+of = "bob"
+[analysis]
+kind = "dynamics"
+end = 1
+"#;
+
+#[test]
+fn a_model_that_names_no_step_chooses_its_own() {
+    let model = Model::from_text("thrown.toml", THROWN);
+    let mut session = model.session(&[]).unwrap();
+    let (free, report) = session.record();
+    assert!(report.is_complete(), "{:?}", report.error());
+    assert_eq!(session.simulation().settings().scheme.name, "radau-iia");
+    assert_eq!(free.times.len(), report.totals.steps + 1, "every step is recorded");
+    let sizes: Vec<f64> = free.times.windows(2).map(|pair| pair[1] - pair[0]).collect();
+    assert!(sizes.iter().copied().fold(0.0, f64::max) > 3.0 * sizes[0], "{sizes:?}");
+    assert_eq!(*free.times.last().unwrap(), 1.0);
+
+    let at = |path: &str, value: &str| (path.to_owned(), value.to_owned());
+    let mut fixed = model.session(&[at("analysis.step", "1e-4")]).unwrap();
+    let (fixed, _) = fixed.record();
+    let end = |record: &Record| *record.column("bob", "z").unwrap().last().unwrap();
+    assert!((end(&free) - end(&fixed)).abs() < 1e-4, "{} {}", end(&free), end(&fixed));
+
+    let every = [at("analysis.relative_tolerance", "1e-6"), at("analysis.output_step", "0.25")];
+    let (even, _) = model.session(&every).unwrap().record();
+    assert_eq!(even.times, [0.0, 0.25, 0.5, 0.75, 1.0]);
+    assert!((end(&even) - end(&fixed)).abs() < 1e-5, "{} {}", end(&even), end(&fixed));
+    let wrong = [at("analysis.step", "1e-3"), at("analysis.output_step", "0.25")];
+    let told = model.document(&wrong).unwrap_err().render(false);
+    assert!(told.contains("relative_tolerance"), "{told}");
+}
+
+#[test]
+fn a_session_is_driven_to_any_time() {
+    let step = [("analysis.step".to_owned(), "0.01".to_owned())];
+    let control = [("analysis.relative_tolerance".to_owned(), "1e-6".to_owned())];
+    for overrides in [&step, &control] {
+        let mut session = Model::from_text("thrown.toml", THROWN).session(overrides).unwrap();
+        for time in [0.013, 0.013, 0.5, 0.77] {
+            session.step_to(time).unwrap();
+            assert!((session.progress().time - time).abs() < 1e-14, "{overrides:?} {time}");
+        }
+        session.step_to(0.1).unwrap();
+        assert!((session.progress().time - 0.77).abs() < 1e-14, "time does not go back");
+        let (record, report) = session.record();
+        assert!(report.is_complete());
+        assert!((record.times[0] - 0.77).abs() < 1e-14 && *record.times.last().unwrap() == 1.0);
+    }
 }
