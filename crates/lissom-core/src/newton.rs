@@ -43,15 +43,13 @@ pub struct Correction {
 pub struct Limits {
     /// Estimated remaining error relative to the correction's reference [-].
     pub tolerance: f64,
-    /// Remaining error that is small enough whatever the reference [-].
-    pub absolute: f64,
     /// Most iterations in one solution.
     pub max_iterations: usize,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { tolerance: 1e-8, absolute: 0.0, max_iterations: 25 }
+        Self { tolerance: 1e-8, max_iterations: 25 }
     }
 }
 
@@ -287,7 +285,7 @@ fn judge(
     if !(size.is_finite() && reference.is_finite()) {
         return if fresh && previous.is_some() { Verdict::BackOff } else { Verdict::Restart };
     }
-    let goal = (limits.tolerance * reference).max(memory.round_off).max(limits.absolute);
+    let goal = (limits.tolerance * reference).max(memory.round_off);
     let Some(previous) = previous else {
         // The first correction is judged by the contraction of earlier solutions, which is trusted less
         // each time it is not seen again.
@@ -378,7 +376,7 @@ mod tests {
     fn converges_and_keeps_the_tangent_for_the_next_solution() {
         let mut root = Root::new(1.0, 0.0);
         let mut memory = Memory::default();
-        let limits = Limits { tolerance: 1e-10, absolute: 0.0, max_iterations: 30 };
+        let limits = Limits { tolerance: 1e-10, max_iterations: 30 };
         solve(&mut root, &limits, &mut memory).expect("converges");
         assert!((root.x - 2.0_f64.sqrt()).abs() < 1e-10);
         let tangents = root.tangents;
@@ -417,7 +415,7 @@ mod tests {
     fn a_vanishing_correction_is_no_licence_for_the_next_solutions() {
         let mut root = Root::new(2.0_f64.sqrt(), 2.0 * 2.0_f64.sqrt());
         let mut memory = Memory { has_tangent: true, contraction: Some(0.5), ..Memory::default() };
-        let limits = Limits { tolerance: 1e-12, absolute: 0.0, max_iterations: 30 };
+        let limits = Limits { tolerance: 1e-12, max_iterations: 30 };
         // Nearly solved already: the corrections soon vanish.
         for _ in 0..3 {
             root.x += 1e-15;
@@ -433,8 +431,7 @@ mod tests {
     fn a_small_slow_part_is_not_hidden_by_a_large_fast_one() {
         let mut pair = Pair { large: 0.0, small: 0.0, rate: 0.9 };
         let mut memory = Memory { has_tangent: true, ..Memory::default() };
-        solve(&mut pair, &Limits { tolerance: 1e-10, absolute: 0.0, max_iterations: 30 }, &mut memory)
-            .expect("converges");
+        solve(&mut pair, &Limits { tolerance: 1e-10, max_iterations: 30 }, &mut memory).expect("converges");
         assert!((pair.small - 1e-6).abs() < 1e-9, "{}", pair.small);
     }
 
@@ -442,8 +439,7 @@ mod tests {
     fn a_tangent_that_leads_astray_is_renewed_from_the_first_guess() {
         let mut root = Root::new(1.0, 0.5);
         let mut memory = Memory { has_tangent: true, ..Memory::default() };
-        solve(&mut root, &Limits { tolerance: 1e-10, absolute: 0.0, max_iterations: 30 }, &mut memory)
-            .expect("converges");
+        solve(&mut root, &Limits { tolerance: 1e-10, max_iterations: 30 }, &mut memory).expect("converges");
         assert!((root.x - 2.0_f64.sqrt()).abs() < 1e-9);
         assert!(root.tangents >= 1);
     }

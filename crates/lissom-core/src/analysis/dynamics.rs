@@ -15,7 +15,7 @@ use super::workspace::Workspace;
 use crate::newton::{self, Equations, Failure, Limits, Memory, Outcome};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Coupling, Scheme, Tableau};
-use crate::stepping::{Controller, MethodMemory, Parts, SMALLEST_REFERENCE, StepControl};
+use crate::stepping::{Controller, MethodMemory, Parts, StepControl};
 use crate::system::{Kinematics, Layout, Linearization, MotionChange, State, System, Threads};
 
 /// What a simulation is told besides system and state.
@@ -83,9 +83,6 @@ pub struct Totals {
 
 /// Tolerance of schemes whose promise holds for the exact solution of their equations.
 const EXACT: f64 = 1e-12;
-
-/// With step-size control iterations stop where they are wrong by this part of the error allowed.
-const ITERATION_SHARE: f64 = 1e-3;
 
 /// A system on its way through time.
 pub struct Simulation {
@@ -290,10 +287,6 @@ impl Simulation {
         if equations.scheme.tableau.is_some() {
             // The energy is as good as the solution: to round-off.
             limits.tolerance = limits.tolerance.min(EXACT);
-        }
-        if let Some(control) = self.settings.control.filter(|_| self.controller.is_some()) {
-            let reference = self.farthest.max(SMALLEST_REFERENCE);
-            limits.absolute = ITERATION_SHARE * control.relative_tolerance * reference;
         }
         equations.restart();
         let mut result = newton::solve(&mut equations, &limits, &mut self.memory);

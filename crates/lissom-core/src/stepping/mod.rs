@@ -13,7 +13,6 @@ mod snapshot;
 
 pub(crate) use controller::Controller;
 pub use controller::StepControl;
-pub(crate) use error_estimate::SMALLEST_REFERENCE;
 pub(crate) use method_memory::MethodMemory;
 pub(crate) use parts::Parts;
 pub use snapshot::{Snapshot, SnapshotError};
@@ -22,7 +21,7 @@ use crate::analysis::{Phase, Simulation, StepError, StepReport, Stopwatch, Unwat
 use crate::newton::{Memory, Outcome};
 use crate::scaling::ScaleBy;
 use crate::system::State;
-use error_estimate::{excursion, inertial_part};
+use error_estimate::{SMALLEST_REFERENCE, excursion, inertial_part};
 
 /// Attempts at a step that are given up before the step is.
 const MOST_REJECTED: usize = 60;
@@ -213,8 +212,7 @@ impl Simulation {
 
     /// Estimated error of the last attempt over what is allowed.
     fn estimated_error(&mut self, tolerance: f64) -> f64 {
-        let reference =
-            self.farthest.max(self.excursion_of(&self.next)).max(error_estimate::SMALLEST_REFERENCE);
+        let reference = self.farthest.max(self.excursion_of(&self.next)).max(SMALLEST_REFERENCE);
         let scheme = &self.settings.scheme;
         let work = &mut *self.work;
         let Some((stage, (predicted, found))) =

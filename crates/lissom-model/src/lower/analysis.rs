@@ -59,11 +59,7 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
             augmented: analysis.augmented,
             penalty: analysis.penalty,
         },
-        limits: Limits {
-            tolerance: analysis.tolerance,
-            absolute: 0.0,
-            max_iterations: analysis.max_iterations,
-        },
+        limits: Limits { tolerance: analysis.tolerance, max_iterations: analysis.max_iterations },
         solver,
         threads: 1,
         from_equilibrium,
