@@ -98,7 +98,7 @@ fn runs_that_are_killed_again_and_again_leave_the_same_bytes() {
         let (whole, parts) = (folder.0.join(format!("whole{index}")), folder.0.join(format!("parts{index}")));
         let output = started(model, more, &whole).spawn().unwrap().wait_with_output().unwrap();
         assert!(output.status.success(), "{model} {more:?}: {}", String::from_utf8_lossy(&output.stderr));
-        kills += killed(model, more, &parts, Duration::from_millis(12));
+        kills += killed(model, more, &parts, Duration::from_millis(2));
         let read = |folder: &Path| fs::read(folder.join("history.csv")).unwrap();
         assert!(read(&whole) == read(&parts), "{model} {more:?}: histories differ");
         assert_eq!(facts(&whole), facts(&parts), "{model} {more:?}");
