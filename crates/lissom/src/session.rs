@@ -242,7 +242,7 @@ impl Session {
 
     fn go_to(&mut self, time: f64) -> Result<(), StepError> {
         let is_controlled = self.schedule.plan().is_controlled;
-        while self.schedule.time() < time {
+        while time - self.schedule.time() > WHOLE * self.schedule.step_size() {
             let now = self.schedule.time();
             if is_controlled {
                 self.take(Next::Until(time))?;

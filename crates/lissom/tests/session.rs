@@ -297,3 +297,23 @@ fn a_session_is_driven_to_any_time() {
         assert!((record.times[0] - 0.77).abs() < 1e-14 && *record.times.last().unwrap() == 1.0);
     }
 }
+
+#[test]
+fn a_very_short_step_disturbs_nothing() {
+    for scheme in ["\"generalized-alpha\"", "\"hht\"", "\"radau-iia\""] {
+        let overrides = [set("analysis.step", 1e-3), set("analysis.scheme", scheme)];
+        let end = |stops: &[f64]| {
+            let mut session = Model::from_text("thrown.toml", THROWN).session(&overrides).unwrap();
+            for &time in stops {
+                session.step_to(time).unwrap();
+            }
+            let mut values = Vec::new();
+            session.values(&mut values);
+            values
+        };
+        let (plain, disturbed) = (end(&[0.9]), end(&[0.3, 0.3 + 1e-9, 0.9]));
+        let distance = plain.iter().zip(&disturbed).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        // Below the error of the schemes of second order with such steps.
+        assert!(distance < 1e-5, "{scheme}: {distance:e}");
+    }
+}

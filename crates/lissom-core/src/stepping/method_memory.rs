@@ -19,6 +19,10 @@ use crate::analysis::initial::Initial;
 use crate::scaling::Representative;
 use crate::system::{LOCKED, State, System};
 
+/// Where the step grows by more than this at once, what is known of ȧ and v_B is round-off of a short step: a stays, and
+/// velocities are made consistent.
+const LARGEST_RATIO: f64 = 5.0;
+
 /// Changes the memory of a state in place.
 pub(crate) struct MethodMemory {
     initial: Initial,
@@ -85,10 +89,14 @@ impl MethodMemory {
             self.look(system, delay, (previous, state, scratch))?;
             self.is_known = true;
         }
-        for (value, slope) in state.algorithmic.iter_mut().zip(&self.slope) {
-            *value += delay * (step - self.step) * slope;
+        let ratio = step / self.step;
+        let is_known = ratio <= LARGEST_RATIO;
+        if is_known {
+            for (value, slope) in state.algorithmic.iter_mut().zip(&self.slope) {
+                *value += delay * (step - self.step) * slope;
+            }
         }
-        let square = (step / self.step).powi(2);
+        let square = if is_known { ratio * ratio } else { 0.0 };
         add_velocities(system, square - 1.0, &self.across, state);
         self.across.iter_mut().for_each(|value| *value *= square);
         self.step = step;
