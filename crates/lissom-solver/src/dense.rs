@@ -114,6 +114,7 @@ impl<S: Scalar> LinearSolver<S> for Dense<S> {
             growth: if largest > 0.0 { largest_upper / largest } else { 0.0 },
             worst_cancellation: smallest.0 / largest_diagonal,
             worst_cancellation_unknown: smallest.1,
+            negative_pivots: None,
         })
     }
 

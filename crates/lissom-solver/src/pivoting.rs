@@ -111,6 +111,7 @@ impl<S: Scalar + ComplexField> Pivoting<S> {
             growth: f64::NAN,
             worst_cancellation: pivot / largest,
             worst_cancellation_unknown: unknown,
+            negative_pivots: None,
         })
     }
 }
@@ -130,7 +131,7 @@ impl<S: Scalar + ComplexField> LinearSolver<S> for Pivoting<S> {
         self.factored = false;
         let largest = largest_entry(&self.pattern, values)?;
         if self.pattern.size() == 0 {
-            return Ok(Monitor::new().report(0.0, largest));
+            return Ok(Monitor::new().report::<S>(0.0, largest));
         }
         if largest == 0.0 {
             return Err(FactorError::ZeroPivot { unknown: 0, pivot: 0.0, largest });

@@ -1,5 +1,7 @@
 //! What a factorisation tells about itself, and why it may refuse. Knows unknowns by number only.
 
+use crate::scalar::Scalar;
+
 /// A pivot is refused when elimination has cancelled it down to this fraction of the terms it is the sum of:
 /// `|pivot| ≤ TINY_PIVOT (|a_ii| + Σ |l_ik u_ki|)`.
 ///
@@ -25,6 +27,11 @@ pub struct FactorReport {
     pub worst_cancellation: f64,
     /// The unknown of that pivot.
     pub worst_cancellation_unknown: usize,
+    /// How many pivots are negative. Of a symmetric matrix that is how many negative eigenvalues it has (Sylvester's law of
+    /// inertia): a saddle-point matrix `[A, Bᵀ; B, 0]` has one for each equation, and one for each direction allowed by
+    /// them in which A is not stable. Of other matrices only whether it is odd tells something: the sign of the determinant.
+    /// None for complex matrices and from solvers that exchange rows.
+    pub negative_pivots: Option<usize>,
 }
 
 impl FactorReport {
@@ -61,16 +68,24 @@ pub(crate) struct Monitor {
     smallest: (f64, usize),
     largest: f64,
     cancellation: (f64, usize),
+    negative: usize,
 }
 
 impl Monitor {
     pub(crate) fn new() -> Monitor {
-        Monitor { smallest: (f64::INFINITY, 0), largest: 0.0, cancellation: (f64::INFINITY, 0) }
+        Monitor { smallest: (f64::INFINITY, 0), largest: 0.0, cancellation: (f64::INFINITY, 0), negative: 0 }
     }
 
-    /// Takes note of a pivot, or refuses it; `terms` is the sum of the magnitudes it was made of.
+    /// Takes note of a pivot, or refuses it; `terms` is the sum of the magnitudes it was made of. Gives its magnitude.
     #[inline]
-    pub(crate) fn pivot(&mut self, unknown: usize, pivot: f64, terms: f64) -> Result<(), FactorError> {
+    pub(crate) fn pivot<S: Scalar>(
+        &mut self,
+        unknown: usize,
+        pivot: S,
+        terms: f64,
+    ) -> Result<f64, FactorError> {
+        self.negative += usize::from(pivot.parts()[0] < 0.0);
+        let pivot = pivot.magnitude();
         // Infinite terms with a finite pivot cannot be; a pivot that is not a number fails both comparisons.
         if pivot > TINY_PIVOT * terms && pivot < f64::INFINITY {
             if pivot < self.smallest.0 {
@@ -80,7 +95,7 @@ impl Monitor {
             if pivot < self.cancellation.0 * terms {
                 self.cancellation = (pivot / terms, unknown);
             }
-            return Ok(());
+            return Ok(pivot);
         }
         Err(refusal(unknown, pivot, terms))
     }
@@ -94,9 +109,11 @@ impl Monitor {
         if other.cancellation.0 < self.cancellation.0 {
             self.cancellation = other.cancellation;
         }
+        self.negative += other.negative;
     }
 
-    pub(crate) fn report(&self, largest_upper: f64, largest_entry: f64) -> FactorReport {
+    /// What has been seen of a matrix of numbers `S`.
+    pub(crate) fn report<S: Scalar>(&self, largest_upper: f64, largest_entry: f64) -> FactorReport {
         let growth = if largest_entry > 0.0 { largest_upper / largest_entry } else { 0.0 };
         FactorReport {
             smallest_pivot: self.smallest.0,
@@ -105,6 +122,7 @@ impl Monitor {
             growth,
             worst_cancellation: self.cancellation.0,
             worst_cancellation_unknown: self.cancellation.1,
+            negative_pivots: (!S::COMPLEX).then_some(self.negative),
         }
     }
 }

@@ -139,13 +139,13 @@ impl<S: Scalar> LinearSolver<S> for Skyline<S> {
                 pivot -= lower * upper;
                 terms += (lower * upper).magnitude();
             }
-            monitor.pivot(self.unknowns[step], pivot.magnitude(), terms)?;
+            monitor.pivot(self.unknowns[step], pivot, terms)?;
             self.diagonal[step] = pivot;
             largest_upper = self.upper[piece]
                 .iter()
                 .fold(largest_upper.max(pivot.magnitude()), |largest, value| largest.max(value.magnitude()));
         }
-        Ok(monitor.report(largest_upper, largest))
+        Ok(monitor.report::<S>(largest_upper, largest))
     }
 
     fn solve(&mut self, right_hand_side: &mut [S]) {

@@ -160,6 +160,7 @@ fn the_report_is_that_of_the_small_example() {
                 growth: 1.0,
                 worst_cancellation: 0.25 / 0.75,
                 worst_cancellation_unknown: 1,
+                negative_pivots: Some(0),
             },
             "{name}"
         );

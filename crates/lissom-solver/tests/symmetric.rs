@@ -1,9 +1,11 @@
 //! LDLᵀ of symmetric matrices: solves, agrees with LU, names what cannot be factored, does not allocate more.
 
+use std::sync::Arc;
+
 use lissom_solver::samples::{
     Model, Sample, backward_error, chain, closed_loop, grid, right_hand_side, tree,
 };
-use lissom_solver::{FactorError, LinearSolver, Multifrontal, Pattern, Symmetric};
+use lissom_solver::{FactorError, LinearSolver, Multifrontal, Pattern, Skyline, Structure, Symmetric, kind};
 use num_complex::Complex64;
 
 fn symmetric_values<S: Sample>(model: &Model, pattern: &Pattern, penalty: f64) -> Vec<S> {
@@ -109,4 +111,51 @@ fn threads_change_no_bit() {
         (report, x)
     });
     assert!(solved[0] == solved[1] && solved[0] == solved[2]);
+}
+
+/// The second difference on a line, less a shift: its eigenvalues are 2 - 2 cos(k π/(n + 1)) less the shift.
+#[test]
+fn negative_pivots_count_negative_eigenvalues() {
+    let size = 400;
+    let pairs = (1..size).map(|row| (row, row - 1));
+    let pattern = Arc::new(Pattern::from_entries(size, pairs));
+    let structure = Structure::ungrouped(Arc::clone(&pattern));
+    let mut solvers: Vec<Box<dyn LinearSolver<f64>>> = vec![
+        Box::new(Symmetric::new(&structure)),
+        Box::new(Multifrontal::new(&structure)),
+        Box::new(Skyline::new(&structure)),
+    ];
+    for shift in [-0.1, 0.003, 0.5, 1.7, 3.1, 4.1] {
+        let mut values = Vec::new();
+        for column in 0..size {
+            let entry = |&row: &usize| if row == column { 2.0 - shift } else { -1.0 };
+            values.extend(pattern.column(column).iter().map(entry));
+        }
+        let eigenvalue = |k: usize| 2.0 - 2.0 * (k as f64 * std::f64::consts::PI / (size + 1) as f64).cos();
+        let wanted = (1..=size).filter(|&k| eigenvalue(k) < shift).count();
+        for solver in &mut solvers {
+            let report = solver.factor(&values).unwrap();
+            assert_eq!(report.negative_pivots, Some(wanted), "{} at {shift}", solver.name());
+        }
+    }
+}
+
+/// Every equation has a negative pivot where all directions it leaves are stable.
+#[test]
+fn saddle_points_have_a_negative_pivot_for_each_equation() {
+    for model in [chain(300), tree(400), grid(3000), closed_loop(250)] {
+        let structure = model.structure();
+        let values: Vec<f64> = symmetric_values(&model, &structure.pattern, 1.0);
+        let count = |solver: &mut dyn LinearSolver<f64>| solver.factor(&values).unwrap().negative_pivots;
+        let equations = model.constraints.iter().map(|constraint| constraint.multipliers.len()).sum();
+        let expected = Some(equations);
+        assert_eq!(count(&mut Skyline::new(&structure)), expected);
+        assert_eq!(count(&mut Symmetric::new(&structure)), expected);
+        assert_eq!(count(&mut Multifrontal::new(&structure)), expected);
+        let mut pivoting = (kind("dense").unwrap().real)(&structure);
+        assert_eq!(count(&mut *pivoting), None);
+        let complex: Vec<Complex64> = values.iter().map(|&value| value.into()).collect();
+        let report = Symmetric::<Complex64>::new(&structure).factor(&complex).unwrap();
+        assert_eq!(report.negative_pivots, None);
+    }
 }

@@ -89,7 +89,7 @@ impl<S: Scalar> Multifrontal<S> {
         };
         let largest = largest.ok_or_else(|| first_not_finite(pattern, values))?;
         let (monitor, largest_upper) = numeric.factor_top::<SYMMETRIC>(*processor, symbolic, values)?;
-        Ok(monitor.report(largest_upper, largest))
+        Ok(monitor.report::<S>(largest_upper, largest))
     }
 
     fn triangular(&mut self, right_hand_side: &mut [S], way: Way) {

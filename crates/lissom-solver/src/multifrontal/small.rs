@@ -95,8 +95,8 @@ impl<S: Scalar> SmallFront<S> {
         }
         let mut largest = self.largest;
         for (step, &unknown) in unknowns.iter().enumerate() {
-            let pivot = self.upper.0[step * stride + step].magnitude();
-            monitor.pivot(unknown as usize, pivot, self.terms[step])?;
+            let pivot = self.upper.0[step * stride + step];
+            let pivot = monitor.pivot(unknown as usize, pivot, self.terms[step])?;
             largest = if pivot > largest { pivot } else { largest };
         }
         Ok(largest)

@@ -64,8 +64,7 @@ impl<S: Scalar> SquareWork<S> {
         // Only now, so that the elimination is not held up: what follows a pivot does not change those before.
         for (step, &unknown) in unknowns.iter().enumerate() {
             let diagonal = &mut square[step * stride + step];
-            let pivot = diagonal.magnitude();
-            monitor.pivot(unknown as usize, pivot, self.terms[step])?;
+            let pivot = monitor.pivot(unknown as usize, *diagonal, self.terms[step])?;
             largest = if pivot > largest { pivot } else { largest };
             *diagonal = self.reciprocals[step];
         }
