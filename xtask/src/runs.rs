@@ -125,6 +125,7 @@ fn grid(document: &Document) -> String {
             }
         }
         AnalysisKind::Statics { steps } => format!("{steps} load steps"),
+        AnalysisKind::Modes { count, .. } => format!("{count} modes"),
     });
     words.join(", ")
 }

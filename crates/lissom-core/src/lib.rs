@@ -8,6 +8,7 @@ pub mod elements;
 pub mod equilibration;
 pub mod joints;
 mod lanes;
+pub mod linear;
 pub mod newton;
 mod node_motion;
 pub mod registry;

@@ -174,6 +174,11 @@ impl Scaled {
         Self { h, s, augmented, dynamic, radian }
     }
 
+    /// For a linear model without steps, time in units of 1/`rate` [1/s].
+    pub(crate) fn at_rate(representative: &Representative, rate: f64) -> Self {
+        Self::new(&ScalingChoice::default(), representative, rate.recip())
+    }
+
     /// The same scale for steps of another size [s]: any scale will do, and a tangent made with this one may go on to
     /// serve.
     #[must_use]

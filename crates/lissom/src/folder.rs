@@ -119,6 +119,14 @@ impl ResultFolder {
         checkpoint.open_history(&self.history_path()).map(|file| CsvWriter::new(BufWriter::new(file)))
     }
 
+    /// Writes another table of results under its name.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write_table(&self, name: &str, text: &str) -> Result<(), FileError> {
+        files::write(&self.path.join(name), text.as_bytes())
+    }
+
     /// Writes the summary.
     ///
     /// # Errors

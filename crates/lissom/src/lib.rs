@@ -27,6 +27,7 @@
 mod checkpoint;
 mod folder;
 mod model;
+pub mod modes;
 mod report;
 mod schedule;
 mod session;

@@ -8,6 +8,7 @@ use std::time::Instant;
 use lissom_core::analysis::{InitialError, Simulation, StepError, StepReport};
 use lissom_core::stepping::{Snapshot, SnapshotError};
 use lissom_model::channels::Channel;
+use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, Plan, lower};
 use lissom_model::output::{Column, Record, Writer};
 use lissom_model::{Document, Report};
@@ -32,6 +33,9 @@ pub enum SessionError {
     /// There are no consistent initial values.
     #[error(transparent)]
     Initial(#[from] InitialError),
+    /// What is computed has no course in time.
+    #[error("an analysis of kind `{0}` has no steps to be taken")]
+    NotInTime(&'static str),
 }
 
 /// Where a session stands.
@@ -147,6 +151,10 @@ impl Session {
     /// # Errors
     /// If the model is wrong, or has no consistent initial values.
     pub fn new(document: &Document) -> Result<Self, SessionError> {
+        let kind = &document.analysis.kind;
+        if matches!(kind, AnalysisKind::Modes { .. }) {
+            return Err(SessionError::NotInTime(kind.name()));
+        }
         Ok(Self::start(lower(document)?)?)
     }
 

@@ -11,7 +11,7 @@ use crate::model::Override;
 use crate::report::RunReport;
 use crate::session::{Session, columns};
 
-fn tell(summary: &mut Summary, name: &str, fact: Value) {
+pub(crate) fn tell(summary: &mut Summary, name: &str, fact: Value) {
     summary.insert(name, fact).expect("a JSON value can be said in JSON");
 }
 

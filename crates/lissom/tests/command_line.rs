@@ -1,5 +1,7 @@
 //! The program, as scripts see it: exit codes, files, columns and facts.
 
+#[path = "command_line/modes.rs"]
+mod modes;
 #[path = "command_line/study.rs"]
 mod study;
 mod support;

@@ -12,7 +12,7 @@ use crate::system::{State, System};
 ///
 /// # Errors
 /// If the load step has no solution, as where a part is not held.
-pub(super) fn at_rest(
+pub fn at_rest(
     system: Arc<System>,
     state: State,
     settings: &Settings,

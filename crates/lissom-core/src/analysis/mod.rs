@@ -1,13 +1,13 @@
 //! What the user asks for: consistent initial values, time steps, load steps, a count of freedoms.
 
-mod compliance;
+pub(crate) mod compliance;
 pub mod conditioning;
 mod corrections;
 mod coupled;
 mod coupled_joints;
 pub mod dynamics;
 mod equations;
-mod equilibrium;
+pub mod equilibrium;
 mod factorization;
 pub mod factorization_study;
 mod guess;

@@ -78,6 +78,11 @@ impl Layout {
         self.node_rows.len()
     }
 
+    /// Name of a node: of a body or point mass, or the place on a beam, as `beam.start` or `beam@0.5`.
+    pub fn node_name(&self, node: NodeId) -> &str {
+        &self.node_names[node]
+    }
+
     /// Rows of a node's six freedoms, [`LOCKED`] where it has none.
     pub fn rows_of_node(&self, node: NodeId) -> &[u32; 6] {
         &self.node_rows[node]

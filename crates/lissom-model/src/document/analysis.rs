@@ -24,7 +24,30 @@ pub enum AnalysisKind {
         /// Number of load steps.
         steps: usize,
     },
+    /// Natural modes about a state at rest.
+    Modes {
+        /// How many.
+        count: usize,
+        /// Whether gravity and loads are left out, and places are those of the file.
+        undeformed: bool,
+        /// Frequency near which they are sought [Hz]; none for the lowest ones.
+        shift: Option<f64>,
+    },
 }
+
+impl AnalysisKind {
+    /// Its word in the model file.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::Dynamics { .. } => "dynamics",
+            Self::Statics { .. } => "statics",
+            Self::Modes { .. } => "modes",
+        }
+    }
+}
+
+/// Modes that are sought where no number is given.
+pub const DEFAULT_MODE_COUNT: usize = 20;
 
 /// How steps are chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,9 +131,16 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     };
     let dynamics = word == "dynamics";
     let start = number("start", 0.0);
-    let end = if reader.has("end") { reader.number("end") } else { Some(Located::new(1.0, name)) };
+    let end = match (word, &start) {
+        // Loads are those of an instant; functions of time are tried a little beyond it.
+        ("modes" | "path", Some(start)) => Some(Located::new(start.value + 1.0, name)),
+        _ if reader.has("end") => reader.number("end"),
+        _ => Some(Located::new(1.0, name)),
+    };
     let kind = if dynamics {
         stepping(&reader, end.as_ref()?.value - start.as_ref()?.value)
+    } else if word == "modes" {
+        modes(&reader)
     } else {
         Some(AnalysisKind::Statics { steps: reader.count("steps").map_or(10, |steps| steps.value) })
     };
@@ -141,7 +171,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         solver,
         tolerance: tolerance?.value,
         max_iterations: count("max_iterations", 40),
-        output_every: count("output_every", 1),
+        output_every: if word == "modes" { 1 } else { count("output_every", 1) },
         span: name,
         start: start.as_ref()?.value,
         end: end.as_ref()?.value,
@@ -149,6 +179,15 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     };
     check_times(context, &analysis, end?.span);
     Some(analysis)
+}
+
+fn modes(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
+    let shift = reader.node("shift").map_or(Some(None), |_| reader.number("shift").map(Some))?;
+    Some(AnalysisKind::Modes {
+        count: reader.count("count").map_or(DEFAULT_MODE_COUNT, |count| count.value),
+        undeformed: reader.choice("about").is_some_and(|word| word.value == "undeformed"),
+        shift: shift.map(|shift| shift.value),
+    })
 }
 
 /// Steps of one size, or chosen by their error, over `duration` [s].

@@ -22,7 +22,7 @@ use crate::line::Line;
 use crate::report::{Located, Problem, Report, Sources, Span};
 use crate::sections::{Isotropic, SectionProperties};
 
-pub use analysis::{Analysis, AnalysisKind, Scaling, StepChoice};
+pub use analysis::{Analysis, AnalysisKind, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use outputs::{Output, OutputKind, OutputSource};
 pub use tables::VERSION;
 

@@ -330,7 +330,7 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
     let words = |table: &[ChoiceEntry]| Shape::Choice(table.iter().map(|entry| entry.name).collect());
     let common = || {
         vec![
-            required("kind", choice(&["dynamics", "statics"]), "", "dynamics or statics"),
+            required("kind", choice(&["dynamics", "statics", "modes"]), "", "what is computed"),
             optional("start", Shape::Number, "s", "first time, default 0"),
             optional(
                 "scaling",
@@ -392,8 +392,22 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
     let mut statics = common();
     statics.push(optional("end", Shape::Number, "s", "last time, default 1"));
     statics.push(optional("steps", Shape::Count(1, 1_000_000), "", "load steps, default 10"));
+    let mut modes = common();
+    modes.retain(|key| key.name != "output_every");
+    modes.extend([
+        optional("count", Shape::Count(1, 100_000), "", "number of modes, default 20"),
+        optional(
+            "about",
+            choice(&["static", "undeformed"]),
+            "",
+            "about static equilibrium under the loads of the time `start` (default), or about the places of the file \
+             without loads and gravity",
+        ),
+        optional("shift", Shape::NotNegative, "Hz", "frequency near which modes are sought; default: the lowest ones"),
+    ]);
     vec![
         Variant { word: "dynamics", summary: "Motion in time.", keys: dynamics },
         Variant { word: "statics", summary: "Equilibrium in load steps.", keys: statics },
+        Variant { word: "modes", summary: "Natural modes about a state at rest.", keys: modes },
     ]
 }

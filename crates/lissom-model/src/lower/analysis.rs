@@ -38,6 +38,7 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
             (scheme(analysis)?, step.value, steps as usize, *control)
         }
         AnalysisKind::Statics { steps } => (statics::statics(), duration / *steps as f64, *steps, None),
+        AnalysisKind::Modes { .. } => (statics::statics(), duration, 1, None),
     };
     let control = choice
         .map(|StepChoice { relative_tolerance, max_step, .. }| StepControl { relative_tolerance, max_step });
@@ -69,7 +70,7 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
         end: analysis.end,
         steps,
         output_every: analysis.output_every.max(1),
-        is_static: matches!(analysis.kind, AnalysisKind::Statics { .. }),
+        is_static: !matches!(analysis.kind, AnalysisKind::Dynamics { .. }),
         is_controlled: choice.is_some(),
         output_step: choice.and_then(|choice| choice.output_step),
     };

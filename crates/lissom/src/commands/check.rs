@@ -5,6 +5,7 @@ use std::fmt::Write;
 use clap::Args;
 use lissom::Document;
 use lissom_core::analysis::mobility::{Mobility, Redundant, mobility};
+use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, lower};
 
 use super::{Exit, Failure, ModelArguments, show_warnings};
@@ -57,7 +58,7 @@ fn told(name: &str, document: &Document, lowered: &Lowered, freedom: &Mobility) 
                 freedom.freedoms, freedom.coordinates, freedom.rank, freedom.constraints
             ),
         ),
-        ("analysis", analysis(lowered)),
+        ("analysis", analysis(document, lowered)),
         ("outputs", outputs(lowered)),
     ];
     for (name, words) in lines {
@@ -99,7 +100,11 @@ fn unknowns(lowered: &Lowered, freedom: &Mobility) -> String {
     )
 }
 
-fn analysis(lowered: &Lowered) -> String {
+fn analysis(document: &Document, lowered: &Lowered) -> String {
+    if let AnalysisKind::Modes { count, undeformed, .. } = document.analysis.kind {
+        let state = if undeformed { "the undeformed state" } else { "static equilibrium" };
+        return format!("{count} natural modes about {state}");
+    }
     let (plan, settings) = (&lowered.plan, &lowered.settings);
     let kind = if plan.is_static { "load steps" } else { "steps" };
     if let Some(control) = &settings.control {

@@ -2,6 +2,7 @@
 
 mod check;
 mod kinds;
+mod modes;
 mod plot;
 mod run;
 mod schema;
@@ -83,6 +84,7 @@ impl From<Report> for Failure {
 Examples:
   lissom run examples/pendulum.toml            simulate; results go to out/pendulum
   lissom check examples/four-bar.toml          look for mistakes and redundant constraints
+  lissom modes examples/four-bar.toml          natural frequencies and shapes
   lissom kinds                                 what a model can be made of
   lissom schema > lissom.schema.json           for editors that complete and check
 
@@ -97,6 +99,7 @@ pub(crate) struct Line {
 enum Command {
     Run(run::Run),
     Check(check::Check),
+    Modes(modes::Modes),
     Kinds(kinds::Kinds),
     Schema(schema::Schema),
     Plot(plot::Plot),
@@ -109,6 +112,7 @@ impl Line {
         let outcome = match self.command {
             Command::Run(command) => command.run(),
             Command::Check(command) => command.run(),
+            Command::Modes(command) => command.run(),
             Command::Kinds(command) => command.run(),
             Command::Schema(command) => command.run(),
             Command::Plot(command) => command.run(),

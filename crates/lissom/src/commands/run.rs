@@ -6,10 +6,12 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use lissom::modes::ModeRequest;
 use lissom::{
     Checkpoint, CheckpointEvery, CheckpointFile, FolderError, Model, Override, Progress, Record,
     ResultFolder, RunReport, Session, Stopped, Summary, Writer, summary,
 };
+use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;
 
 use super::{Exit, Failure, show_warnings};
@@ -81,6 +83,10 @@ impl Run {
         let interrupt = Interrupt::listen();
         let task = self.task()?;
         let document = task.model.document(&task.overrides)?;
+        if matches!(document.analysis.kind, AnalysisKind::Modes { .. }) {
+            let asked = (&task.model, &task.overrides[..], &document);
+            return super::modes::report(asked, &ModeRequest::default(), &task.folder, self.quiet);
+        }
         if !self.quiet {
             show_warnings(&document);
         }

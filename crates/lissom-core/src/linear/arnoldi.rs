@@ -1,0 +1,317 @@
+//! Modes with damping, gyroscopic terms or an unsymmetric stiffness, by shift and invert of the linearised quadratic problem
+//!
+//! ```text
+//! (s² M + s D + K) x + Bᵀ μ = 0,   B x = 0,   v = s x
+//! ```
+//!
+//! One application of the operator is one solve with the saddle-point matrix at the shift σ:
+//! (σ²M + σD + K) x + Bᵀμ = -M w₂ - (D + σM) w₁, v = w₁ + σ x. Its eigenvalues are 1/(s - σ), and what belongs to infinite
+//! eigenvalues is gone after two applications, because positions and then velocities satisfy the constraints
+//! [Cliffe, Garratt and Spence 1994; Meerbergen and Spence 1997].
+
+use nalgebra::{DMatrix, Schur};
+use num_complex::Complex64;
+
+use super::krylov::{Krylov, Operator};
+use super::lanczos::round_off;
+use super::mode::{Completeness, Mode, ModeError, ModeOptions, Modes};
+use super::model::LinearModel;
+use super::shifted::{ComplexShift, small_square};
+use crate::joints::Quantity;
+
+const BLOCK: usize = 6;
+const TOLERANCE: f64 = 1e-9;
+const BETWEEN: usize = 12;
+const BEYOND: usize = 4;
+/// Eigenvalues of the operator below this part of the largest one are round-off.
+const NOTHING: f64 = 1e-13;
+/// Eigenvalues whose imaginary part is below this part of their size are real.
+const REAL: f64 = 1e-9;
+/// Zero eigenvalues come in defective pairs, whose round-off is larger than that of single ones.
+const DEFECTIVE: f64 = 16.0;
+/// The same of a solve, relative to the shift: the root of the round-off.
+const SOLVED: f64 = 1e-6;
+/// Rigid modes whose shapes differ by less are one.
+const SAME: f64 = 1e-4;
+
+/// Positions and velocities, in units of the model's length and of a rate.
+struct Inverse<'m, 's, 'a> {
+    model: &'m LinearModel<'a>,
+    solver: &'s mut ComplexShift<'a>,
+    shift: Complex64,
+    rate: f64,
+    units: Vec<f64>,
+    room: Vec<Complex64>,
+    right: Vec<Complex64>,
+    product: Vec<Complex64>,
+}
+
+impl Operator<Complex64> for Inverse<'_, '_, '_> {
+    fn size(&self) -> usize {
+        2 * self.units.len()
+    }
+
+    fn apply(&mut self, vector: &[Complex64], image: &mut [Complex64]) {
+        let count = self.units.len();
+        let parts = &self.model.parts;
+        let pattern = self.model.pattern();
+        self.right.fill(Complex64::default());
+        let (shift, rate) = (self.shift, self.rate);
+        let (positions, velocities) = vector.split_at(count);
+        for (values, of_velocities, of_positions) in [
+            (&parts.mass, Complex64::new(rate, 0.0), shift),
+            (&parts.damping, Complex64::default(), Complex64::new(1.0, 0.0)),
+        ] {
+            for row in 0..count {
+                self.room[row] =
+                    (of_velocities * velocities[row] + of_positions * positions[row]) / self.units[row];
+            }
+            multiply(&pattern, values, &self.room, &mut self.product);
+            for (sum, value) in self.right[..count].iter_mut().zip(&self.product) {
+                *sum -= value;
+            }
+        }
+        self.solver.solve(&mut self.right);
+        for row in 0..count {
+            let x = self.right[row] * self.units[row];
+            image[row] = x;
+            image[count + row] = (positions[row] + shift * x) / rate;
+        }
+    }
+
+    fn weigh(&mut self, vector: &[Complex64], weighted: &mut [Complex64]) {
+        weighted.copy_from_slice(vector);
+    }
+}
+
+/// product = A x for real values.
+fn multiply(
+    pattern: &lissom_solver::Pattern,
+    values: &[f64],
+    vector: &[Complex64],
+    product: &mut [Complex64],
+) {
+    product.fill(Complex64::default());
+    for (column, factor) in vector.iter().enumerate() {
+        let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+        for (&row, &value) in pattern.row_indices()[range.clone()].iter().zip(&values[range]) {
+            product[row] += factor * value;
+        }
+    }
+}
+
+/// An eigenvalue 1/(s - σ) of the operator, its coefficients in the basis, and the residual.
+struct Estimate {
+    value: Complex64,
+    weights: Vec<Complex64>,
+    residual: f64,
+}
+
+/// Finds the modes nearest to the shift.
+pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Modes, ModeError> {
+    let mut solver = ComplexShift::new(model.system, &model.representative);
+    let (shift, wanted) = match options.shift {
+        Some(frequency) if frequency > 0.0 => {
+            (Complex64::new(0.0, std::f64::consts::TAU * frequency), options.count + BEYOND)
+        }
+        // Conjugates and the second zero of each rigid mode are found as well.
+        _ => (first_shift(model, &mut solver)?, 2 * (options.count + BEYOND)),
+    };
+    let mut operator = inverse(model, &mut solver, shift)?;
+    let mut krylov = Krylov::new(operator.size());
+    let estimates = search(&mut krylov, &mut operator, wanted)?;
+    let mut modes: Vec<Mode> = Vec::new();
+    for estimate in &estimates {
+        modes.extend(mode(model, &mut operator, &krylov, estimate));
+    }
+    keep_independent_rigid_modes(&mut modes);
+    modes.truncate(options.count);
+    modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
+    Ok(Modes { modes, completeness: Completeness::NotCounted })
+}
+
+/// A real shift about as large as the smallest eigenvalues that are not zero.
+fn first_shift<'a>(model: &LinearModel<'a>, solver: &mut ComplexShift<'a>) -> Result<Complex64, ModeError> {
+    let rate = small_square(&model.representative).sqrt();
+    let start = Complex64::new(rate, 0.0);
+    let mut operator = inverse(model, solver, start)?;
+    let mut krylov = Krylov::new(operator.size());
+    krylov.start(&mut operator, BLOCK, 2);
+    for _ in 0..5 * BLOCK {
+        if !krylov.step(&mut operator) {
+            break;
+        }
+    }
+    let estimates = estimates(&krylov)?;
+    let least = estimates
+        .iter()
+        .filter_map(|estimate| mode(model, &mut operator, &krylov, estimate))
+        .map(|mode| mode.eigenvalue.norm())
+        .filter(|&size| size > 0.0)
+        .fold(f64::INFINITY, f64::min);
+    Ok(if least.is_finite() { Complex64::new(least, 0.0) } else { start })
+}
+
+fn inverse<'m, 's, 'a>(
+    model: &'m LinearModel<'a>,
+    solver: &'s mut ComplexShift<'a>,
+    shift: Complex64,
+) -> Result<Inverse<'m, 's, 'a>, ModeError> {
+    let mut tried = shift;
+    let mut result = solver.factor(&model.parts, tried);
+    // An eigenvalue happens to be at the shift.
+    for change in [1e-6, 1e-4, 1e-2] {
+        if result.is_ok() {
+            break;
+        }
+        tried = shift * Complex64::new(1.0 + change, change);
+        result = solver.factor(&model.parts, tried);
+    }
+    result.map_err(|error| model.stopped(&error))?;
+    let layout = model.system.layout();
+    let units = layout.quantities()[..layout.coordinate_count()]
+        .iter()
+        .map(|quantity| match quantity {
+            Quantity::Length => 1.0,
+            Quantity::Angle => model.representative.length,
+        })
+        .collect();
+    let room = vec![Complex64::default(); layout.size()];
+    let rate = tried.norm();
+    Ok(Inverse { model, solver, shift: tried, rate, units, right: room.clone(), product: room.clone(), room })
+}
+
+/// Builds the basis until the `wanted` largest eigenvalues have converged, or there are no more.
+fn search(
+    krylov: &mut Krylov<Complex64>,
+    operator: &mut Inverse<'_, '_, '_>,
+    wanted: usize,
+) -> Result<Vec<Estimate>, ModeError> {
+    let mut is_exhausted = krylov.start(operator, BLOCK, 2) == 0;
+    let mut since = 0;
+    loop {
+        if !is_exhausted && !krylov.step(operator) {
+            is_exhausted = krylov.start(operator, BLOCK, 2) == 0;
+        }
+        since += 1;
+        if !is_exhausted && since < BETWEEN.max(krylov.order() / 8) {
+            continue;
+        }
+        since = 0;
+        let mut estimates = estimates(krylov)?;
+        let converged = |estimate: &Estimate| estimate.residual <= TOLERANCE * estimate.value.norm();
+        let are_enough = estimates.len() >= wanted && estimates.iter().take(wanted).all(converged);
+        if are_enough || is_exhausted {
+            let largest = estimates.first().map_or(0.0, |estimate| estimate.value.norm());
+            estimates.retain(|estimate| {
+                estimate.value.norm() > NOTHING * largest && (is_exhausted || converged(estimate))
+            });
+            return Ok(estimates);
+        }
+    }
+}
+
+/// Eigenvalues of the operator among the known vectors, the largest first.
+fn estimates(krylov: &Krylov<Complex64>) -> Result<Vec<Estimate>, ModeError> {
+    let order = krylov.order();
+    let matrix = DMatrix::from_fn(order, order, |row, column| krylov.entry(row, column));
+    let schur = Schur::try_new(matrix, f64::EPSILON, 100 * order.max(10)).ok_or(ModeError::NotConverged)?;
+    let (vectors, triangle) = schur.unpack();
+    let scale = triangle.iter().fold(0.0_f64, |most, value| most.max(value.norm()));
+    let mut all: Vec<Estimate> = (0..order)
+        .map(|k| {
+            let value = triangle[(k, k)];
+            let mut own = vec![Complex64::default(); order];
+            own[k] = Complex64::new(1.0, 0.0);
+            for row in (0..k).rev() {
+                let sum: Complex64 = (row + 1..=k).map(|j| triangle[(row, j)] * own[j]).sum();
+                let gap = triangle[(row, row)] - value;
+                let least = f64::EPSILON * scale;
+                own[row] = -sum / if gap.norm() > least { gap } else { Complex64::new(least, 0.0) };
+            }
+            let mut weights: Vec<Complex64> =
+                (0..order).map(|i| (0..=k).map(|j| vectors[(i, j)] * own[j]).sum()).collect();
+            let norm = weights.iter().map(Complex64::norm_sqr).sum::<f64>().sqrt();
+            for weight in &mut weights {
+                *weight /= norm;
+            }
+            let residual = krylov.residual(&weights);
+            Estimate { value, weights, residual }
+        })
+        .collect();
+    all.sort_by(|a, b| b.value.norm().total_cmp(&a.value.norm()));
+    Ok(all)
+}
+
+/// The mode of an estimate; none for the conjugate of another.
+fn mode(
+    model: &LinearModel<'_>,
+    operator: &mut Inverse<'_, '_, '_>,
+    krylov: &Krylov<Complex64>,
+    estimate: &Estimate,
+) -> Option<Mode> {
+    let mut eigenvalue = operator.shift + estimate.value.inv();
+    if eigenvalue.im.abs() <= REAL * eigenvalue.norm() {
+        eigenvalue.im = 0.0;
+    }
+    let mut vector = krylov.combine(&estimate.weights);
+    let mut image = vec![Complex64::default(); vector.len()];
+    for _ in 0..2 {
+        operator.apply(&vector, &mut image);
+        std::mem::swap(&mut vector, &mut image);
+    }
+    let count = operator.units.len();
+    let mut shape: Vec<Complex64> =
+        vector[..count].iter().zip(&operator.units).map(|(value, unit)| value / unit).collect();
+    normalise(model, &mut shape);
+    let sizes: Vec<f64> = shape.iter().map(|value| value.norm()).collect();
+    let of_solve = (SOLVED * operator.shift.norm()).powi(2);
+    if eigenvalue.norm_sqr() <= DEFECTIVE * round_off(model, &sizes, 1.0) + of_solve {
+        eigenvalue = Complex64::default();
+    }
+    (eigenvalue.im >= 0.0).then(|| Mode::new(eigenvalue, shape, estimate.residual / estimate.value.norm()))
+}
+
+/// Unit modal mass, the largest entry real; the largest entry 1 where the mode has no mass.
+fn normalise(model: &LinearModel<'_>, shape: &mut [Complex64]) {
+    let size = model.system.layout().size();
+    let (mut room, mut product) = (vec![Complex64::default(); size], vec![Complex64::default(); size]);
+    room[..shape.len()].copy_from_slice(shape);
+    multiply(&model.pattern(), &model.parts.mass, &room, &mut product);
+    let mass: f64 = shape.iter().zip(&product).map(|(x, y)| (x.conj() * y).re).sum();
+    let largest =
+        shape.iter().fold(Complex64::default(), |most, x| if x.norm() > most.norm() { *x } else { most });
+    if largest.norm() == 0.0 {
+        return;
+    }
+    let size = if mass > 0.0 { mass.sqrt() } else { largest.norm() };
+    let factor = largest.conj() / (largest.norm() * size);
+    for value in shape {
+        *value *= factor;
+    }
+}
+
+/// Of the shapes with eigenvalue zero only independent ones are kept.
+fn keep_independent_rigid_modes(modes: &mut Vec<Mode>) {
+    let mut basis: Vec<Vec<Complex64>> = Vec::new();
+    modes.retain(|mode| {
+        if mode.eigenvalue != Complex64::default() {
+            return true;
+        }
+        let mut rest = mode.shape.clone();
+        let whole: f64 = rest.iter().map(Complex64::norm_sqr).sum();
+        for known in &basis {
+            let part: Complex64 = known.iter().zip(&rest).map(|(x, y)| x.conj() * y).sum();
+            for (value, x) in rest.iter_mut().zip(known) {
+                *value -= part * x;
+            }
+        }
+        let left: f64 = rest.iter().map(Complex64::norm_sqr).sum();
+        if left <= SAME * SAME * whole {
+            return false;
+        }
+        let norm = left.sqrt();
+        basis.push(rest.into_iter().map(|value| value / norm).collect());
+        true
+    });
+}

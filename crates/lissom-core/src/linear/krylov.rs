@@ -1,0 +1,191 @@
+//! A band Krylov basis (Ruhe 1979): vectors wait in a queue, each image under the operator is made orthogonal to all of the
+//! basis and joins its end. Several starting vectors find eigenvalues of that multiplicity; new ones may join at any time.
+//! Knows no mechanics.
+
+use std::collections::VecDeque;
+
+use lissom_solver::Scalar;
+
+/// What is left of an image after orthogonalisation, relative to the image, if it is a combination of the basis.
+const DEPENDENT: f64 = 1e-11;
+
+/// An operator with the inner product in which its basis is orthonormal.
+pub(super) trait Operator<S> {
+    /// Length of the vectors.
+    fn size(&self) -> usize;
+    /// The image of a vector.
+    fn apply(&mut self, vector: &[S], image: &mut [S]);
+    /// The weighted vector w with ⟨x, y⟩ = Σ conj(w(x)_i) y_i.
+    fn weigh(&mut self, vector: &[S], weighted: &mut [S]);
+}
+
+/// Conjugate; the number itself where it is real.
+pub(super) fn conjugate<S: Scalar>(value: S) -> S {
+    let [real, imaginary] = value.parts();
+    S::from_parts(real, -imaginary)
+}
+
+/// Σ conj(a_i) b_i.
+pub(super) fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
+    a.iter().zip(b).fold(S::zero(), |sum, (&a, &b)| sum + conjugate(a) * b)
+}
+
+/// y += factor x.
+pub(super) fn add<S: Scalar>(y: &mut [S], factor: S, x: &[S]) {
+    for (y, &x) in y.iter_mut().zip(x) {
+        *y += factor * x;
+    }
+}
+
+/// Pseudo-random numbers in (-1, 1), the same in every run (SplitMix64, Steele et al. 2014).
+pub(super) struct Noise(pub(super) u64);
+
+impl Noise {
+    pub(super) fn number(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut bits = self.0;
+        bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}
+
+/// The basis, and the operator in it.
+pub(super) struct Krylov<S> {
+    pub(super) basis: Vec<Vec<S>>,
+    weighted: Vec<Vec<S>>,
+    /// Columns of the operator's matrix in the basis, as long as the basis was when they were made.
+    pub(super) columns: Vec<Vec<S>>,
+    /// Numbers of basis vectors whose images are not yet known.
+    waiting: VecDeque<usize>,
+    image: Vec<S>,
+    weights: Vec<S>,
+    noise: Noise,
+}
+
+impl<S: Scalar> Krylov<S> {
+    pub(super) fn new(size: usize) -> Self {
+        Self {
+            basis: Vec::new(),
+            weighted: Vec::new(),
+            columns: Vec::new(),
+            waiting: VecDeque::new(),
+            image: vec![S::zero(); size],
+            weights: vec![S::zero(); size],
+            noise: Noise(1),
+        }
+    }
+
+    /// Number of basis vectors whose images are known.
+    pub(super) fn order(&self) -> usize {
+        self.columns.len()
+    }
+
+    /// Adds so many random vectors, after `purifications` applications of the operator each; gives how many are independent of
+    /// the basis.
+    pub(super) fn start(
+        &mut self,
+        operator: &mut dyn Operator<S>,
+        count: usize,
+        purifications: usize,
+    ) -> usize {
+        let mut added = 0;
+        for _ in 0..count {
+            let mut vector: Vec<S> =
+                (0..operator.size()).map(|_| S::from_real(self.noise.number())).collect();
+            for _ in 0..purifications {
+                operator.apply(&vector, &mut self.image);
+                std::mem::swap(&mut vector, &mut self.image);
+                operator.weigh(&vector, &mut self.weights);
+                let norm = product(&self.weights, &vector).parts()[0].max(0.0).sqrt();
+                if norm > 0.0 && norm.is_finite() {
+                    for value in &mut vector {
+                        *value *= S::from_real(norm.recip());
+                    }
+                }
+            }
+            self.image.copy_from_slice(&vector);
+            added += usize::from(self.append(operator).is_some());
+        }
+        added
+    }
+
+    /// Finds the image of the next vector that waits; false if none does.
+    pub(super) fn step(&mut self, operator: &mut dyn Operator<S>) -> bool {
+        let Some(next) = self.waiting.pop_front() else { return false };
+        debug_assert_eq!(next, self.columns.len());
+        let vector = std::mem::take(&mut self.basis[next]);
+        operator.apply(&vector, &mut self.image);
+        self.basis[next] = vector;
+        let before = self.basis.len();
+        let (mut column, norm) = self.append_image(operator);
+        if self.basis.len() > before {
+            column.push(S::from_real(norm));
+        }
+        self.columns.push(column);
+        true
+    }
+
+    /// The operator's matrix among the vectors whose images are known, and its rows below, by column.
+    pub(super) fn entry(&self, row: usize, column: usize) -> S {
+        self.columns[column].get(row).copied().unwrap_or(S::zero())
+    }
+
+    /// Σ_j y_j v_j.
+    pub(super) fn combine(&self, weights: &[S]) -> Vec<S> {
+        let mut sum = vec![S::zero(); self.image.len()];
+        for (&weight, vector) in weights.iter().zip(&self.basis) {
+            add(&mut sum, weight, vector);
+        }
+        sum
+    }
+
+    /// Norm of what the operator takes out of the known vectors, for their combination `weights`.
+    pub(super) fn residual(&self, weights: &[S]) -> f64 {
+        let order = self.order();
+        let below = (order..self.basis.len()).map(|row| {
+            let sum = weights
+                .iter()
+                .enumerate()
+                .fold(S::zero(), |sum, (column, &weight)| sum + self.entry(row, column) * weight);
+            let [real, imaginary] = sum.parts();
+            real * real + imaginary * imaginary
+        });
+        below.sum::<f64>().sqrt()
+    }
+
+    fn append(&mut self, operator: &mut dyn Operator<S>) -> Option<usize> {
+        let before = self.basis.len();
+        self.append_image(operator);
+        (self.basis.len() > before).then_some(before)
+    }
+
+    /// Makes the image orthogonal to the basis and appends what is left, if anything; gives the coefficients and the norm of
+    /// what is left.
+    fn append_image(&mut self, operator: &mut dyn Operator<S>) -> (Vec<S>, f64) {
+        operator.weigh(&self.image, &mut self.weights);
+        let whole = product(&self.weights, &self.image).parts()[0].max(0.0).sqrt();
+        let mut column = vec![S::zero(); self.basis.len()];
+        let mut norm = whole;
+        // Twice is enough (Parlett 1980); a third time where nearly nothing is left.
+        for _ in 0..3 {
+            for (coefficient, (vector, weighted)) in
+                column.iter_mut().zip(self.basis.iter().zip(&self.weighted))
+            {
+                let part = product(weighted, &self.image);
+                *coefficient += part;
+                add(&mut self.image, S::zero() - part, vector);
+            }
+            operator.weigh(&self.image, &mut self.weights);
+            norm = product(&self.weights, &self.image).parts()[0].max(0.0).sqrt();
+        }
+        if norm <= DEPENDENT * whole || !norm.is_finite() || norm == 0.0 {
+            return (column, 0.0);
+        }
+        let factor = S::from_real(norm.recip());
+        self.waiting.push_back(self.basis.len());
+        self.basis.push(self.image.iter().map(|&value| value * factor).collect());
+        self.weighted.push(self.weights.iter().map(|&value| value * factor).collect());
+        (column, norm)
+    }
+}

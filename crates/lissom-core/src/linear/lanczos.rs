@@ -1,0 +1,354 @@
+//! Modes without damping and gyroscopic terms: K x + Bᵀ μ = λ M x, B x = 0, by shift and invert.
+//!
+//! The operator x ↦ (K - σM)⁻¹ M x on the constraints is symmetric in the inner product of M; its eigenvalues are
+//! 1/(λ - σ). One multiplication by it removes what belongs to infinite eigenvalues [Ericsson and Ruhe 1980; Nour-Omid et al.
+//! 1987]. With the shift below all eigenvalues its pivots tell that none lies lower; a second factorisation above the last
+//! mode counts how many there are (Sylvester), so that none is missed.
+
+use lissom_solver::FactorError;
+use nalgebra::{DMatrix, SymmetricEigen};
+
+use super::krylov::{Krylov, Operator, product};
+use super::mode::{Completeness, ModeOptions};
+use super::model::{LinearError, LinearModel};
+use super::shifted::RealShift;
+
+/// Vectors to start with: eigenvalues of this multiplicity are found at once.
+const BLOCK: usize = 6;
+/// Residual of an accepted mode, relative to its eigenvalue of the operator.
+const TOLERANCE: f64 = 1e-9;
+/// Steps between two looks at the eigenvalues.
+const BETWEEN: usize = 8;
+/// Eigenvalues closer than this, relative to their distance from the shift, are taken for one cluster.
+const CLUSTER: f64 = 1e-5;
+/// Modes sought beyond those asked for, so that the last one is not cut out of a cluster.
+const BEYOND: usize = 4;
+/// Times the search is started again with new vectors.
+const MOST_RESTARTS: usize = 6;
+/// Round-off of a solve, relative to the eigenvalue's distance from the shift.
+const SOLVED: f64 = 1e-10;
+/// Eigenvalues of the operator below this part of the largest one are round-off.
+const NOTHING: f64 = 1e-14;
+/// Round-off of a stiffness over the terms it is the sum of.
+const ROUND_OFF: f64 = 256.0 * f64::EPSILON;
+
+/// An eigenvalue λ [1/s²] and its shape, normalised to unit modal mass.
+pub(super) struct Pair {
+    pub(super) square: f64,
+    pub(super) shape: Vec<f64>,
+    /// Round-off of the eigenvalue: below it a mode counts as rigid [1/s²].
+    pub(super) round_off: f64,
+    pub(super) residual: f64,
+}
+
+pub(super) struct Found {
+    pub(super) pairs: Vec<Pair>,
+    pub(super) completeness: Completeness,
+}
+
+struct Inverse<'m, 's, 'a> {
+    model: &'m LinearModel<'a>,
+    solver: &'s mut RealShift<'a>,
+    room: Vec<f64>,
+    weighted: Vec<f64>,
+}
+
+impl Inverse<'_, '_, '_> {
+    fn multiply(&mut self, values: &[f64], vector: &[f64], result: &mut [f64]) {
+        let count = vector.len();
+        self.room[..count].copy_from_slice(vector);
+        self.room[count..].fill(0.0);
+        self.model.pattern().multiply(values, &self.room, &mut self.weighted);
+        result.copy_from_slice(&self.weighted[..count]);
+    }
+}
+
+impl Operator<f64> for Inverse<'_, '_, '_> {
+    fn size(&self) -> usize {
+        self.model.coordinate_count()
+    }
+
+    fn apply(&mut self, vector: &[f64], image: &mut [f64]) {
+        let model = self.model;
+        self.multiply(&model.parts.mass, vector, image);
+        let count = image.len();
+        self.room[..count].copy_from_slice(image);
+        self.room[count..].fill(0.0);
+        self.solver.solve(&mut self.room);
+        image.copy_from_slice(&self.room[..count]);
+    }
+
+    fn weigh(&mut self, vector: &[f64], weighted: &mut [f64]) {
+        let model = self.model;
+        self.multiply(&model.parts.mass, vector, weighted);
+    }
+}
+
+/// Eigenvalues of the operator among the known vectors: 1/(λ - σ), coefficients and residuals, the largest first.
+fn ritz(krylov: &Krylov<f64>) -> Vec<(f64, Vec<f64>, f64)> {
+    let order = krylov.order();
+    let matrix = DMatrix::from_fn(order, order, |row, column| {
+        0.5 * (krylov.entry(row, column) + krylov.entry(column, row))
+    });
+    let SymmetricEigen { eigenvectors, eigenvalues } = SymmetricEigen::new(matrix);
+    let mut all: Vec<(f64, Vec<f64>, f64)> = (0..order)
+        .map(|k| {
+            let weights: Vec<f64> = eigenvectors.column(k).iter().copied().collect();
+            let residual = krylov.residual(&weights);
+            (eigenvalues[k], weights, residual)
+        })
+        .collect();
+    all.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
+    all
+}
+
+fn is_converged((value, _, residual): &(f64, Vec<f64>, f64)) -> bool {
+    *residual <= TOLERANCE * value.abs()
+}
+
+/// Finds the lowest modes, or those nearest to a given frequency.
+pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Found, LinearError> {
+    let mut solver = RealShift::new(model.system, &model.representative);
+    let (shift, below_shift) = match options.shift {
+        Some(frequency) => {
+            let square = (std::f64::consts::TAU * frequency).powi(2);
+            factor_near(model, &mut solver, square)?
+        }
+        None => shift_below(model, &mut solver)?,
+    };
+    search(model, solver, options, shift, below_shift)
+}
+
+/// Factors at `shift` or, where an eigenvalue happens to be there, beside it.
+fn factor_near(
+    model: &LinearModel<'_>,
+    solver: &mut RealShift<'_>,
+    shift: f64,
+) -> Result<(f64, usize), LinearError> {
+    let mut last = None;
+    for change in [0.0, 1e-6, -3e-6, 1e-5, -1e-4] {
+        let shifted = shift + change * shift.abs().max(f64::MIN_POSITIVE);
+        match solver.factor(&model.parts, shifted) {
+            Ok(below) => return Ok((shifted, below)),
+            Err(error) => last = Some(error),
+        }
+    }
+    Err(model.stopped(&last.unwrap_or(FactorError::NotFinite { unknown: 0 })))
+}
+
+/// A shift below all eigenvalues, not far from the lowest ones that are not zero.
+fn shift_below<'a>(model: &LinearModel<'a>, solver: &mut RealShift<'a>) -> Result<(f64, usize), LinearError> {
+    let mut square = solver.small_square();
+    let mut below = 1;
+    // Unstable modes lie below zero.
+    for _ in 0..60 {
+        below = factor_near(model, solver, -square)?.1;
+        if below == 0 {
+            break;
+        }
+        square *= 4.0;
+    }
+    if below > 0 {
+        return Ok((-square, below));
+    }
+    // A short search tells where the lowest modes lie that are not rigid.
+    let mut krylov = Krylov::new(model.coordinate_count());
+    let lowest = {
+        let mut operator = inverse(model, solver);
+        krylov.start(&mut operator, BLOCK, 2);
+        for _ in 0..4 * BLOCK {
+            if !krylov.step(&mut operator) {
+                break;
+            }
+        }
+        let estimates = ritz(&krylov);
+        let elastic = estimates.iter().filter_map(|(value, weights, _)| {
+            let lambda = value.recip() - square;
+            let shape = krylov.combine(weights);
+            (lambda > round_off(model, &shape, 1.0)).then_some(lambda)
+        });
+        elastic.fold(f64::INFINITY, f64::min)
+    };
+    if !lowest.is_finite() || lowest >= square {
+        return Ok((-square, 0));
+    }
+    // Unstable modes stay above the shift.
+    let mut nearer = lowest;
+    while nearer < square {
+        let (shift, below) = factor_near(model, solver, -nearer)?;
+        if below == 0 {
+            return Ok((shift, 0));
+        }
+        nearer *= 4.0;
+    }
+    factor_near(model, solver, -square)
+}
+
+fn inverse<'m, 's, 'a>(model: &'m LinearModel<'a>, solver: &'s mut RealShift<'a>) -> Inverse<'m, 's, 'a> {
+    let size = model.system.layout().size();
+    Inverse { model, solver, room: vec![0.0; size], weighted: vec![0.0; size] }
+}
+
+fn search<'a>(
+    model: &LinearModel<'a>,
+    mut solver: RealShift<'a>,
+    options: &ModeOptions,
+    shift: f64,
+    below_shift: usize,
+) -> Result<Found, LinearError> {
+    let mut krylov = Krylov::new(model.coordinate_count());
+    let wanted = options.count + BEYOND;
+    let mut is_exhausted = krylov.start(&mut inverse(model, &mut solver), BLOCK, 2) == 0;
+    let mut restarts = 0;
+    loop {
+        let estimates = {
+            let mut operator = inverse(model, &mut solver);
+            let mut since = 0;
+            loop {
+                let more = krylov.step(&mut operator);
+                if !more && krylov.start(&mut operator, BLOCK, 2) == 0 {
+                    is_exhausted = true;
+                }
+                since += 1;
+                if !is_exhausted && since < BETWEEN.max(krylov.order() / 8) {
+                    continue;
+                }
+                since = 0;
+                let estimates = ritz(&krylov);
+                let done = estimates.iter().take(wanted).all(is_converged) && estimates.len() >= wanted;
+                if done || is_exhausted {
+                    break estimates;
+                }
+            }
+        };
+        // The nearest ones, as far as no cluster is cut in two.
+        let found: Vec<&(f64, Vec<f64>, f64)> = estimates
+            .iter()
+            .filter(|estimate| estimate.0.abs() > NOTHING * estimates[0].0.abs())
+            .filter(|estimate| is_exhausted || is_converged(estimate))
+            .collect();
+        let keep =
+            whole_clusters(&found.iter().map(|(value, ..)| value.abs()).collect::<Vec<_>>(), options.count);
+        let mut pairs: Vec<Pair> = found[..keep]
+            .iter()
+            .map(|(value, weights, residual)| {
+                pair(model, &mut solver, &krylov, shift, (*value, weights, *residual))
+            })
+            .collect();
+        pairs.sort_by(|a, b| a.square.total_cmp(&b.square));
+        let next = found.get(keep).map(|(value, ..)| value.abs());
+        let missing = missing(model, &pairs, shift, below_shift, next);
+        let completeness = match missing {
+            Count::None => Completeness::Counted,
+            Count::Some(missing) if restarts == MOST_RESTARTS || is_exhausted => {
+                Completeness::Missing(missing)
+            }
+            Count::Unknown if restarts == MOST_RESTARTS || is_exhausted => Completeness::Unknown,
+            Count::Some(_) | Count::Unknown => {
+                restarts += 1;
+                let added = krylov.start(&mut inverse(model, &mut solver), BLOCK, 2);
+                is_exhausted = added == 0;
+                continue;
+            }
+        };
+        pairs.sort_by(|a, b| (a.square - shift).abs().total_cmp(&(b.square - shift).abs()));
+        pairs.truncate(options.count);
+        pairs.sort_by(|a, b| a.square.total_cmp(&b.square));
+        return Ok(Found { pairs, completeness });
+    }
+}
+
+/// The first so many of values in descending order, at least `count`, that end where a gap is.
+fn whole_clusters(values: &[f64], count: usize) -> usize {
+    (count..values.len())
+        .find(|&keep| values[keep] < (1.0 - CLUSTER) * values[keep - 1])
+        .unwrap_or(values.len())
+}
+
+/// How many modes the search has not seen.
+enum Count {
+    None,
+    Some(usize),
+    Unknown,
+}
+
+/// Compares the number of modes found with the number of eigenvalues between shifts on both sides of them.
+fn missing(
+    model: &LinearModel<'_>,
+    pairs: &[Pair],
+    shift: f64,
+    below_shift: usize,
+    next: Option<f64>,
+) -> Count {
+    let Some(farthest) = pairs.iter().map(|pair| (pair.square - shift).abs()).reduce(f64::max) else {
+        return Count::None;
+    };
+    let mut solver = RealShift::new(model.system, &model.representative);
+    let mut count = |side: f64| {
+        // Half way to the next eigenvalue, or well beyond the last one there is; elsewhere if a pivot vanishes there.
+        [0.5, 0.4, 0.6, 0.3, 0.7].iter().find_map(|part| {
+            let distance =
+                next.map_or((1.5 + part) * farthest, |next| farthest + part * (next.recip() - farthest));
+            solver.factor(&model.parts, shift + side * distance).ok()
+        })
+    };
+    let Some(above) = count(1.0) else { return Count::Unknown };
+    let below = if below_shift == 0 { Some(0) } else { count(-1.0) };
+    let Some(below) = below else { return Count::Unknown };
+    match above.saturating_sub(below).checked_sub(pairs.len()) {
+        Some(0) => Count::None,
+        Some(missing) => Count::Some(missing),
+        None => Count::Unknown,
+    }
+}
+
+/// A mode from its coefficients, purified by one more multiplication.
+fn pair<'a>(
+    model: &LinearModel<'a>,
+    solver: &mut RealShift<'a>,
+    krylov: &Krylov<f64>,
+    shift: f64,
+    (value, weights, residual): (f64, &[f64], f64),
+) -> Pair {
+    let mut operator = inverse(model, solver);
+    let vector = krylov.combine(weights);
+    let mut shape = vec![0.0; vector.len()];
+    operator.apply(&vector, &mut shape);
+    let mut weighted = vec![0.0; vector.len()];
+    operator.weigh(&shape, &mut weighted);
+    let modal_mass = product(&weighted, &shape);
+    let factor = modal_mass.sqrt().recip();
+    for entry in &mut shape {
+        *entry *= factor;
+    }
+    // Of two ways to the eigenvalue the one that loses less: far from the shift its digits are lost, with a stiffness that
+    // nearly cancels those of Rayleigh's quotient.
+    let of_quotient = round_off(model, &shape, 1.0);
+    let of_shift = SOLVED * value.recip().abs();
+    let square = if of_quotient < of_shift {
+        let mut forces = vec![0.0; vector.len()];
+        operator.multiply(&model.parts.stiffness, &shape, &mut forces);
+        product(&forces, &shape)
+    } else {
+        shift + value.recip()
+    };
+    let round_off = of_quotient + of_shift;
+    Pair { square, round_off, residual: residual / value.abs(), shape }
+}
+
+/// Round-off of xᵀKx over the modal mass: terms that would cancel in exact arithmetic.
+pub(super) fn round_off(model: &LinearModel<'_>, shape: &[f64], modal_mass: f64) -> f64 {
+    let pattern = model.pattern();
+    let mut sum = 0.0;
+    for (column, &value) in shape.iter().enumerate() {
+        let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+        let terms: f64 = pattern.row_indices()[range.clone()]
+            .iter()
+            .zip(&model.parts.stiffness[range])
+            .filter(|&(&row, _)| row < shape.len())
+            .map(|(&row, entry)| (entry * shape[row]).abs())
+            .sum();
+        sum += terms * value.abs();
+    }
+    ROUND_OFF * sum / modal_mass
+}

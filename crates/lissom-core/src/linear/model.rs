@@ -1,0 +1,289 @@
+//! Mass, damping, stiffness and constraints of a system at a state, as sparse values on the tangent's pattern.
+
+use std::sync::Arc;
+
+use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
+use lissom_solver::{FactorError, Pattern, SolverKind};
+
+use super::shifted::RealShift;
+use crate::analysis::InitialError;
+use crate::analysis::initial::Initial;
+use crate::joints::attached::Increments;
+use crate::scaling::Representative;
+use crate::system::{
+    Augmentation, Chart, Kinematics, LOCKED, Linearization, MotionChange, Point, State, System,
+};
+
+/// An entry and its mirror image differ if by more than this part of the larger one …
+const UNEQUAL: f64 = 1e-9;
+/// … and by more than this part of the largest entries of their rows, below which they are round-off.
+const ROUND_OFF: f64 = 1e-11;
+
+/// A linear model that does not exist.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum LinearError {
+    /// A pivot vanished or a number is not finite.
+    #[error(
+        "the linear model at t = {time:.6e} s: elimination stops at the {unknown}; give it mass, stiffness or a joint"
+    )]
+    Factor {
+        /// Time of the state [s].
+        time: f64,
+        /// Name of the unknown.
+        unknown: String,
+    },
+    /// Accelerations and multipliers of a moving state do not exist.
+    #[error("the linear model at t = {time:.6e} s: {error}")]
+    Accelerations {
+        /// Time of the state [s].
+        time: f64,
+        /// What went wrong.
+        error: InitialError,
+    },
+}
+
+/// Coefficients of the linearised equations, each on the values of the tangent's pattern.
+pub struct LinearModel<'a> {
+    pub(super) system: &'a System,
+    pub(super) at: Kinematics,
+    pub(super) parts: Linearization,
+    pub(super) representative: Representative,
+    /// Whether there is no damping and no gyroscopic term, and the stiffness is symmetric.
+    is_conservative: bool,
+    is_at_rest: bool,
+    imbalance: f64,
+    unsteadiness: f64,
+    multipliers: Vec<f64>,
+}
+
+impl<'a> LinearModel<'a> {
+    /// Linearises `system` at `state`. Accelerations and multipliers are found anew: those that balance the state, at
+    /// rest if all its velocities are zero.
+    ///
+    /// # Errors
+    /// If they do not exist.
+    pub fn of(system: &'a System, state: &State, solver: &SolverKind) -> Result<Self, LinearError> {
+        let mut state = state.clone();
+        let is_at_rest = is_at_rest(&state.kinematics);
+        let zeros = vec![0.0; system.layout().multiplier_rows().len()];
+        let unloaded = Linearization::of_state(system, &state.kinematics);
+        let representative = Representative::of(system, &state.kinematics, &unloaded);
+        let time = state.kinematics.time;
+        let (mut imbalance, mut unsteadiness) = (0.0, 0.0);
+        if is_at_rest {
+            for node in &mut state.kinematics.nodes {
+                node.acceleration.fill(0.0);
+            }
+            for coordinate in &mut state.kinematics.coordinates {
+                coordinate.acceleration = 0.0;
+            }
+            imbalance = hold(system, &mut state, &unloaded, &representative, &zeros)?;
+        } else {
+            let mut initial = Initial::new(system, &state, &representative, solver);
+            initial
+                .accelerations(system, &mut state)
+                .map_err(|error| LinearError::Accelerations { time, error })?;
+            unsteadiness = unsteadiness_of(&state.kinematics, representative.length);
+        }
+        let mut parts = Linearization::new(system);
+        let (still, unchanged) = nothing(&state.kinematics);
+        let point = point(&state.kinematics, (&still, &unchanged), &state.multipliers, &zeros);
+        let chart = if is_at_rest { Chart::Body } else { Chart::Departures(&state.kinematics.nodes) };
+        system.linearize(&point, chart, &mut parts);
+        if !is_at_rest {
+            add_accelerated_mass(system, &state.kinematics, &mut parts);
+        }
+        let pattern = system.pattern();
+        let is_conservative = parts.damping.iter().all(|&value| value == 0.0)
+            && is_symmetric(&pattern, &parts.stiffness, &parts.mass);
+        Ok(Self {
+            system,
+            at: state.kinematics,
+            parts,
+            representative,
+            is_conservative,
+            is_at_rest,
+            imbalance,
+            unsteadiness,
+            multipliers: state.multipliers,
+        })
+    }
+
+    /// The system.
+    pub fn system(&self) -> &System {
+        self.system
+    }
+
+    /// The state it belongs to.
+    pub fn kinematics(&self) -> &Kinematics {
+        &self.at
+    }
+
+    /// Multipliers of the state, by which constraints have a geometric stiffness [N, N m].
+    pub fn multipliers(&self) -> &[f64] {
+        &self.multipliers
+    }
+
+    /// Mass, damping, stiffness and constraints on the pattern of the system.
+    pub fn parts(&self) -> &Linearization {
+        &self.parts
+    }
+
+    /// Whether it has neither damping nor gyroscopic terms and a symmetric stiffness: squares of eigenvalues are real.
+    pub fn is_conservative(&self) -> bool {
+        self.is_conservative
+    }
+
+    /// Whether all velocities are zero.
+    pub fn is_at_rest(&self) -> bool {
+        self.is_at_rest
+    }
+
+    /// How far a state at rest is from equilibrium: the largest displacement, in units of the model's length, that the
+    /// unbalanced forces cause [-]. Zero for a moving state.
+    pub fn imbalance(&self) -> f64 {
+        self.imbalance
+    }
+
+    /// How fast the twists of a moving state change in the axes of their nodes, relative to how fast they turn [-]: zero in a
+    /// steady motion, whose linear model has constant coefficients.
+    pub fn unsteadiness(&self) -> f64 {
+        self.unsteadiness
+    }
+
+    pub(super) fn pattern(&self) -> Arc<Pattern> {
+        self.system.pattern()
+    }
+
+    pub(super) fn coordinate_count(&self) -> usize {
+        self.system.layout().coordinate_count()
+    }
+
+    /// An error of a factorisation, with the unknown's name.
+    pub(super) fn stopped(&self, error: &FactorError) -> LinearError {
+        stopped(self.system, self.at.time, error)
+    }
+}
+
+fn stopped(system: &System, time: f64, error: &FactorError) -> LinearError {
+    let (FactorError::ZeroPivot { unknown, .. } | FactorError::NotFinite { unknown }) = error;
+    LinearError::Factor { time, unknown: system.layout().name_of(*unknown) }
+}
+
+fn is_at_rest(at: &Kinematics) -> bool {
+    at.nodes.iter().all(|node| node.twist == Vector6::zeros())
+        && at.coordinates.iter().all(|coordinate| coordinate.rate == 0.0)
+}
+
+fn nothing(at: &Kinematics) -> (Vec<MotionChange>, Vec<f64>) {
+    (vec![MotionChange::none(); at.nodes.len()], vec![0.0; at.coordinates.len()])
+}
+
+fn point<'b>(
+    at: &'b Kinematics,
+    (nodes, coordinates): (&'b [MotionChange], &'b [f64]),
+    multipliers: &'b [f64],
+    violations: &'b [f64],
+) -> Point<'b> {
+    Point {
+        at,
+        stressed: at,
+        increments: Increments { start: at, nodes, coordinates, joints: None },
+        multipliers,
+        violations,
+        augmentation: Augmentation::none(),
+    }
+}
+
+/// Multipliers that hold a state at rest, from a solve with stiffness and mass; gives what is left as a displacement.
+fn hold(
+    system: &System,
+    state: &mut State,
+    unloaded: &Linearization,
+    representative: &Representative,
+    zeros: &[f64],
+) -> Result<f64, LinearError> {
+    let time = state.kinematics.time;
+    let mut solver = RealShift::new(system, representative);
+    solver.factor(unloaded, -solver.small_square()).map_err(|error| stopped(system, time, &error))?;
+    let layout = system.layout();
+    let count = layout.coordinate_count();
+    let length = representative.length;
+    let (still, unchanged) = nothing(&state.kinematics);
+    let mut residual = vec![0.0; layout.size()];
+    state.multipliers.fill(0.0);
+    let mut imbalance = 0.0;
+    // Refined: multipliers are as exact as forces.
+    for _ in 0..3 {
+        let at = point(&state.kinematics, (&still, &unchanged), &state.multipliers, zeros);
+        system.residual(&at, &mut residual);
+        // Places stay: violations are none of the state's concern here.
+        residual[count..].fill(0.0);
+        solver.solve(&mut residual);
+        for (multiplier, change) in state.multipliers.iter_mut().zip(&residual[count..]) {
+            *multiplier -= solver.multiplier_factor() * change;
+        }
+        let quantities = layout.quantities();
+        imbalance = residual[..count].iter().enumerate().fold(0.0_f64, |most, (row, value)| {
+            let unit = match quantities[row] {
+                crate::joints::Quantity::Length => 1.0,
+                crate::joints::Quantity::Angle => length,
+            };
+            most.max((value * unit / length).abs())
+        });
+    }
+    Ok(imbalance)
+}
+
+/// Largest change of a twist in its node's axes against the squares of the rates there are.
+fn unsteadiness_of(at: &Kinematics, length: f64) -> f64 {
+    let size = |twist: &Vector6| {
+        let (v, w) = (twist.fixed_rows::<3>(0).norm(), twist.fixed_rows::<3>(3).norm());
+        (v / length).max(w)
+    };
+    let rate = at.nodes.iter().fold(0.0_f64, |most, node| most.max(size(&node.twist)));
+    let change = at.nodes.iter().fold(0.0_f64, |most, node| most.max(size(&node.acceleration)));
+    if rate > 0.0 { change / (rate * rate) } else { 0.0 }
+}
+
+/// Adds M ad_V̇ to the stiffness.
+fn add_accelerated_mass(system: &System, at: &Kinematics, parts: &mut Linearization) {
+    let pattern = system.pattern();
+    for (node, motion) in at.nodes.iter().enumerate() {
+        let rows = system.layout().rows_of_node(node);
+        // Nodes without rotations have nothing to be turned.
+        if rows.contains(&LOCKED) || motion.acceleration == Vector6::zeros() {
+            continue;
+        }
+        let turning: Matrix6 = lie_bracket_matrix(&motion.acceleration);
+        let starts = rows.map(|row| pattern.column_starts()[row as usize]);
+        let first = pattern.column(rows[0] as usize);
+        for (offset, &row) in first.iter().enumerate() {
+            // The columns of a node have one pattern but for drives, which see no node.
+            let mass = starts.map(|start| parts.mass[start + offset]);
+            debug_assert!(starts.iter().all(|&start| pattern.row_indices()[start + offset] == row));
+            for j in 0..6 {
+                parts.stiffness[starts[j] + offset] += (0..6).map(|i| mass[i] * turning[(i, j)]).sum::<f64>();
+            }
+        }
+    }
+}
+
+fn is_symmetric(pattern: &Pattern, stiffness: &[f64], mass: &[f64]) -> bool {
+    [stiffness, mass].iter().all(|values| {
+        let range = |column: usize| pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+        let largest: Vec<f64> = (0..pattern.size())
+            .map(|column| values[range(column)].iter().fold(0.0, |most: f64, value| most.max(value.abs())))
+            .collect();
+        (0..pattern.size()).all(|column| {
+            let rows = pattern.column(column).iter().zip(&values[range(column)]);
+            rows.filter(|&(&row, _)| row > column).all(|(&row, &value)| {
+                let mirror = pattern.position(column, row).map_or(0.0, |at| values[at]);
+                let difference = (value - mirror).abs();
+                difference <= UNEQUAL * value.abs().max(mirror.abs())
+                    || difference <= ROUND_OFF * (largest[row] * largest[column]).sqrt()
+            })
+        })
+    })
+}

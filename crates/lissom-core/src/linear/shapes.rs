@@ -1,0 +1,84 @@
+//! Shapes of modes as seen from outside: displacement and rotation of every node in global axes, kinetic energy by part.
+
+use std::collections::BTreeMap;
+
+use lissom_motion::Vector3;
+use num_complex::Complex64;
+
+use super::mode::Mode;
+use super::model::LinearModel;
+use crate::system::LOCKED;
+
+/// What a node does in a mode, in global axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NodeShape {
+    /// Name of the node.
+    pub node: String,
+    /// Its place in the state about which the mode oscillates [m].
+    pub position: [f64; 3],
+    /// Displacement [m, for unit modal mass].
+    pub displacement: [Complex64; 3],
+    /// Rotation [rad, for unit modal mass].
+    pub rotation: [Complex64; 3],
+}
+
+impl LinearModel<'_> {
+    /// The shape of a mode at every node but the ground.
+    pub fn shape(&self, mode: &Mode) -> Vec<NodeShape> {
+        let layout = self.system.layout();
+        (1..layout.node_count())
+            .map(|node| {
+                let frame = self.at.nodes[node].frame;
+                let rows = layout.rows_of_node(node);
+                let turned = |first: usize| {
+                    let part = |take: fn(&Complex64) -> f64| {
+                        let own = Vector3::from_fn(|k, _| match rows[first + k] {
+                            LOCKED => 0.0,
+                            row => take(&mode.shape[row as usize]),
+                        });
+                        frame.rotation.apply(&own)
+                    };
+                    let (real, imaginary) = (part(|value| value.re), part(|value| value.im));
+                    [0, 1, 2].map(|k| Complex64::new(real[k], imaginary[k]))
+                };
+                NodeShape {
+                    node: layout.node_name(node).to_owned(),
+                    position: [frame.position.x, frame.position.y, frame.position.z],
+                    displacement: turned(0),
+                    rotation: turned(3),
+                }
+            })
+            .collect()
+    }
+
+    /// Share of each part in the kinetic energy of a mode, by name: a beam is one part, so is a body. Sums up to 1.
+    pub fn kinetic_shares(&self, mode: &Mode) -> BTreeMap<String, f64> {
+        let layout = self.system.layout();
+        let mut shares = BTreeMap::new();
+        for inertia in self.system.inertias() {
+            let rows = layout.rows_of_node(inertia.node());
+            let value = |k: usize| match rows[k] {
+                LOCKED => Complex64::default(),
+                row => mode.shape[row as usize],
+            };
+            let energy: f64 = (0..6)
+                .flat_map(|i| (0..6).map(move |j| (i, j)))
+                .map(|(i, j)| (value(i).conj() * inertia.mass()[(i, j)] * value(j)).re)
+                .sum();
+            *shares.entry(part_of(layout.node_name(inertia.node())).to_owned()).or_insert(0.0) += energy;
+        }
+        let total: f64 = shares.values().sum();
+        if total > 0.0 {
+            for share in shares.values_mut() {
+                *share /= total;
+            }
+        }
+        shares
+    }
+}
+
+/// The part a node belongs to: the beam of `beam@0.5`, `beam.start` or `beam.end`, or the body itself.
+fn part_of(node: &str) -> &str {
+    let base = node.split_once('@').map_or(node, |(beam, _)| beam);
+    base.strip_suffix(".start").or_else(|| base.strip_suffix(".end")).unwrap_or(base)
+}

@@ -1,0 +1,156 @@
+//! The saddle-point matrix s² M + s D + K with the constraints, scaled, augmented and factored without pivoting.
+//!
+//! With time in units of 1/|s| it is the tangent of a scheme whose rate and curvature are s/|s| and s²/|s|² times the
+//! increment: the same scaling, augmented term and equilibration serve.
+
+use lissom_solver::{FactorError, LinearSolver, Multifrontal, Symmetric};
+use num_complex::Complex64;
+
+use crate::analysis::compliance::Compliance;
+use crate::equilibration::Equilibration;
+use crate::scaling::{Representative, Scaled};
+use crate::schemes::Weights;
+use crate::system::{Linearization, System};
+
+/// The square of the rate from which the search for modes starts, relative to that of the stiffest parts.
+const SMALL: f64 = 1e-6;
+
+/// Solves with K - λ M and the constraints, symmetric, for a real λ = s².
+pub(super) struct RealShift<'a> {
+    system: &'a System,
+    representative: Representative,
+    scaled: Scaled,
+    solver: Symmetric<f64>,
+    equilibration: Equilibration,
+    values: Vec<f64>,
+}
+
+impl<'a> RealShift<'a> {
+    pub(super) fn new(system: &'a System, representative: &Representative) -> Self {
+        let layout = system.layout();
+        Self {
+            system,
+            representative: *representative,
+            scaled: Scaled::at_rate(representative, 1.0),
+            solver: Symmetric::new(system.structure()),
+            equilibration: Equilibration::new(layout.size(), layout.coordinate_count()),
+            values: vec![0.0; system.structure().pattern.entries()],
+        }
+    }
+
+    /// A square of a rate [1/s²] that is small against those of the stiffest parts; 1 where nothing is stiff.
+    pub(super) fn small_square(&self) -> f64 {
+        small_square(&self.representative)
+    }
+
+    /// Factors for λ = `shift` [1/s²]; gives the number of eigenvalues λ below it.
+    pub(super) fn factor(&mut self, parts: &Linearization, shift: f64) -> Result<usize, FactorError> {
+        let magnitude = if shift == 0.0 { self.small_square() } else { shift.abs() };
+        self.scaled = Scaled::at_rate(&self.representative, magnitude.sqrt());
+        let blend = self.scaled.blend(Weights { rate: 0.0, curvature: -shift / magnitude });
+        for (k, value) in self.values.iter_mut().enumerate() {
+            *value = blend.place * parts.stiffness[k]
+                + blend.acceleration * parts.mass[k]
+                + blend.augmented * parts.gram[k]
+                + blend.constraint * parts.constraint[k];
+        }
+        let pattern = &self.system.structure().pattern;
+        let count = self.system.layout().coordinate_count();
+        self.equilibration.apply(pattern, &mut self.values);
+        let mut report = self.solver.factor(&self.values);
+        if let Err(FactorError::ZeroPivot { unknown, .. }) = report
+            && unknown >= count
+        {
+            let mut compliance = Compliance::new(pattern, count);
+            compliance.enter(self.scaled.scale(), Some(&self.equilibration), &mut self.values);
+            report = self.solver.factor(&self.values);
+        }
+        let negative = report?.negative_pivots.unwrap_or(usize::MAX);
+        Ok(negative.saturating_sub(pattern.size() - count))
+    }
+
+    /// Solves for forces and violations in SI: displacements, and multipliers in units of
+    /// [`multiplier_factor`](Self::multiplier_factor).
+    pub(super) fn solve(&mut self, right: &mut [f64]) {
+        self.scaled.scale_residual(self.system.layout(), right);
+        self.equilibration.scale(right);
+        self.solver.solve(right);
+        self.equilibration.scale(right);
+    }
+
+    /// From a scaled multiplier to one in SI.
+    pub(super) fn multiplier_factor(&self) -> f64 {
+        self.scaled.multiplier_factor()
+    }
+}
+
+/// Solves with s² M + s D + K and the constraints for a complex s.
+pub(super) struct ComplexShift<'a> {
+    system: &'a System,
+    representative: Representative,
+    scaled: Scaled,
+    solver: Multifrontal<Complex64>,
+    equilibration: Equilibration,
+    values: Vec<Complex64>,
+}
+
+impl<'a> ComplexShift<'a> {
+    pub(super) fn new(system: &'a System, representative: &Representative) -> Self {
+        let layout = system.layout();
+        Self {
+            system,
+            representative: *representative,
+            scaled: Scaled::at_rate(representative, 1.0),
+            solver: Multifrontal::new(system.structure()),
+            equilibration: Equilibration::new(layout.size(), layout.coordinate_count()),
+            values: vec![Complex64::default(); system.structure().pattern.entries()],
+        }
+    }
+
+    /// Factors for `shift` [1/s], which is not zero.
+    pub(super) fn factor(&mut self, parts: &Linearization, shift: Complex64) -> Result<(), FactorError> {
+        self.scaled = Scaled::at_rate(&self.representative, shift.norm());
+        let unit = shift / shift.norm();
+        let blend = self.scaled.blend(Weights { rate: unit, curvature: unit * unit });
+        for (k, value) in self.values.iter_mut().enumerate() {
+            *value = blend.acceleration * parts.mass[k]
+                + blend.rate * parts.damping[k]
+                + (blend.place * parts.stiffness[k]
+                    + blend.augmented * parts.gram[k]
+                    + blend.constraint * parts.constraint[k]);
+        }
+        let pattern = &self.system.structure().pattern;
+        let count = self.system.layout().coordinate_count();
+        self.equilibration.apply(pattern, &mut self.values);
+        let mut report = self.solver.factor(&self.values);
+        if let Err(FactorError::ZeroPivot { unknown, .. }) = report
+            && unknown >= count
+        {
+            let mut compliance = Compliance::new(pattern, count);
+            compliance.enter(self.scaled.scale(), Some(&self.equilibration), &mut self.values);
+            report = self.solver.factor(&self.values);
+        }
+        report.map(|_| ())
+    }
+
+    /// Solves for forces in SI: displacements in the rows of the coordinates.
+    pub(super) fn solve(&mut self, right: &mut [Complex64]) {
+        let factor = self.scaled.dynamic_factor();
+        for value in &mut right[..self.system.layout().coordinate_count()] {
+            *value *= factor;
+        }
+        for (value, factor) in right.iter_mut().zip(self.equilibration.factors()) {
+            *value *= factor;
+        }
+        self.solver.solve(right);
+        for (value, factor) in right.iter_mut().zip(self.equilibration.factors()) {
+            *value *= factor;
+        }
+    }
+}
+
+/// A square of a rate [1/s²] that is small against those of the stiffest parts.
+pub(super) fn small_square(representative: &Representative) -> f64 {
+    let square = SMALL * representative.stiffness / representative.mass;
+    if square.is_finite() && square > 0.0 { square } else { 1.0 }
+}

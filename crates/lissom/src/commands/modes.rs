@@ -1,0 +1,155 @@
+//! `lissom modes`: natural frequencies, damping and shapes about a state.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use lissom::modes::{About, ModeReport, ModeRequest, ModesError, modes, of_request};
+use lissom::{Document, FolderError, Model, Override, ResultFolder};
+use serde_json::json;
+
+use super::{Exit, Failure, ModelArguments, show_warnings};
+use crate::terminal;
+
+/// Modes listed on the terminal; the tables have all.
+const LISTED: usize = 20;
+
+/// Find natural modes: frequencies, damping ratios and shapes of the model linearised about a state.
+///
+/// The results go to a folder: `modes.csv` (number, frequency, damping ratio, kind), `shapes.csv` (displacement and rotation of
+/// every node) and `summary.json` (eigenvalues, share of each part in the kinetic energy).
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  lissom modes examples/tip-crank.toml --about undeformed
+  lissom modes examples/tip-crank.toml --count 40 --shift 100   those nearest to 100 Hz
+  lissom modes examples/top.toml --about 0.5      frozen at t = 0.5 s of its motion
+
+Kinds: rigid (frequency 0), oscillation, decay (overdamped), divergence and flutter (they grow).
+Exit code: 0 all is done; 2 wrong model or command line; 3 no state to linearise about, or modes were missed.")]
+pub(super) struct Modes {
+    #[command(flatten)]
+    model: ModelArguments,
+
+    /// How many modes, the lowest first [default: 20].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    count: Option<u32>,
+
+    /// State to linearise about: `static` (default), `undeformed` or a time of the model's analysis [s].
+    #[arg(long, value_name = "STATE|TIME", value_parser = parse_about, allow_negative_numbers = true)]
+    about: Option<About>,
+
+    /// Seek the modes nearest to this frequency [default: the lowest ones].
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    shift: Option<f64>,
+
+    /// Folder for the results [default: out/<name of the model file>-modes].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Nothing on the terminal.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+fn parse_about(text: &str) -> Result<About, String> {
+    match text {
+        "static" => Ok(About::Static),
+        "undeformed" => Ok(About::Undeformed),
+        _ => match text.parse::<f64>() {
+            Ok(time) if time.is_finite() => Ok(About::Time(time)),
+            _ => Err("it must be `static`, `undeformed` or a time in seconds".to_owned()),
+        },
+    }
+}
+
+impl Modes {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let (model, document) = self.model.read()?;
+        let count = self.count.map(|count| count as usize);
+        let request = ModeRequest { count, about: self.about, shift: self.shift };
+        let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let folder = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-modes")));
+        report((&model, &self.model.set, &document), &request, &folder, self.quiet)
+    }
+}
+
+/// Finds the modes and leaves them in a folder.
+pub(super) fn report(
+    (model, overrides, document): (&Model, &[Override], &Document),
+    request: &ModeRequest,
+    folder: &Path,
+    quiet: bool,
+) -> Result<Exit, Failure> {
+    if !quiet {
+        show_warnings(document);
+    }
+    let found = match modes(model, overrides, request) {
+        Err(ModesError::Model(report)) => return Err(report.into()),
+        Err(error @ (ModesError::Time { .. } | ModesError::Shift(_))) => {
+            return Err(Failure::new(Exit::BadModel, error));
+        }
+        other => other,
+    };
+    let unwritable = |error: lissom::FileError| Failure::folder(Exit::Failed, &FolderError::from(error));
+    let folder = ResultFolder::create(folder).map_err(unwritable)?;
+    let found = match found {
+        Ok(found) => found,
+        Err(error) => {
+            let mut summary = of_request(model.name(), overrides, document);
+            // A text can be said in JSON.
+            let _ = summary.insert("error", json!(error.to_string()));
+            folder.write_summary(&summary).map_err(unwritable)?;
+            return Err(Failure::new(Exit::Failed, error));
+        }
+    };
+    folder.write_table("modes.csv", &found.csv()).map_err(unwritable)?;
+    folder.write_table("shapes.csv", &found.shapes_csv()).map_err(unwritable)?;
+    folder.write_summary(&found.summary(model.name(), overrides, document)).map_err(unwritable)?;
+    if !quiet {
+        for warning in &found.warnings {
+            terminal::complain(&format!("warning: {warning}\n"));
+        }
+        terminal::print(&told(document.title.as_deref().unwrap_or(model.name()), &found, folder.path()));
+    }
+    Ok(Exit::Done)
+}
+
+/// A few lines for a person.
+fn told(heading: &str, found: &ModeReport, folder: &Path) -> String {
+    let mut text = format!("{heading}\n");
+    let [coordinates, multipliers] = found.unknowns;
+    let number = found.modes.len();
+    let fewer = if number < found.asked {
+        format!(" (asked for {}: there are no more)", found.asked)
+    } else {
+        String::new()
+    };
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "  {number} modes{fewer} about {}, {coordinates} coordinates, {multipliers} multipliers, {}, {:.3} s",
+        found.about,
+        match found.completeness.name() {
+            "counted" => "none missed by a count of pivots",
+            _ => "not counted",
+        },
+        found.wall.as_secs_f64()
+    );
+    let _ = writeln!(text, "  mode   frequency [Hz]   damping ratio   kind");
+    for (index, mode) in found.modes.iter().take(LISTED).enumerate() {
+        let _ = writeln!(
+            text,
+            "  {:>4}   {:>14.6e}   {:>13.6}   {}",
+            index + 1,
+            mode.frequency,
+            mode.damping,
+            mode.kind.name()
+        );
+    }
+    if number > LISTED {
+        let _ = writeln!(text, "  … {} more in modes.csv", number - LISTED);
+    }
+    let _ = writeln!(text, "  results in {}", folder.display());
+    text
+}

@@ -1,0 +1,396 @@
+//! Natural modes of a model about a state: finds the state, linearises there, and tells of the modes in tables.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use lissom_core::analysis::equilibrium::at_rest;
+use lissom_core::analysis::{InitialError, StepError};
+use lissom_core::linear::{
+    Completeness, LinearError, LinearModel, Mode, ModeError, ModeKind, ModeOptions, NodeShape,
+};
+use lissom_core::system::State;
+use lissom_model::document::AnalysisKind;
+use lissom_model::lower::{Lowered, lower};
+use lissom_model::output::Summary;
+use lissom_model::{Document, Report};
+use serde_json::{Value, json};
+
+use crate::model::{Model, Override};
+use crate::session::{Session, SessionError};
+
+/// A state at rest whose unbalanced forces displace it by less than this part of the model's length is in equilibrium …
+const BALANCED: f64 = 1e-8;
+/// … and one that was solved for may miss it by so much.
+const STILL_BALANCED: f64 = 1e-6;
+/// Tolerance of the equilibrium, at least.
+const TOLERANCE: f64 = 1e-12;
+/// A motion whose twists change by less, relative to the square of its rate, is steady.
+const STEADY: f64 = 1e-6;
+
+/// The state about which a model is linearised.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum About {
+    /// Static equilibrium: of a model with load steps at their end, of others under the loads at the start.
+    Static,
+    /// The places of the model file, without gravity and loads.
+    Undeformed,
+    /// The state that the model's own analysis reaches at this time [s].
+    Time(f64),
+}
+
+impl About {
+    /// Its words in `summary.json`.
+    fn name(self) -> String {
+        match self {
+            Self::Static => "static".to_owned(),
+            Self::Undeformed => "undeformed".to_owned(),
+            Self::Time(time) => format!("t = {time} s"),
+        }
+    }
+}
+
+/// What is asked for beyond the model; what is left out is as the model's table `[analysis]` says if it is of kind `modes`.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct ModeRequest {
+    /// How many modes; 20 where nothing says otherwise.
+    pub count: Option<usize>,
+    /// The state; static equilibrium where nothing says otherwise.
+    pub about: Option<About>,
+    /// Frequency near which modes are sought [Hz]; the lowest ones where nothing says otherwise.
+    pub shift: Option<f64>,
+}
+
+/// Modes that were not found.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ModesError {
+    /// The model is wrong.
+    #[error(transparent)]
+    Model(#[from] Report),
+    /// The time is not one of the analysis.
+    #[error("modes about t = {time} s: {reason}")]
+    Time {
+        /// The time [s].
+        time: f64,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A frequency that is none.
+    #[error("modes near {0} Hz: the frequency must be a number that is not negative")]
+    Shift(f64),
+    /// The analysis on the way to the state has no start.
+    #[error(transparent)]
+    Initial(#[from] InitialError),
+    /// The analysis on the way to the state has no solution.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// The state is not in equilibrium.
+    #[error(
+        "the {state} is not in equilibrium: unbalanced forces would move it by {imbalance:.1e} of the model's length, and modes \
+         about it mean nothing; {hint}"
+    )]
+    NotInEquilibrium {
+        /// The state, in words.
+        state: &'static str,
+        /// Displacement over the model's length [-].
+        imbalance: f64,
+        /// What to try.
+        hint: &'static str,
+    },
+    /// There is no linear model.
+    #[error(transparent)]
+    Linear(#[from] LinearError),
+    /// There are no modes.
+    #[error(transparent)]
+    Mode(#[from] ModeError),
+    /// Some modes were missed.
+    #[error(
+        "{0} of the modes between the first and the last one were missed, as negative pivots show; ask for another `count`"
+    )]
+    Missing(usize),
+}
+
+impl From<SessionError> for ModesError {
+    fn from(error: SessionError) -> Self {
+        match error {
+            SessionError::Model(report) => Self::Model(report),
+            SessionError::Initial(error) => Self::Initial(error),
+            SessionError::NotInTime(kind) => Self::Time {
+                time: 0.0,
+                reason: format!("an analysis of kind `{kind}` has no course in time"),
+            },
+        }
+    }
+}
+
+/// Modes of a model, with all that is told of them.
+#[derive(Clone, Debug)]
+pub struct ModeReport {
+    /// The modes, by ascending frequency, unstable ones first.
+    pub modes: Vec<Mode>,
+    /// Their shapes, node by node.
+    pub shapes: Vec<Vec<NodeShape>>,
+    /// Share of each part in the kinetic energy of each mode.
+    pub shares: Vec<BTreeMap<String, f64>>,
+    /// Whether some may have been missed.
+    pub completeness: Completeness,
+    /// How many were asked for.
+    pub asked: usize,
+    /// The state, in words.
+    pub about: String,
+    /// Its time [s].
+    pub time: f64,
+    /// Number of coordinates and of multipliers.
+    pub unknowns: [usize; 2],
+    /// What may be wrong with them.
+    pub warnings: Vec<String>,
+    /// How long it took.
+    pub wall: Duration,
+}
+
+/// Natural modes of `model`, with `overrides` put in place.
+///
+/// # Errors
+/// If the model is wrong, the state cannot be reached or is not in equilibrium, or modes were missed.
+pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Result<ModeReport, ModesError> {
+    let began = Instant::now();
+    let document = model.document(overrides)?;
+    let (mut count, mut about, mut shift) = (lissom_model::document::DEFAULT_MODE_COUNT, About::Static, None);
+    if let AnalysisKind::Modes { count: own, undeformed, shift: near } = document.analysis.kind {
+        (count, shift) = (own, near);
+        about = if undeformed { About::Undeformed } else { About::Static };
+    }
+    count = request.count.unwrap_or(count);
+    about = request.about.unwrap_or(about);
+    shift = request.shift.or(shift);
+    if let Some(frequency) = shift.filter(|frequency| !(frequency.is_finite() && *frequency >= 0.0)) {
+        return Err(ModesError::Shift(frequency));
+    }
+    let mut report = match about {
+        About::Undeformed => undeformed(&document, count, shift)?,
+        About::Static if !matches!(document.analysis.kind, AnalysisKind::Statics { .. }) => {
+            in_equilibrium(&document, count, shift)?
+        }
+        About::Static => after(&document, document.analysis.end, count, shift)?,
+        About::Time(time) => after(&document, time, count, shift)?,
+    };
+    report.about = about.name();
+    report.wall = began.elapsed();
+    if let Completeness::Missing(missed) = report.completeness {
+        return Err(ModesError::Missing(missed));
+    }
+    Ok(report)
+}
+
+fn undeformed(document: &Document, count: usize, shift: Option<f64>) -> Result<ModeReport, ModesError> {
+    let mut document = document.clone();
+    document.gravity.fill(0.0);
+    document.loads.clear();
+    let mut lowered = lower(&document)?;
+    stop(&mut lowered.state);
+    let model = LinearModel::of(&lowered.system, &lowered.state, lowered.settings.solver)?;
+    balanced(
+        &model,
+        "undeformed state",
+        STILL_BALANCED,
+        "springs or drives pull at it: take the static equilibrium",
+    )?;
+    tell(&model, count, shift)
+}
+
+fn in_equilibrium(document: &Document, count: usize, shift: Option<f64>) -> Result<ModeReport, ModesError> {
+    let Lowered { system, mut state, mut settings, .. } = lower(document)?;
+    stop(&mut state);
+    let model = LinearModel::of(&system, &state, settings.solver)?;
+    if balanced(&model, "state of the file", BALANCED, "").is_ok() {
+        return tell(&model, count, shift);
+    }
+    drop(model);
+    settings.limits.tolerance = settings.limits.tolerance.min(TOLERANCE);
+    let (system, mut state) = at_rest(Arc::new(system), state, &settings)?;
+    stop(&mut state);
+    let model = LinearModel::of(&system, &state, settings.solver)?;
+    let hint =
+        "give the model an analysis of kind `statics` in more load steps, and take the modes at its end";
+    balanced(&model, "state that was found", STILL_BALANCED, hint)?;
+    tell(&model, count, shift)
+}
+
+/// The state that the model's own analysis reaches.
+fn after(document: &Document, time: f64, count: usize, shift: Option<f64>) -> Result<ModeReport, ModesError> {
+    let (start, end) = (document.analysis.start, document.analysis.end);
+    let wrong = |reason: String| Err(ModesError::Time { time, reason });
+    if matches!(document.analysis.kind, AnalysisKind::Modes { .. }) {
+        return wrong(
+            "an analysis of kind `modes` has no course in time; take `static` or `undeformed`".to_owned(),
+        );
+    }
+    if !(time >= start && time <= end) {
+        return wrong(format!("the analysis runs from {start} to {end} s"));
+    }
+    let mut document = document.clone();
+    let is_static = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
+    if is_static {
+        document.analysis.tolerance = document.analysis.tolerance.min(TOLERANCE);
+    }
+    let mut session = Session::new(&document)?;
+    session.step_to(time)?;
+    let simulation = session.simulation();
+    let model = LinearModel::of(simulation.system(), simulation.state(), simulation.settings().solver)?;
+    if is_static {
+        if time > start {
+            balanced(&model, "state that was reached", STILL_BALANCED, "take more load steps")?;
+        } else {
+            let hint = "no load step leads to this time: take a later one";
+            balanced(&model, "state at the start", STILL_BALANCED, hint)?;
+        }
+    } else if model.is_at_rest() {
+        let hint = "it is about to move: take the static equilibrium";
+        balanced(&model, "state at that time", STILL_BALANCED, hint)?;
+    }
+    let mut report = tell(&model, count, shift)?;
+    if model.unsteadiness() > STEADY {
+        report.warnings.push(format!(
+            "the motion at t = {time} s is not steady (its twists change by {:.1e} of their squares): frequencies are those of \
+             coefficients frozen at that instant",
+            model.unsteadiness()
+        ));
+    }
+    Ok(report)
+}
+
+fn stop(state: &mut State) {
+    for node in &mut state.kinematics.nodes {
+        node.twist.fill(0.0);
+    }
+    for coordinate in &mut state.kinematics.coordinates {
+        coordinate.rate = 0.0;
+    }
+}
+
+fn balanced(
+    model: &LinearModel<'_>,
+    state: &'static str,
+    limit: f64,
+    hint: &'static str,
+) -> Result<(), ModesError> {
+    let imbalance = model.imbalance();
+    if imbalance <= limit { Ok(()) } else { Err(ModesError::NotInEquilibrium { state, imbalance, hint }) }
+}
+
+fn tell(model: &LinearModel<'_>, count: usize, shift: Option<f64>) -> Result<ModeReport, ModesError> {
+    let found = model.modes(&ModeOptions { count, shift })?;
+    let mut warnings = Vec::new();
+    let unstable = found.modes.iter().filter(|mode| mode.kind.is_unstable()).count();
+    if unstable > 0 {
+        let words = if unstable == 1 { "1 mode grows".to_owned() } else { format!("{unstable} modes grow") };
+        warnings.push(format!("the state is not stable: {words}"));
+    }
+    match found.completeness {
+        Completeness::Unknown => warnings.push(
+            "whether modes were missed is not known: the matrices of the count could not be factored, or contradict each other"
+                .to_owned(),
+        ),
+        Completeness::NotCounted | Completeness::Counted | Completeness::Missing(_) => {}
+    }
+    let layout = model.system().layout();
+    Ok(ModeReport {
+        shapes: found.modes.iter().map(|mode| model.shape(mode)).collect(),
+        shares: found.modes.iter().map(|mode| model.kinetic_shares(mode)).collect(),
+        modes: found.modes,
+        completeness: found.completeness,
+        asked: count,
+        about: String::new(),
+        time: model.kinematics().time,
+        unknowns: [layout.coordinate_count(), layout.multiplier_rows().len()],
+        warnings,
+        wall: Duration::ZERO,
+    })
+}
+
+impl ModeReport {
+    /// The table `modes.csv`: number from 1, frequency |s|/(2π) [Hz], damping ratio [-], kind.
+    pub fn csv(&self) -> String {
+        let mut text = "mode,frequency,damping,kind\n".to_owned();
+        for (index, mode) in self.modes.iter().enumerate() {
+            let Mode { frequency, damping, kind, .. } = mode;
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{},{frequency:?},{damping:?},{}", index + 1, kind.name());
+        }
+        text
+    }
+
+    /// The table `shapes.csv`: by mode and node its place [m], displacement [m] and rotation [rad] in global axes for unit modal
+    /// mass, and imaginary parts of both where a mode has any.
+    pub fn shapes_csv(&self) -> String {
+        let is_complex = self.modes.iter().any(|mode| mode.shape.iter().any(|value| value.im != 0.0));
+        let mut text = "mode,node,x,y,z,u1,u2,u3,r1,r2,r3".to_owned();
+        text += if is_complex { ",u1_im,u2_im,u3_im,r1_im,r2_im,r3_im\n" } else { "\n" };
+        for (index, shape) in self.shapes.iter().enumerate() {
+            for node in shape {
+                let _ = write!(text, "{},{}", index + 1, quoted(&node.node));
+                let motion = || node.displacement.iter().chain(&node.rotation);
+                let numbers = node.position.iter().copied().chain(motion().map(|value| value.re));
+                for value in numbers.chain(motion().filter(|_| is_complex).map(|value| value.im)) {
+                    let _ = write!(text, ",{value:?}");
+                }
+                text.push('\n');
+            }
+        }
+        text
+    }
+
+    /// The facts of `summary.json`.
+    pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
+        let mut summary = of_request(name, overrides, document);
+        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+        let of_document = document.warnings.problems().map(|problem| json!(problem.message));
+        tell("stopped", json!("end"));
+        tell("about", json!(self.about));
+        tell("time", json!(self.time));
+        tell("asked", json!(self.asked));
+        tell("found", json!(self.modes.len()));
+        tell("completeness", json!(self.completeness.name()));
+        tell("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
+        tell("multipliers", json!(self.unknowns[1]));
+        tell("rigid_modes", json!(self.count(ModeKind::Rigid)));
+        let mode = |(index, (mode, shares)): (usize, (&Mode, &BTreeMap<String, f64>))| {
+            json!({
+                "mode": index + 1,
+                "frequency": mode.frequency,
+                "damping": mode.damping,
+                "kind": mode.kind.name(),
+                "eigenvalue": [mode.eigenvalue.re, mode.eigenvalue.im],
+                "residual": mode.residual,
+                "kinetic_shares": shares,
+            })
+        };
+        tell("modes", self.modes.iter().zip(&self.shares).enumerate().map(mode).collect());
+        tell("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        tell("wall_seconds", json!(self.wall.as_secs_f64()));
+        summary
+    }
+
+    fn count(&self, kind: ModeKind) -> usize {
+        self.modes.iter().filter(|mode| mode.kind == kind).count()
+    }
+}
+
+/// What is known before the modes are; the summary of a search that failed says why.
+pub fn of_request(name: &str, overrides: &[Override], document: &Document) -> Summary {
+    let mut summary = Summary::new();
+    let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+    tell("model", json!(name));
+    tell("title", json!(document.title));
+    tell("version", json!(crate::VERSION));
+    tell("analysis", json!("modes"));
+    tell("set", overrides.iter().map(|(path, value)| (path.clone(), json!(value))).collect());
+    tell("stopped", json!("failed"));
+    summary
+}
+
+fn quoted(name: &str) -> String {
+    if name.contains([',', '"']) { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.to_owned() }
+}
