@@ -18,6 +18,7 @@ pub mod output;
 mod reader;
 pub mod registry;
 mod report;
+pub mod scene;
 mod schema;
 pub mod sections;
 mod suggest;

@@ -58,6 +58,8 @@ pub struct Checkpoint {
     pub every: String,
     /// Bytes of the table that belong to the run so far.
     pub history_length: u64,
+    /// Bytes of the motion file that belong to the run so far; zero where there is none.
+    pub motion_length: u64,
     /// Where the run stands.
     pub session: SessionSnapshot,
 }
@@ -102,41 +104,53 @@ impl Checkpoint {
     /// # Errors
     /// If it is missing or cannot be written.
     pub fn open_history(&self, path: &Path) -> Result<File, FileError> {
-        let opened = File::options().append(true).open(path).and_then(|file| {
-            if file.metadata()?.len() < self.history_length {
-                return Err(io::Error::new(
-                    io::ErrorKind::UnexpectedEof,
-                    "rows are missing that were written",
-                ));
-            }
-            file.set_len(self.history_length)?;
-            Ok(file)
-        });
-        opened.map_err(|error| files::failure(files::Action::Write, path, error))
+        cut(path, self.history_length, "rows are missing that were written")
     }
+
+    /// The motion file the run left, cut to where the checkpoint was taken, to be written on.
+    ///
+    /// # Errors
+    /// If it is missing or cannot be written.
+    pub fn open_motion(&self, path: &Path) -> Result<File, FileError> {
+        cut(path, self.motion_length, "frames are missing that were written")
+    }
+}
+
+/// A file cut to `length`, to be written on.
+fn cut(path: &Path, length: u64, missing: &str) -> Result<File, FileError> {
+    let opened = File::options().append(true).open(path).and_then(|file| {
+        if file.metadata()?.len() < length {
+            return Err(io::Error::new(io::ErrorKind::UnexpectedEof, missing));
+        }
+        file.set_len(length)?;
+        Ok(file)
+    });
+    opened.map_err(|error| files::failure(files::Action::Write, path, error))
 }
 
 /// Leaves checkpoints in the folder of a run.
 pub struct CheckpointFile {
     folder: PathBuf,
     history: PathBuf,
+    motion: Option<PathBuf>,
     every: CheckpointEvery,
     /// What all checkpoints of the run have in common.
-    frame: Box<dyn Fn(SessionSnapshot, u64) -> Checkpoint>,
+    frame: Box<dyn Fn(SessionSnapshot, [u64; 2]) -> Checkpoint>,
     last: Instant,
 }
 
 impl CheckpointFile {
-    /// For a run whose results are in `folder` and whose table is `history`; `frame` adds to a snapshot and to the length
-    /// of the table what else a checkpoint holds.
+    /// For a run whose results are in `folder`, whose table is `history` and whose motion, if it is recorded, is in
+    /// `motion`; `frame` adds to a snapshot and to the lengths of both files what else a checkpoint holds.
     pub fn new(
         folder: &Path,
         history: &Path,
+        motion: Option<PathBuf>,
         every: CheckpointEvery,
-        frame: impl Fn(SessionSnapshot, u64) -> Checkpoint + 'static,
+        frame: impl Fn(SessionSnapshot, [u64; 2]) -> Checkpoint + 'static,
     ) -> Self {
         let (folder, history) = (folder.to_owned(), history.to_owned());
-        Self { folder, history, every, frame: Box::new(frame), last: Instant::now() }
+        Self { folder, history, motion, every, frame: Box::new(frame), last: Instant::now() }
     }
 
     /// Removes what a former run has left: it is over.
@@ -162,9 +176,13 @@ impl Checkpoints for CheckpointFile {
 
     fn keep(&mut self, snapshot: &SessionSnapshot) -> io::Result<()> {
         // Rows must be on the disk before a checkpoint counts on them.
-        let history = File::options().append(true).open(&self.history)?;
-        history.sync_data()?;
-        let checkpoint = (self.frame)(snapshot.clone(), history.metadata()?.len());
+        let synced = |path: &PathBuf| {
+            let file = File::options().append(true).open(path)?;
+            file.sync_data()?;
+            Ok::<u64, io::Error>(file.metadata()?.len())
+        };
+        let lengths = [synced(&self.history)?, self.motion.as_ref().map_or(Ok(0), synced)?];
+        let checkpoint = (self.frame)(snapshot.clone(), lengths);
         let bytes = postcard::to_stdvec(&checkpoint).map_err(io::Error::other)?;
         let unfinished = self.folder.join(UNFINISHED);
         let mut file = File::create(&unfinished)?;

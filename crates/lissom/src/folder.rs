@@ -1,19 +1,28 @@
-//! The folder a run leaves behind: `history.csv`, `summary.json` and the plots. Knows no simulation.
+//! The folder a run leaves behind: `history.csv`, `summary.json`, the motion with its scene, and the plots. Knows no simulation.
 
 use std::fs::File;
-use std::io::{BufWriter, ErrorKind};
+use std::io::{BufWriter, ErrorKind, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use lissom_model::files::{self, FileError};
 use lissom_model::output::{CsvWriter, FigureError, Record, RecordError, Summary, figures};
+use lissom_model::scene::Scene;
 use serde_json::Value;
 
 use crate::checkpoint::Checkpoint;
+use crate::motion::{Motion, MotionError};
+use crate::view::{Notice, Results};
 
 /// Name of the table in the folder.
 const HISTORY: &str = "history.csv";
 /// Name of the summary in the folder.
 const SUMMARY: &str = "summary.json";
+/// Name of the motion file in the folder.
+const MOTION: &str = "motion.bin";
+/// Name of what the motion is of.
+const SCENE: &str = "scene.json";
+/// Name of the page that shows the results.
+const PAGE: &str = "view.html";
 
 /// Results that cannot be left in the folder.
 #[derive(Debug, thiserror::Error)]
@@ -29,6 +38,14 @@ pub enum FolderError {
         path: String,
         /// What is wrong with it.
         error: RecordError,
+    },
+    /// The motion file is none.
+    #[error("`{path}`: {error}")]
+    Motion {
+        /// The file.
+        path: String,
+        /// What is wrong with it.
+        error: MotionError,
     },
     /// A plot cannot be drawn.
     #[error(transparent)]
@@ -49,13 +66,15 @@ impl ResultFolder {
     /// If it cannot be created or written to.
     pub fn create(path: &Path) -> Result<Self, FileError> {
         files::create_folder(path)?;
-        let summary = path.join(SUMMARY);
-        match std::fs::remove_file(&summary) {
-            Err(error) if error.kind() != ErrorKind::NotFound => {
-                Err(files::failure(files::Action::Write, &summary, error))
+        for name in [SUMMARY, MOTION, SCENE, PAGE] {
+            let former = path.join(name);
+            if let Err(error) = std::fs::remove_file(&former)
+                && error.kind() != ErrorKind::NotFound
+            {
+                return Err(files::failure(files::Action::Write, &former, error));
             }
-            _ => Ok(Self { path: path.to_owned() }),
         }
+        Ok(Self { path: path.to_owned() })
     }
 
     /// A folder left by a former run: its table and its title. Units and quantities come from the summary;
@@ -82,6 +101,45 @@ impl ResultFolder {
         Ok((Self { path: path.to_owned() }, record, title))
     }
 
+    /// All that a page shows of a folder left by a run.
+    ///
+    /// # Errors
+    /// If there is no table, or if table, motion or scene are none.
+    pub fn results(path: &Path) -> Result<Results, FolderError> {
+        let (_, record, _) = Self::open(path)?;
+        let summary = files::read_text(&path.join(SUMMARY)).unwrap_or_default();
+        let summary: Value = serde_json::from_str(&summary).unwrap_or_default();
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let mut results = Results::new(&name).with_summary(&summary).with_record(&record);
+        if summary.is_null() {
+            let text = "There is no summary of the run: it was cut off, or is still going on.";
+            results = results.with_notice(Notice::warning(text));
+        }
+        let motion = path.join(MOTION);
+        let bytes = match std::fs::read(&motion) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                let text = "No motion was recorded: run the model without `--no-plots` to see it move.";
+                return Ok(results.with_notice(Notice::warning(text)));
+            }
+            Err(error) => return Err(files::failure(files::Action::Read, &motion, error).into()),
+        };
+        let foreign = |path: &Path, error| FolderError::Motion { path: path.display().to_string(), error };
+        let last = Motion::last_time(&bytes).map_err(|error| foreign(&motion, error))?;
+        let scene = path.join(SCENE);
+        let described = files::read_text(&scene)?;
+        let described =
+            serde_json::from_str(&described).map_err(|_| foreign(&scene, MotionError::Damaged))?;
+        // A table that goes on after the motion is of another run, or of one that was resumed without it.
+        if let (Some(frame), Some(row)) = (last, record.times.last())
+            && (frame - row).abs() > 0.01 * (row - record.times[0]).abs()
+        {
+            let text = format!("The motion ends at t = {frame} s, the table at t = {row} s.");
+            results = results.with_notice(Notice::warning(text));
+        }
+        results.with_motion(described, &bytes).map_err(|error| foreign(&motion, error))
+    }
+
     /// Where it is.
     pub fn path(&self) -> &Path {
         &self.path
@@ -98,6 +156,43 @@ impl ResultFolder {
     /// Where its table is.
     pub fn history_path(&self) -> PathBuf {
         self.path.join(HISTORY)
+    }
+
+    /// Where its motion file is.
+    pub fn motion_path(&self) -> PathBuf {
+        self.path.join(MOTION)
+    }
+
+    /// Its motion file, emptied.
+    ///
+    /// # Errors
+    /// If the file cannot be created.
+    pub fn motion(&self) -> Result<File, FileError> {
+        let path = self.motion_path();
+        File::create(&path).map_err(|error| files::failure(files::Action::Write, &path, error))
+    }
+
+    /// Its motion file, to be written on from where `checkpoint` was taken, and the time of its last frame [s].
+    ///
+    /// # Errors
+    /// If it is missing, shorter than the checkpoint says, or no motion file.
+    pub fn resumed_motion(&self, checkpoint: &Checkpoint) -> Result<(File, Option<f64>), FolderError> {
+        let path = self.motion_path();
+        let mut file = checkpoint.open_motion(&path)?;
+        let unreadable = |error| files::failure(files::Action::Read, &path, error);
+        let bytes = std::fs::read(&path).map_err(unreadable)?;
+        let last = Motion::last_time(&bytes)
+            .map_err(|error| FolderError::Motion { path: path.display().to_string(), error })?;
+        file.seek(SeekFrom::End(0)).map_err(unreadable)?;
+        Ok((file, last))
+    }
+
+    /// Writes how the model looks.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write_scene(&self, scene: &Scene) -> Result<(), FileError> {
+        files::write(&self.path.join(SCENE), scene.to_json().as_bytes())
     }
 
     /// The folder of a run that goes on from a checkpoint, and the rows it has recorded up to there.

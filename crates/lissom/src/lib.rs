@@ -28,13 +28,16 @@ mod checkpoint;
 mod folder;
 mod model;
 pub mod modes;
+pub mod motion;
 mod report;
 mod schedule;
 mod session;
 mod spent;
+mod state_writer;
 pub mod study;
 pub mod summary;
 pub mod telemetry;
+pub mod view;
 
 pub use checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFile};
 pub use folder::{FolderError, ResultFolder};
@@ -46,6 +49,7 @@ pub use model::{Model, Override};
 pub use report::{EnergyChange, RunError, RunReport, Stopped};
 pub use session::{Checkpoints, Progress, Session, SessionError, SessionSnapshot};
 pub use spent::Seconds;
+pub use state_writer::StateWriter;
 
 /// Version of the program, as it stands in every summary.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

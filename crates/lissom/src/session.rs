@@ -18,6 +18,7 @@ use serde::{Deserialize, Serialize};
 use crate::report::{EnergyChange, RunError, RunReport, Stopped};
 use crate::schedule::{Next, Schedule};
 use crate::spent::Spent;
+use crate::state_writer::StateWriter;
 use crate::telemetry::Telemetry;
 
 /// Times this close to the end of a planned step, relative to the step, are its end.
@@ -91,6 +92,7 @@ pub struct Session {
     spent: Spent,
     scale: f64,
     telemetry: Telemetry,
+    state_writers: Vec<Box<dyn StateWriter>>,
     began: Instant,
 }
 
@@ -164,7 +166,7 @@ impl Session {
     /// If there are no consistent initial values.
     pub fn start(lowered: Lowered) -> Result<Self, InitialError> {
         let began = Instant::now();
-        let Lowered { system, state, settings, plan, channels } = lowered;
+        let Lowered { system, state, settings, plan, channels, .. } = lowered;
         let schedule = Schedule::new(plan, settings.step_size);
         let simulation = Simulation::new(system, state, settings)?;
         let violations = vec![0.0; simulation.system().layout().multiplier_rows().len()];
@@ -176,6 +178,7 @@ impl Session {
             tally: Tally { violations, ..Tally::default() },
             scale: simulation.scaled().scale(),
             telemetry: Telemetry::default(),
+            state_writers: Vec::new(),
             simulation,
             channels,
             schedule,
@@ -186,6 +189,11 @@ impl Session {
     /// The simulation: system, state, totals.
     pub fn simulation(&self) -> &Simulation {
         &self.simulation
+    }
+
+    /// Hands the states of a [`run`](Self::run) to `writer`, too.
+    pub fn write_states_to(&mut self, writer: Box<dyn StateWriter>) {
+        self.state_writers.push(writer);
     }
 
     /// From when to when, in how many steps.
@@ -359,6 +367,9 @@ impl Session {
         };
         self.spent.pause();
         let finished = writers.iter_mut().try_for_each(|writer| writer.finish());
+        let simulation = &self.simulation;
+        let states = self.state_writers.iter_mut().try_for_each(|writer| writer.finish(simulation));
+        let finished = finished.and(states);
         let stopped = match (stopped, finished) {
             (Stopped::Failed(error), _) => Stopped::Failed(error),
             (_, Err(error)) => Stopped::Failed(error.into()),
@@ -397,12 +408,20 @@ impl Session {
                 writer.begin(&self.columns)?;
             }
             self.write_row(writers)?;
+            let simulation = &self.simulation;
+            self.state_writers.iter_mut().try_for_each(|writer| writer.begin(simulation))?;
         }
         let mut recorded = true;
         self.keep(writers, checkpoints)?;
         while !self.schedule.is_finished() {
+            let before = self.schedule.time();
             recorded = match self.step() {
-                Ok((_, is_recorded)) => is_recorded,
+                Ok((report, is_recorded)) => {
+                    // Only the last part of a step can be interpolated, and load steps are no motion in time.
+                    let is_known = report.parts <= 1 && !self.schedule.plan().is_static;
+                    self.write_states(is_known.then_some(before))?;
+                    is_recorded
+                }
                 Err(error) => {
                     if !recorded {
                         self.write_row(writers)?;
@@ -436,7 +455,24 @@ impl Session {
         }
         self.spent.pause();
         writers.iter_mut().try_for_each(|writer| writer.finish())?;
+        self.state_writers.iter_mut().try_for_each(|writer| writer.flush())?;
         checkpoints.keep(&self.snapshot())
+    }
+
+    /// Hands the step that has just ended to those who want it; states may be interpolated from `known_from` [s] on.
+    fn write_states(&mut self, known_from: Option<f64>) -> io::Result<()> {
+        let now = self.simulation.state().kinematics.time;
+        if !self.state_writers.iter().any(|writer| writer.is_due(now)) {
+            return Ok(());
+        }
+        self.spent.pause();
+        let began = Instant::now();
+        let known_from = known_from.unwrap_or(now);
+        let simulation = &self.simulation;
+        let mut due = self.state_writers.iter_mut().filter(|writer| writer.is_due(now));
+        let written = due.try_for_each(|writer| writer.step(simulation, known_from));
+        self.spent.output += began.elapsed();
+        written
     }
 
     fn write_row(&mut self, writers: &mut [&mut dyn Writer]) -> io::Result<()> {

@@ -2,9 +2,13 @@
 
 #[path = "command_line/modes.rs"]
 mod modes;
+#[path = "command_line/motion.rs"]
+mod motion;
 #[path = "command_line/study.rs"]
 mod study;
 mod support;
+#[path = "command_line/view.rs"]
+mod view;
 
 use std::path::Path;
 

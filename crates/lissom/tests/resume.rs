@@ -46,8 +46,14 @@ fn facts(folder: &Path) -> Value {
 }
 
 fn started(model: &str, more: &[&str], out: &Path) -> Command {
+    let mut command = started_with_plots(model, more, out);
+    command.arg("--no-plots");
+    command
+}
+
+fn started_with_plots(model: &str, more: &[&str], out: &Path) -> Command {
     let mut command = lissom();
-    command.arg(example(model)).arg("--no-plots").arg("--out").arg(out);
+    command.arg(example(model)).arg("--out").arg(out);
     command.args(["--checkpoint-every", "7steps"]);
     for set in more {
         command.args(["--set", set]);
@@ -56,12 +62,12 @@ fn started(model: &str, more: &[&str], out: &Path) -> Command {
 }
 
 /// Kills the run after `patience` and again until it has ended. How often it was killed.
-fn killed(model: &str, more: &[&str], out: &Path, patience: Duration) -> usize {
+fn killed(start: &dyn Fn() -> Command, out: &Path, patience: Duration) -> usize {
     let mut kills = 0;
-    let mut command = started(model, more, out);
+    let mut command = start();
     loop {
         let mut child = command.spawn().unwrap();
-        sleep(patience + Duration::from_micros(700 * kills as u64));
+        sleep(patience + patience.mul_f64(0.35 * kills as f64));
         // SIGKILL: the program cannot notice.
         let _ = child.kill();
         let output = child.wait_with_output().unwrap();
@@ -69,16 +75,16 @@ fn killed(model: &str, more: &[&str], out: &Path, patience: Duration) -> usize {
             return kills;
         }
         let errors = String::from_utf8_lossy(&output.stderr);
-        assert!(output.status.code().is_none(), "{model}: {errors}");
+        assert!(output.status.code().is_none(), "{command:?}: {errors}");
         kills += 1;
-        assert!(kills < 500, "{model} does not come to an end");
+        assert!(kills < 500, "{command:?} does not come to an end");
         // Killed before the first checkpoint there is nothing to go on with.
         command = if out.join("checkpoint.lissom").is_file() {
             let mut command = lissom();
             command.arg("--resume").arg(out);
             command
         } else {
-            started(model, more, out)
+            start()
         };
     }
 }
@@ -98,7 +104,7 @@ fn runs_that_are_killed_again_and_again_leave_the_same_bytes() {
         let (whole, parts) = (folder.0.join(format!("whole{index}")), folder.0.join(format!("parts{index}")));
         let output = started(model, more, &whole).spawn().unwrap().wait_with_output().unwrap();
         assert!(output.status.success(), "{model} {more:?}: {}", String::from_utf8_lossy(&output.stderr));
-        kills += killed(model, more, &parts, Duration::from_millis(2));
+        kills += killed(&|| started(model, more, &parts), &parts, Duration::from_millis(2));
         let read = |folder: &Path| fs::read(folder.join("history.csv")).unwrap();
         assert!(read(&whole) == read(&parts), "{model} {more:?}: histories differ");
         assert_eq!(facts(&whole), facts(&parts), "{model} {more:?}");
@@ -106,6 +112,28 @@ fn runs_that_are_killed_again_and_again_leave_the_same_bytes() {
     }
     println!("{kills} kills");
     assert!(kills > 10, "{kills}");
+}
+
+#[test]
+fn the_motion_of_a_run_that_was_killed_is_that_of_an_undisturbed_one() {
+    let folder = Folder::new("motion");
+    let cases: [(&str, &[&str]); 2] = [
+        ("tip-crank", &["analysis.end=0.1", "analysis.frames_per_second=1100"]),
+        // Steps longer than the distance of frames: what is between is interpolated.
+        ("four-bar", &["analysis.end=1", "analysis.relative_tolerance=1e-4"]),
+    ];
+    let mut kills = 0;
+    for (index, (model, more)) in cases.into_iter().enumerate() {
+        let (whole, parts) = (folder.0.join(format!("whole{index}")), folder.0.join(format!("parts{index}")));
+        let output = started_with_plots(model, more, &whole).output().unwrap();
+        assert!(output.status.success(), "{model} {more:?}: {}", String::from_utf8_lossy(&output.stderr));
+        kills += killed(&|| started_with_plots(model, more, &parts), &parts, Duration::from_millis(25));
+        let read = |folder: &Path, name: &str| fs::read(folder.join(name)).unwrap();
+        for name in ["motion.bin", "scene.json", "history.csv"] {
+            assert!(read(&whole, name) == read(&parts, name), "{model} {more:?}: {name} differs");
+        }
+    }
+    assert!(kills > 2, "{kills}");
 }
 
 #[test]

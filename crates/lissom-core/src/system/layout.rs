@@ -79,6 +79,9 @@ impl Layout {
     }
 
     /// Name of a node: of a body or point mass, or the place on a beam, as `beam.start` or `beam@0.5`.
+    ///
+    /// # Panics
+    /// If there is no such node.
     pub fn node_name(&self, node: NodeId) -> &str {
         &self.node_names[node]
     }

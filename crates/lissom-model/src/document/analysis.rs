@@ -108,6 +108,8 @@ pub struct Analysis {
     pub max_iterations: usize,
     /// Steps from one record to the next.
     pub output_every: usize,
+    /// Frames of the motion file per second of simulated time; none for a number that suits the run [1/s].
+    pub frames_per_second: Option<f64>,
     /// The word `analysis`.
     pub span: Span,
 }
@@ -172,12 +174,17 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         tolerance: tolerance?.value,
         max_iterations: count("max_iterations", 40),
         output_every: if word == "modes" { 1 } else { count("output_every", 1) },
+        frames_per_second: match word {
+            "modes" => None,
+            _ => reader.number("frames_per_second").map(|rate| rate.value),
+        },
         span: name,
         start: start.as_ref()?.value,
         end: end.as_ref()?.value,
         kind: kind?,
     };
     check_times(context, &analysis, end?.span);
+    check_frames(&reader, &analysis);
     Some(analysis)
 }
 
@@ -231,6 +238,20 @@ fn check_times(context: &Context<'_>, analysis: &Analysis, end: Span) {
     {
         let message = format!("the time step {} s is longer than the analysis of {duration} s", step.value);
         context.fail::<()>(step.span, message, "choose a smaller `step` or a later `end`");
+    }
+}
+
+/// A motion file of more frames fills a disk and is shown by nobody.
+const MOST_FRAMES: f64 = 100_000.0;
+
+fn check_frames(reader: &Reader<'_, '_>, analysis: &Analysis) {
+    let Some(rate) = analysis.frames_per_second else { return };
+    let Some(node) = reader.node("frames_per_second") else { return };
+    let duration = analysis.end - analysis.start;
+    if rate * duration > MOST_FRAMES {
+        let message = format!("`frames_per_second` asks for {:.0} frames of motion", rate * duration);
+        let help = format!("at most {MOST_FRAMES} are recorded: choose at most {:e}", MOST_FRAMES / duration);
+        reader.context.fail::<()>(node.span, message, help);
     }
 }
 

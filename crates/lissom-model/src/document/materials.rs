@@ -63,15 +63,23 @@ fn shear_modulus(reader: &Reader<'_, '_>, young: Option<f64>) -> Option<f64> {
 pub(super) fn sections(context: &Context<'_>, registry: &Registry, materials: &[Material]) -> Vec<Section> {
     each_of_kind(context, "sections", registry, |reader, name, form| {
         let damping = reader.number("damping");
+        let (shape, properties) = if form == "general" {
+            (None, general(reader)?)
+        } else {
+            let (shape, properties) = homogeneous(reader, form, materials)?;
+            (Some(shape), properties)
+        };
         let properties =
-            if form == "general" { general(reader) } else { homogeneous(reader, form, materials) };
-        let properties =
-            SectionProperties { damping: damping.map_or(0.0, |damping| damping.value), ..properties? };
-        Some(Section { name: Located::new(name.to_owned(), reader.name), properties })
+            SectionProperties { damping: damping.map_or(0.0, |damping| damping.value), ..properties };
+        Some(Section { name: Located::new(name.to_owned(), reader.name), shape, properties })
     })
 }
 
-fn homogeneous(reader: &Reader<'_, '_>, form: &str, materials: &[Material]) -> Option<SectionProperties> {
+fn homogeneous(
+    reader: &Reader<'_, '_>,
+    form: &str,
+    materials: &[Material],
+) -> Option<(Shape, SectionProperties)> {
     let material = reader.name_in("material");
     let shear = shear(reader);
     let length = |key| reader.number(key).map(|number| number.value);
@@ -103,7 +111,7 @@ fn homogeneous(reader: &Reader<'_, '_>, form: &str, materials: &[Material]) -> O
     let usable =
         |matrix: &Matrix6| matrix.iter().all(|entry| entry.is_finite()) && matrix.diagonal().min() > 0.0;
     if usable(&properties.stiffness) && usable(&properties.mass) {
-        return Some(properties);
+        return Some((shape, properties));
     }
     let message = format!("{} has a stiffness or mass beyond all numbers", reader.what);
     reader.context.fail(reader.name, message, "check the units of its sides and of its material")

@@ -20,7 +20,7 @@ use lissom_motion::{Matrix3, Vector3};
 use crate::expression::Expression;
 use crate::line::Line;
 use crate::report::{Located, Problem, Report, Sources, Span};
-use crate::sections::{Isotropic, SectionProperties};
+use crate::sections::{Isotropic, SectionProperties, Shape};
 
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use outputs::{Output, OutputKind, OutputSource};
@@ -137,6 +137,8 @@ pub struct Material {
 pub struct Section {
     /// Name.
     pub name: Located<String>,
+    /// Its outline, where it was given by one.
+    pub shape: Option<Shape>,
     /// Stiffness, mass and damping.
     pub properties: SectionProperties,
 }

@@ -360,6 +360,12 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
                 "",
                 "steps from record to record, default 1",
             ),
+            optional(
+                "frames_per_second",
+                Shape::Positive,
+                "1/s",
+                "of the motion that `lissom view` shows, per simulated second; default at most 600 over the run",
+            ),
         ]
     };
     let mut dynamics = common();
@@ -393,7 +399,7 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
     statics.push(optional("end", Shape::Number, "s", "last time, default 1"));
     statics.push(optional("steps", Shape::Count(1, 1_000_000), "", "load steps, default 10"));
     let mut modes = common();
-    modes.retain(|key| key.name != "output_every");
+    modes.retain(|key| !matches!(key.name, "output_every" | "frames_per_second"));
     modes.extend([
         optional("count", Shape::Count(1, 100_000), "", "number of modes, default 20"),
         optional(

@@ -31,14 +31,18 @@ pub struct Lowered {
     pub plan: Plan,
     /// What is recorded.
     pub channels: Vec<Channel>,
+    /// Where the parts of the model are among the nodes and coordinates.
+    pub names: Names,
 }
 
-/// Nodes and coordinates by name, while a document is lowered.
-struct Names {
-    nodes: BTreeMap<String, NodeId>,
-    lines: BTreeMap<String, BeamLine>,
+/// Nodes and coordinates by the names of the model.
+pub struct Names {
+    /// Node of each body and point mass.
+    pub nodes: BTreeMap<String, NodeId>,
+    /// Nodes and elements of each beam.
+    pub lines: BTreeMap<String, BeamLine>,
     /// Coordinates of each joint; a drive has those of the joint it drives.
-    coordinates: BTreeMap<String, Vec<CoordinateId>>,
+    pub coordinates: BTreeMap<String, Vec<CoordinateId>>,
 }
 
 impl Names {
@@ -102,7 +106,7 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
     let (system, state) = built?;
     let channels = channels::of(document, &system, &state, &names.resolver(), &mut problems);
     stop_at(document, &mut problems)?;
-    Ok(Lowered { system, state, settings, plan, channels })
+    Ok(Lowered { system, state, settings, plan, channels, names })
 }
 
 impl Names {

@@ -7,6 +7,7 @@ mod plot;
 mod run;
 mod schema;
 mod study;
+mod view;
 
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -83,6 +84,7 @@ impl From<Report> for Failure {
     after_help = "\
 Examples:
   lissom run examples/pendulum.toml            simulate; results go to out/pendulum
+  lissom view examples/four-bar.toml --open    simulate, and watch it move in the browser
   lissom check examples/four-bar.toml          look for mistakes and redundant constraints
   lissom modes examples/four-bar.toml          natural frequencies and shapes
   lissom kinds                                 what a model can be made of
@@ -104,6 +106,7 @@ enum Command {
     Schema(schema::Schema),
     Plot(plot::Plot),
     Study(study::Study),
+    View(view::View),
 }
 
 impl Line {
@@ -117,6 +120,7 @@ impl Line {
             Command::Schema(command) => command.run(),
             Command::Plot(command) => command.run(),
             Command::Study(command) => command.run(),
+            Command::View(command) => command.run(),
         };
         let exit = outcome.unwrap_or_else(|failure| {
             terminal::complain(&failure.words);

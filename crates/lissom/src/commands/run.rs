@@ -1,18 +1,21 @@
 //! `lissom run`: simulates a model and leaves its results in a folder.
 
 use std::fmt::Write;
+use std::fs::File;
 use std::num::NonZero;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 use lissom::modes::ModeRequest;
+use lissom::motion::MotionRecorder;
 use lissom::{
-    Checkpoint, CheckpointEvery, CheckpointFile, FolderError, Model, Override, Progress, Record,
+    Checkpoint, CheckpointEvery, CheckpointFile, Document, FolderError, Model, Override, Progress, Record,
     ResultFolder, RunReport, Session, Stopped, Summary, Writer, summary,
 };
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::lower;
+use lissom_model::lower::{Lowered, lower};
+use lissom_model::scene::Scene;
 
 use super::{Exit, Failure, show_warnings};
 use crate::terminal::{self, Bar, Interrupt};
@@ -20,7 +23,8 @@ use crate::terminal::{self, Bar, Interrupt};
 /// Simulate a model as its table `[analysis]` asks.
 ///
 /// The results go to a folder: `history.csv` (time and all outputs), `summary.json` (steps, iterations, times,
-/// violations, energy), and a plot of every output as SVG and PNG. What was computed before a failure or Ctrl-C is
+/// violations, energy), `motion.bin` and `scene.json` (what `lissom view` shows), and a plot of every output as SVG and
+/// PNG. What was computed before a failure or Ctrl-C is
 /// kept there, too.
 #[derive(Args)]
 #[command(after_help = "\
@@ -50,7 +54,7 @@ pub(super) struct Run {
     #[arg(long, short)]
     quiet: bool,
 
-    /// Draw no plots.
+    /// Draw no plots and record no motion.
     #[arg(long)]
     no_plots: bool,
 
@@ -79,6 +83,20 @@ struct Task {
 }
 
 impl Run {
+    /// The run that `lissom run` would start for a model, without threads or checkpoints being chosen.
+    pub(super) fn of_model(model: &Path, set: &[Override], out: &Path, quiet: bool) -> Self {
+        Self {
+            model: Some(model.to_owned()),
+            set: set.to_owned(),
+            out: Some(out.to_owned()),
+            quiet,
+            no_plots: false,
+            checkpoint_every: None,
+            resume: None,
+            threads: None,
+        }
+    }
+
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let interrupt = Interrupt::listen();
         let task = self.task()?;
@@ -104,6 +122,7 @@ impl Run {
             }
             Some(checkpoint) => folder.resumed_history(checkpoint).map_err(unwritable)?,
         };
+        let motion = if task.plots { Some(task.motion(&folder, &document, &lowered)?) } else { None };
         let mut summary = summary::of_model(task.model.name(), &task.overrides, &document, &lowered);
         let mut session = match Session::start(lowered) {
             Ok(session) => session,
@@ -116,6 +135,9 @@ impl Run {
         if let Some(checkpoint) = &task.resumed {
             session.restore(&checkpoint.session).map_err(|error| Failure::new(Exit::Failed, error))?;
             record.columns = session.columns().to_vec();
+        }
+        if let Some(motion) = motion {
+            session.write_states_to(Box::new(motion));
         }
         let mut bar = Bar::new(session.progress().planned, !self.quiet);
         let mut writers: Vec<&mut dyn Writer> = vec![&mut history];
@@ -212,22 +234,44 @@ impl Run {
 }
 
 impl Task {
+    /// Records the motion, from the start or from where the run goes on.
+    fn motion(
+        &self,
+        folder: &ResultFolder,
+        document: &Document,
+        lowered: &Lowered,
+    ) -> Result<MotionRecorder<File>, Failure> {
+        let rate = document.analysis.frames_per_second;
+        if let Some(checkpoint) = &self.resumed {
+            let (file, last) = folder.resumed_motion(checkpoint).map_err(unwritable)?;
+            let mut recorder = MotionRecorder::new(lowered, rate, file);
+            if let Some(last) = last {
+                recorder.resume_after(last);
+            }
+            return Ok(recorder);
+        }
+        folder.write_scene(&Scene::of(document, lowered)).map_err(unwritable)?;
+        Ok(MotionRecorder::new(lowered, rate, folder.motion().map_err(unwritable)?))
+    }
+
     /// Where checkpoints go, if any are wanted.
     fn checkpoints(&self, folder: &ResultFolder) -> Option<CheckpointFile> {
         let every = self.every.clone()?;
         let parsed = every.parse().ok()?;
         let (model, text) = (self.model.name().to_owned(), self.model.text().to_owned());
         let (overrides, plots) = (self.overrides.clone(), self.plots);
-        let frame = move |session, history_length| Checkpoint {
+        let frame = move |session, [history_length, motion_length]: [u64; 2]| Checkpoint {
             model: model.clone(),
             text: text.clone(),
             overrides: overrides.clone(),
             plots,
             every: every.clone(),
             history_length,
+            motion_length,
             session,
         };
-        Some(CheckpointFile::new(&self.folder, &folder.history_path(), parsed, frame))
+        let motion = plots.then(|| folder.motion_path());
+        Some(CheckpointFile::new(&self.folder, &folder.history_path(), motion, parsed, frame))
     }
 }
 

@@ -1,0 +1,128 @@
+//! Bodies, point masses and beams as they look.
+
+use lissom_core::system::NodeId;
+use lissom_motion::{Matrix3, Motion};
+use serde::Serialize;
+
+use super::Places;
+use super::shapes::{InertiaBox, Outline};
+use crate::document::Document;
+
+/// A rigid body.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Body {
+    /// Name.
+    pub name: String,
+    /// Its node.
+    pub node: NodeId,
+    /// Mass [kg].
+    pub mass: f64,
+    /// Inertia about the centre of mass in body axes [kg m²], by rows.
+    pub inertia: [[f64; 3]; 3],
+    /// The box that has this mass and inertia.
+    pub shape: InertiaBox,
+}
+
+/// A point mass.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct PointMass {
+    /// Name.
+    pub name: String,
+    /// Its node.
+    pub node: NodeId,
+    /// Mass [kg].
+    pub mass: f64,
+}
+
+/// A section at a place along a beam.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Station {
+    /// Fraction of the beam, 0 to 1.
+    pub at: f64,
+    /// Name of the section.
+    pub section: String,
+    /// Its outline.
+    pub outline: Outline,
+}
+
+/// A beam.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Beam {
+    /// Name.
+    pub name: String,
+    /// Its nodes from start to end.
+    pub nodes: Vec<NodeId>,
+    /// Fraction of the beam at each node.
+    pub places: Vec<f64>,
+    /// Section frames in the frames of the nodes, where they are not those: index among the nodes, position [m] and
+    /// quaternion, scalar first.
+    pub offsets: Vec<(usize, [f64; 3], [f64; 4])>,
+    /// Number of elements.
+    pub elements: usize,
+    /// Polynomial order of the elements.
+    pub order: usize,
+    /// Outlines from 0 to 1, linear between; a single one for a uniform beam.
+    pub stations: Vec<Station>,
+    /// Length of the reference line [m].
+    pub length: f64,
+    /// Mass per length at the start [kg/m].
+    pub mass_per_length: f64,
+    /// Diagonal of the stiffness at the start: EA, GA₂, GA₃ [N], GJ, EI₂, EI₃ [N m²].
+    pub stiffness: [f64; 6],
+}
+
+pub(super) fn bodies(document: &Document, places: &Places<'_>) -> Vec<Body> {
+    let nodes = &places.lowered.names.nodes;
+    let drawn = |body: &crate::document::Body| {
+        let row = |k: usize| [0, 1, 2].map(|j| body.inertia[(k, j)]);
+        Some(Body {
+            name: body.name.value.clone(),
+            node: *nodes.get(&body.name.value)?,
+            mass: body.mass,
+            inertia: [row(0), row(1), row(2)],
+            shape: InertiaBox::of(body.mass, &symmetric(&body.inertia), &body.center_of_mass),
+        })
+    };
+    document.bodies.iter().filter_map(drawn).collect()
+}
+
+/// Without what rounding has left between the halves.
+fn symmetric(matrix: &Matrix3) -> Matrix3 {
+    0.5 * (matrix + matrix.transpose())
+}
+
+pub(super) fn point_masses(document: &Document, places: &Places<'_>) -> Vec<PointMass> {
+    let nodes = &places.lowered.names.nodes;
+    let drawn = |mass: &crate::document::PointMass| {
+        let name = mass.name.value.clone();
+        Some(PointMass { node: *nodes.get(&name)?, name, mass: mass.mass })
+    };
+    document.point_masses.iter().filter_map(drawn).collect()
+}
+
+pub(super) fn beams(document: &Document, places: &Places<'_>) -> Vec<Beam> {
+    let drawn = |beam: &crate::document::Beam| {
+        let line = places.lowered.names.lines.get(&beam.name.value)?;
+        let is_carried = |(_, offset): &(usize, &Motion)| **offset != Motion::identity();
+        let offset =
+            |(k, offset): (usize, &Motion)| (k, offset.position.into(), offset.rotation.quaternion());
+        let station = |station: &crate::document::Station| {
+            let outline = Outline::of(document.section(&station.section.value)?);
+            Some(Station { at: station.at, section: station.section.value.clone(), outline })
+        };
+        let start = beam.properties(document, 0.0)?;
+        Some(Beam {
+            name: beam.name.value.clone(),
+            nodes: line.nodes.clone(),
+            places: line.places.clone(),
+            offsets: line.offsets.iter().enumerate().filter(is_carried).map(offset).collect(),
+            elements: line.elements.len(),
+            order: line.order,
+            stations: beam.stations.iter().filter_map(station).collect(),
+            length: beam.line.length(),
+            mass_per_length: start.mass[(0, 0)],
+            stiffness: std::array::from_fn(|k| start.stiffness[(k, k)]),
+        })
+    };
+    document.beams.iter().filter_map(drawn).collect()
+}

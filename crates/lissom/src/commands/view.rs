@@ -1,0 +1,165 @@
+//! `lissom view`: one HTML file that shows results as a moving picture with plots.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use clap::Args;
+use lissom::motion::MotionRecorder;
+use lissom::view::Results;
+use lissom::{FileError, Model, Override, ResultFolder, Session};
+use lissom_model::files;
+use lissom_model::lower::lower;
+use lissom_model::scene::Scene;
+
+use super::run::Run;
+use super::{Exit, Failure, show_warnings};
+use crate::terminal;
+
+/// Show results as a moving picture with plots, in one HTML file for any browser.
+///
+/// Of a folder of results the file shows what is there; a model is simulated first, as by `lissom run`. The file needs
+/// no network and nothing beside it.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  lissom view out/four-bar                     writes out/four-bar/view.html
+  lissom view examples/four-bar.toml --open    simulates, writes, opens the browser
+  lissom view examples/four-bar.toml --initial --html four-bar.html
+                                               the model as it stands at the start, without simulating it
+
+Exit code: 0 all is done; 2 wrong model or command line; 3 no solution: the file then shows how far it came.")]
+pub(super) struct View {
+    /// A folder of results, or a model file.
+    #[arg(value_name = "RESULT|MODEL.toml")]
+    what: PathBuf,
+
+    /// Where the file goes [default: view.html in the folder of results; initial.html with --initial].
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+
+    /// Open it in the browser.
+    #[arg(long)]
+    open: bool,
+
+    /// Show the model at the start, without simulating it.
+    #[arg(long)]
+    initial: bool,
+
+    /// Put another value into the model, as `analysis.step=1e-4`; may be repeated.
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
+    set: Vec<Override>,
+
+    /// Folder for the results of a model [default: out/<name of the model file>].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// No progress, no summary on the terminal.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl View {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        if self.what.is_dir() {
+            return self.view_folder();
+        }
+        let stem = self.what.file_stem().unwrap_or_default();
+        let folder = self.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
+        if self.initial {
+            return self.view_start(&folder);
+        }
+        let run = Run::of_model(&self.what, &self.set, &folder, self.quiet).run();
+        // A run that failed leaves results up to there, one that could not start leaves none to be shown.
+        match run {
+            Ok(exit) => self.show(&folder).map(|()| exit),
+            Err(failure) if failure.exit == Exit::Failed && folder.join("history.csv").is_file() => {
+                self.show(&folder)?;
+                Err(failure)
+            }
+            Err(failure) => Err(failure),
+        }
+    }
+
+    fn view_folder(&self) -> Result<Exit, Failure> {
+        if self.initial || !self.set.is_empty() || self.out.is_some() {
+            let message = format!("`{}` is a folder of results", self.what.display());
+            return Err(Failure::new(
+                Exit::BadModel,
+                format!("{message}; --initial, --set and --out need a model"),
+            ));
+        }
+        self.show(&self.what).map(|()| Exit::Done)
+    }
+
+    /// Writes the page of a folder of results.
+    fn show(&self, folder: &Path) -> Result<(), Failure> {
+        let results =
+            ResultFolder::results(folder).map_err(|error| Failure::folder(Exit::BadModel, &error))?;
+        let target = self.html.clone().unwrap_or_else(|| folder.join("view.html"));
+        self.write(&target, &results)
+    }
+
+    /// Writes the page of a model that has not moved yet.
+    fn view_start(&self, folder: &Path) -> Result<Exit, Failure> {
+        let model = Model::read(&self.what).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let document = model.document(&self.set)?;
+        if !self.quiet {
+            show_warnings(&document);
+        }
+        let lowered = lower(&document)?;
+        let scene = Scene::of(&document, &lowered);
+        let mut motion = Vec::new();
+        let mut recorder = MotionRecorder::new(&lowered, None, &mut motion);
+        // Where the model starts from equilibrium, that is the start.
+        let start = if document.starts_in_equilibrium() {
+            let again = lower(&document)?;
+            let session = Session::start(again).map_err(|error| Failure::new(Exit::Failed, error))?;
+            session.simulation().state().clone()
+        } else {
+            lowered.state.clone()
+        };
+        recorder.write_still(&start.kinematics).map_err(|error| Failure::new(Exit::Failed, error))?;
+        let results = Results::new(model.name())
+            .with_title(document.title.as_deref().unwrap_or_default())
+            .with_scene(&scene, &motion)
+            .map_err(|error| Failure::new(Exit::Failed, error))?;
+        let target = if let Some(file) = &self.html {
+            file.clone()
+        } else {
+            files::create_folder(folder).map_err(|error| unwritable(&error))?;
+            folder.join("initial.html")
+        };
+        self.write(&target, &results)?;
+        Ok(Exit::Done)
+    }
+
+    fn write(&self, target: &Path, results: &Results) -> Result<(), Failure> {
+        files::write(target, results.page().as_bytes()).map_err(|error| unwritable(&error))?;
+        if !self.quiet {
+            terminal::print(&format!("{}\n", target.display()));
+        }
+        if self.open && !open(target) {
+            let message = format!("no browser could be started: open `{}` in one", target.display());
+            return Err(Failure::new(Exit::Failed, message));
+        }
+        Ok(())
+    }
+}
+
+fn unwritable(error: &FileError) -> Failure {
+    Failure::file(Exit::Failed, error)
+}
+
+/// Opens a file or address as the desktop does. Whether that could be started.
+pub(super) fn open(what: impl AsRef<std::ffi::OsStr>) -> bool {
+    let (program, first): (&str, &[&str]) = if cfg!(target_os = "macos") {
+        ("open", &[])
+    } else if cfg!(target_os = "windows") {
+        ("explorer", &[])
+    } else {
+        ("xdg-open", &[])
+    };
+    let mut command = Command::new(program);
+    command.args(first).arg(what).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+    command.spawn().is_ok()
+}

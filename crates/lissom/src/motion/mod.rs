@@ -1,0 +1,34 @@
+//! The motion file `motion.bin`: poses of all nodes and section forces of all beams, frame by frame, as a picture that
+//! moves needs them. Written while a run goes on; a file that ends within a frame, as after a crash, is read up to there.
+//!
+//! ```text
+//! 8 bytes    LISSOMMO
+//! u32        version, 1
+//! u32        length n of the header, a multiple of 8
+//! n bytes    header: JSON, filled up with spaces
+//! reference  f64, nodes x 7: position [m] and quaternion (scalar first) of every node as the model describes it
+//! frames     each of the same length, in the order of time:
+//!   f64                 time [s]
+//!   f32, nodes x 3      displacement x - x₀ [m], global axes
+//!   f32, nodes x 3      rotation vector log(R R₀⁻¹) [rad], global axes
+//!   f32, points x 6     section forces and moments [N, N m], local axes: axial, shear 2, 3, torsion, bending 2, 3
+//!   filled up with zeros to a multiple of 8
+//! ```
+//!
+//! Numbers are little-endian. Displacements are kept instead of places, so that small ones of large structures keep
+//! their digits: the relative error of a displacement is 6e-8.
+
+mod header;
+mod reader;
+mod recorder;
+
+pub use header::{ForcePoints, Header};
+pub use reader::{Motion, MotionError};
+pub use recorder::MotionRecorder;
+
+/// First bytes of the file.
+const MAGIC: &[u8; 8] = b"LISSOMMO";
+/// Version of the format.
+const VERSION: u32 = 1;
+/// Bytes before the header.
+const PREFIX: usize = 16;

@@ -1,0 +1,155 @@
+//! Reads motion files.
+
+use lissom_motion::{Motion as Pose, Rotation, Vector3, Vector6};
+
+use super::header::Header;
+use super::{MAGIC, PREFIX, VERSION};
+
+/// A text or file that is no motion file.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MotionError {
+    /// It begins otherwise.
+    #[error("it is no motion file of this program")]
+    Foreign,
+    /// It was written by another version.
+    #[error(
+        "it is a motion file of version {0}, and this program reads version {VERSION}: run the model again"
+    )]
+    Version(u32),
+    /// It ends before its first frame, or its header is damaged.
+    #[error("its beginning is damaged: run the model again")]
+    Damaged,
+    /// A number is none.
+    #[error("frame {0} holds a number that is not finite: run the model again")]
+    NotFinite(usize),
+}
+
+/// A motion file in memory. A last frame that is not whole is left out.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Motion {
+    header: Header,
+    reference: Vec<Pose>,
+    times: Vec<f64>,
+    /// Displacements, rotations and section forces of all frames, in the order of the file.
+    numbers: Vec<f32>,
+}
+
+impl Motion {
+    /// Reads the bytes of a motion file.
+    ///
+    /// # Errors
+    /// If they are something else, or damaged.
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, MotionError> {
+        let (header, frames) = Self::split(bytes)?;
+        let reference_bytes = 56 * header.nodes.len();
+        let reference: Option<Vec<Pose>> =
+            bytes[frames - reference_bytes..frames].chunks_exact(56).map(pose).collect();
+        let reference = reference.ok_or(MotionError::Damaged)?;
+        let per_frame = 6 * (header.nodes.len() + header.point_count());
+        let (mut times, mut numbers) = (Vec::new(), Vec::new());
+        for (index, frame) in bytes[frames..].chunks_exact(header.frame_bytes).enumerate() {
+            times.push(number(frame));
+            let (words, _) = frame[8..8 + 4 * per_frame].as_chunks::<4>();
+            numbers.extend(words.iter().map(|word| f32::from_le_bytes(*word)));
+            let is_finite = times[index].is_finite()
+                && numbers[index * per_frame..].iter().all(|number| number.is_finite());
+            if !is_finite {
+                return Err(MotionError::NotFinite(index + 1));
+            }
+        }
+        Ok(Self { header, reference, times, numbers })
+    }
+
+    /// Header, and where the frames begin.
+    fn split(bytes: &[u8]) -> Result<(Header, usize), MotionError> {
+        if bytes.len() < PREFIX || &bytes[..8] != MAGIC {
+            return Err(MotionError::Foreign);
+        }
+        let word = |at: usize| u32::from_le_bytes([bytes[at], bytes[at + 1], bytes[at + 2], bytes[at + 3]]);
+        if word(8) != VERSION {
+            return Err(MotionError::Version(word(8)));
+        }
+        let end = PREFIX + word(12) as usize;
+        let text = bytes.get(PREFIX..end).ok_or(MotionError::Damaged)?;
+        let header: Header = serde_json::from_slice(text).map_err(|_| MotionError::Damaged)?;
+        let frames = end + 56 * header.nodes.len();
+        if header.frame_bytes == header.needed_bytes() && frames <= bytes.len() {
+            Ok((header, frames))
+        } else {
+            Err(MotionError::Damaged)
+        }
+    }
+
+    /// Time of the last whole frame [s], without reading the others; none where there is no frame.
+    ///
+    /// # Errors
+    /// If the bytes are no motion file.
+    pub fn last_time(bytes: &[u8]) -> Result<Option<f64>, MotionError> {
+        let (header, frames) = Self::split(bytes)?;
+        Ok(bytes[frames..].chunks_exact(header.frame_bytes).next_back().map(number))
+    }
+
+    /// What the file tells about its frames.
+    pub fn header(&self) -> &Header {
+        &self.header
+    }
+
+    /// Times of the frames [s].
+    pub fn times(&self) -> &[f64] {
+        &self.times
+    }
+
+    /// The node called `name`.
+    pub fn node(&self, name: &str) -> Option<usize> {
+        self.header.nodes.iter().position(|known| known == name)
+    }
+
+    /// Poses of the nodes as the model describes them.
+    pub fn reference(&self) -> &[Pose] {
+        &self.reference
+    }
+
+    /// Displacements, rotations and section forces of a frame, one after the other.
+    ///
+    /// # Panics
+    /// If there is no such frame.
+    pub fn frame(&self, frame: usize) -> &[f32] {
+        let length = 6 * (self.header.nodes.len() + self.header.point_count());
+        &self.numbers[frame * length..(frame + 1) * length]
+    }
+
+    /// Pose of a node in a frame.
+    ///
+    /// # Panics
+    /// If there is no such frame or node.
+    pub fn pose(&self, frame: usize, node: usize) -> Pose {
+        let (numbers, count) = (self.frame(frame), self.header.nodes.len());
+        let vector = |at: usize| Vector3::from_fn(|k, _| f64::from(numbers[3 * at + k]));
+        let start = &self.reference[node];
+        let rotation = Rotation::exponential(&vector(count + node)) * start.rotation;
+        Pose::new(rotation, start.position + vector(node))
+    }
+
+    /// Section forces [N] and moments [N m] at a point in a frame, local axes.
+    ///
+    /// # Panics
+    /// If there is no such frame or point.
+    pub fn section_forces(&self, frame: usize, point: usize) -> Vector6 {
+        let first = 6 * (self.header.nodes.len() + point);
+        Vector6::from_fn(|k, _| f64::from(self.frame(frame)[first + k]))
+    }
+}
+
+/// The number at the beginning of some bytes.
+fn number(bytes: &[u8]) -> f64 {
+    bytes.first_chunk().map_or(f64::NAN, |word| f64::from_le_bytes(*word))
+}
+
+fn pose(bytes: &[u8]) -> Option<Pose> {
+    let at = |k: usize| number(&bytes[8 * k..]);
+    let position = Vector3::new(at(0), at(1), at(2));
+    let is_finite = position.iter().all(|number| number.is_finite());
+    let rotation = Rotation::from_quaternion([at(3), at(4), at(5), at(6)])?;
+    is_finite.then(|| Pose::new(rotation, position))
+}

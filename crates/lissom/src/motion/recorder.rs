@@ -1,0 +1,152 @@
+//! Records frames of a running session.
+//!
+//! Frames are wanted at equal distances of time. A step that is shorter gives its end, as the first at or after the wanted
+//! instant; one that is longer gives its end and states between, interpolated to the order of the scheme. So no frame
+//! depends on anything but the steps, and a run that goes on from a checkpoint records what an undisturbed one does.
+
+use std::io::{self, Write};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use lissom_core::analysis::Simulation;
+use lissom_core::elements::beam::line::BeamProbe;
+use lissom_core::system::{Kinematics, NodeMotion, State};
+use lissom_model::lower::Lowered;
+
+use super::header::{Header, POINTS};
+use crate::state_writer::StateWriter;
+
+/// Most frames where no rate is asked for.
+const FRAMES: f64 = 600.0;
+/// Instants this close to a wanted one, relative to the distance of frames, are it.
+const WHOLE: f64 = 1e-9;
+/// Longest time that frames stay in the buffer.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// Writes a motion file.
+pub struct MotionRecorder<W> {
+    to: W,
+    /// Whole frames only, so that the file seldom ends within one.
+    buffer: Vec<u8>,
+    flushed: Instant,
+    header: Header,
+    reference: Vec<NodeMotion>,
+    probes: Vec<Arc<dyn BeamProbe>>,
+    start: f64,
+    interval: f64,
+    /// Time of the last frame [s].
+    last: Option<f64>,
+    between: Option<State>,
+}
+
+impl<W: Write + Send> MotionRecorder<W> {
+    /// A recorder of the model `lowered` that writes to `to`; `frames_per_second` [1/s] of simulated time, or at most 600
+    /// spread over the run.
+    pub fn new(lowered: &Lowered, frames_per_second: Option<f64>, to: W) -> Self {
+        let plan = &lowered.plan;
+        let probes = lowered.names.lines.values().flat_map(|line| line.elements.iter().cloned());
+        Self {
+            to,
+            buffer: Vec::new(),
+            flushed: Instant::now(),
+            header: Header::of(lowered),
+            reference: lowered.state.kinematics.nodes.clone(),
+            probes: probes.collect(),
+            start: plan.start,
+            interval: frames_per_second.map_or((plan.end - plan.start) / FRAMES, f64::recip),
+            last: None,
+            between: None,
+        }
+    }
+
+    /// Goes on after the frame of the time `last` [s], which has been written already.
+    pub fn resume_after(&mut self, last: f64) {
+        self.last = Some(last);
+    }
+
+    /// Writes what stands before the frames, and one frame: a picture that stands still.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write_still(&mut self, at: &Kinematics) -> io::Result<()> {
+        let head = self.header.to_bytes(&self.reference);
+        self.buffer.extend_from_slice(&head);
+        self.frame(at);
+        self.flush()
+    }
+
+    /// The next instant at which a frame is wanted [s].
+    fn due(&self) -> f64 {
+        self.last.map_or(self.start, |last| {
+            let passed = ((last - self.start) / self.interval + WHOLE).floor();
+            self.start + (passed + 1.0) * self.interval
+        })
+    }
+
+    fn frame(&mut self, at: &Kinematics) {
+        let end = self.buffer.len() + self.header.frame_bytes;
+        self.buffer.extend_from_slice(&at.time.to_le_bytes());
+        let mut put = |numbers: &[f64]| {
+            self.buffer.extend(numbers.iter().flat_map(|number| (*number as f32).to_le_bytes()));
+        };
+        for (node, start) in at.nodes.iter().zip(&self.reference) {
+            put((node.frame.position - start.frame.position).as_slice());
+        }
+        for (node, start) in at.nodes.iter().zip(&self.reference) {
+            put((node.frame.rotation * start.frame.rotation.inverse()).logarithm().as_slice());
+        }
+        for probe in &self.probes {
+            for xi in POINTS {
+                put(probe.section_forces_at(at, xi).as_slice());
+            }
+        }
+        self.buffer.resize(end, 0);
+        self.last = Some(at.time);
+    }
+
+    fn flush_if_full(&mut self) -> io::Result<()> {
+        if self.buffer.len() > 1 << 16 || self.flushed.elapsed() > PATIENCE { self.flush() } else { Ok(()) }
+    }
+}
+
+impl<W: Write + Send> StateWriter for MotionRecorder<W> {
+    fn begin(&mut self, simulation: &Simulation) -> io::Result<()> {
+        self.write_still(&simulation.state().kinematics)
+    }
+
+    fn is_due(&self, time: f64) -> bool {
+        time >= self.due() - WHOLE * self.interval
+    }
+
+    fn step(&mut self, simulation: &Simulation, known_from: f64) -> io::Result<()> {
+        let end = &simulation.state().kinematics;
+        let duration = end.time - known_from;
+        let parts = (duration / self.interval - WHOLE).ceil();
+        if parts > 1.0 {
+            let mut between = self.between.take().unwrap_or_else(|| simulation.state().clone());
+            for part in 1..parts as u64 {
+                simulation.interpolate(known_from + duration * (part as f64 / parts), &mut between);
+                self.frame(&between.kinematics);
+                self.flush_if_full()?;
+            }
+            self.between = Some(between);
+        }
+        self.frame(end);
+        self.flush_if_full()
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.to.write_all(&self.buffer)?;
+        self.buffer.clear();
+        self.flushed = Instant::now();
+        self.to.flush()
+    }
+
+    fn finish(&mut self, simulation: &Simulation) -> io::Result<()> {
+        let end = &simulation.state().kinematics;
+        if self.last != Some(end.time) {
+            self.frame(end);
+        }
+        self.flush()
+    }
+}

@@ -1,0 +1,166 @@
+//! The page that shows results: one HTML file with everything in it, which asks nothing of any network.
+//!
+//! The page itself is bundled from `viewer/`; here the results are put into it.
+
+mod packed;
+
+use lissom_model::output::{Column, Record};
+use lissom_model::scene::Scene;
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::motion::{Motion, MotionError};
+
+/// The page without results, as `viewer/build.js` has made it.
+const PAGE: &str = include_str!("viewer.html");
+/// Most numbers of the table that go into a page; of longer ones rows are left out.
+const MOST_NUMBERS: usize = 1_500_000;
+
+/// Something the reader of a page must know about the results.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Notice {
+    /// `warning` or `error`.
+    kind: &'static str,
+    /// What it is.
+    text: String,
+    /// Whether it is an excerpt of a file, to be shown letter by letter.
+    is_code: bool,
+}
+
+impl Notice {
+    /// Something to be aware of.
+    pub fn warning(text: impl Into<String>) -> Self {
+        Self { kind: "warning", text: text.into(), is_code: false }
+    }
+
+    /// Something that went wrong.
+    pub fn error(text: impl Into<String>) -> Self {
+        Self { kind: "error", text: text.into(), is_code: false }
+    }
+
+    /// The same, with lines of the model in it.
+    #[must_use]
+    pub fn with_code(self) -> Self {
+        Self { is_code: true, ..self }
+    }
+}
+
+/// Results on their way into a page.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Results {
+    /// Name of the model or of the folder.
+    name: String,
+    /// One line about the model.
+    title: String,
+    /// A few words about the run.
+    facts: String,
+    notices: Vec<Notice>,
+    scene: Value,
+    motion: Option<packed::Motion>,
+    columns: Vec<Value>,
+    history: Option<String>,
+}
+
+impl Results {
+    /// Nothing yet, of the model called `name`.
+    pub fn new(name: &str) -> Self {
+        Self { name: name.to_owned(), ..Self::default() }
+    }
+
+    /// With one line about the model.
+    #[must_use]
+    pub fn with_title(self, title: &str) -> Self {
+        Self { title: title.to_owned(), ..self }
+    }
+
+    /// With what `summary.json` tells: title, counts, and why a run has ended early.
+    #[must_use]
+    pub fn with_summary(mut self, summary: &Value) -> Self {
+        let word = |name: &str| summary[name].as_str().unwrap_or_default();
+        if !word("title").is_empty() {
+            word("title").clone_into(&mut self.title);
+        }
+        if let (Some(unknowns), Some(steps)) = (summary["unknowns"].as_u64(), summary["steps"].as_u64()) {
+            self.facts = format!("{} · {unknowns} unknowns · {steps} steps", word("scheme"));
+        }
+        let time = summary["time"].as_f64().unwrap_or_default();
+        match word("stopped") {
+            "failed" => self.notices.push(Notice::error(format!("The run failed: {}", word("error")))),
+            "interrupted" => {
+                self.notices.push(Notice::warning(format!("The run was interrupted at t = {time} s.")));
+            }
+            _ => {}
+        }
+        self
+    }
+
+    /// With a scene and its motion, as they stand in the files of a run.
+    ///
+    /// # Errors
+    /// If the bytes are no motion file.
+    pub fn with_motion(mut self, scene: Value, motion: &[u8]) -> Result<Self, MotionError> {
+        let motion = Motion::from_bytes(motion)?;
+        self.scene = scene;
+        self.motion = Some(packed::Motion::of(&motion));
+        Ok(self)
+    }
+
+    /// With a model as it stands at the start.
+    ///
+    /// # Errors
+    /// If the bytes are no motion file.
+    ///
+    /// # Panics
+    /// Never: plain numbers and texts can always be said in JSON.
+    pub fn with_scene(self, scene: &Scene, motion: &[u8]) -> Result<Self, MotionError> {
+        let scene = serde_json::to_value(scene).expect("plain numbers and texts can always be said in JSON");
+        self.with_motion(scene, motion)
+    }
+
+    /// With the table of results.
+    #[must_use]
+    pub fn with_record(mut self, record: &Record) -> Self {
+        let column = |column: &Column| serde_json::json!({ "name": column.name(), "quantity": column.quantity, "unit": column.unit });
+        self.columns = record.columns.iter().map(column).collect();
+        let numbers = record.times.len() * (record.columns.len() + 1);
+        let stride = numbers.div_ceil(MOST_NUMBERS).max(1);
+        if stride > 1 {
+            let text = format!(
+                "The plots show every {stride}th row of the table, which is longer than a page should be."
+            );
+            self.notices.push(Notice::warning(text));
+        }
+        self.history = Some(packed::table(record, stride));
+        self
+    }
+
+    /// With something the reader must know.
+    #[must_use]
+    pub fn with_notice(mut self, notice: Notice) -> Self {
+        self.notices.push(notice);
+        self
+    }
+
+    /// As the text of a JSON object, as the page takes it.
+    ///
+    /// # Panics
+    /// Never: plain numbers and texts can always be said in JSON.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("plain numbers and texts can always be said in JSON")
+    }
+
+    /// The page with these results in it.
+    pub fn page(&self) -> String {
+        let title = if self.title.is_empty() { &self.name } else { &self.title };
+        // An end tag within a text would end the script that holds it.
+        fill(title, "'none'", &self.to_json().replace('<', "\\u003c"))
+    }
+}
+
+fn fill(title: &str, connect: &str, result: &str) -> String {
+    let escaped = title.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+    let (head, rest) = PAGE.split_once("{{connect}}").unwrap_or((PAGE, ""));
+    let (middle, rest) = rest.split_once("{{title}}").unwrap_or((rest, ""));
+    let (before, after) = rest.split_once("{{result}}").unwrap_or((rest, ""));
+    [head, connect, middle, &escaped, before, result, after].concat()
+}

@@ -1,0 +1,189 @@
+//! Results made small for a page: numbers rounded to what a screen shows, differences, deflate, base64.
+//!
+//! A number of a motion is a whole multiple of a quantum of its own, kept as a second difference in as few bytes as it
+//! needs. Quanta are a part of what the number ranges over during the run: 2⁻¹⁷ for displacements, 2⁻¹⁵ for rotations,
+//! 2⁻¹² for section forces; and never less than a part of what the largest number of its kind ranges over.
+
+use std::fmt::Write as _;
+use std::io::Write;
+
+use flate2::Compression;
+use flate2::write::ZlibEncoder;
+use lissom_model::output::{CsvWriter, Record, Writer};
+use serde::Serialize;
+
+use crate::motion::{ForcePoints, Motion as Recorded};
+
+/// Quantum over the range of a number, and over the largest range of its kind.
+const DISPLACEMENT: [f64; 2] = [1.0 / 131_072.0, 1.5e-8];
+const ROTATION: [f64; 2] = [1.0 / 32_768.0, 1.5e-8];
+const FORCE: [f64; 2] = [1.0 / 4096.0, 1e-6];
+
+/// A motion as the page reads it.
+#[derive(Clone, Debug, Serialize)]
+pub(super) struct Motion {
+    nodes: Vec<String>,
+    force_points: Vec<ForcePoints>,
+    frames: usize,
+    packed: String,
+}
+
+impl Motion {
+    pub(super) fn of(motion: &Recorded) -> Self {
+        let (header, times) = (motion.header(), motion.times());
+        let mut bytes: Vec<u8> = times.iter().flat_map(|time| time.to_le_bytes()).collect();
+        for pose in motion.reference() {
+            let numbers = pose.position.iter().copied().chain(pose.rotation.quaternion());
+            bytes.extend(numbers.flat_map(f64::to_le_bytes));
+        }
+        let nodes = 3 * header.nodes.len();
+        let points = 6 * header.point_count();
+        let mut first = 0;
+        for (count, quanta) in [(nodes, DISPLACEMENT), (nodes, ROTATION)] {
+            channels(motion, first, count, 1, quanta, &mut bytes);
+            first += count;
+        }
+        channels(motion, first, points, 6, FORCE, &mut bytes);
+        Self {
+            nodes: header.nodes.clone(),
+            force_points: header.force_points.clone(),
+            frames: times.len(),
+            packed: deflated(&bytes),
+        }
+    }
+}
+
+/// Appends `count` numbers from `first` on, each over all frames; those `kinds` apart are of one kind.
+fn channels(
+    motion: &Recorded,
+    first: usize,
+    count: usize,
+    kinds: usize,
+    quanta: [f64; 2],
+    out: &mut Vec<u8>,
+) {
+    let frames = motion.times().len();
+    let value = |frame: usize, k: usize| f64::from(motion.frame(frame)[first + k]);
+    let range = |k: usize| {
+        let ends = (0..frames).map(|frame| value(frame, k));
+        let [low, high] =
+            ends.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(x), high.max(x)]);
+        (high - low).max(0.0)
+    };
+    let ranges: Vec<f64> = (0..count).map(range).collect();
+    for k in 0..count {
+        let largest =
+            ranges.iter().skip(k % kinds).step_by(kinds).fold(0.0_f64, |most, range| most.max(*range));
+        let quantum = (quanta[0] * ranges[k]).max(quanta[1] * largest);
+        let start = if frames > 0 { value(0, k) } else { 0.0 };
+        let quantum = if ranges[k] > 0.0 { quantum } else { 0.0 };
+        out.extend_from_slice(&start.to_le_bytes());
+        out.extend_from_slice(&quantum.to_le_bytes());
+        if quantum == 0.0 {
+            continue;
+        }
+        let (mut last, mut slope) = (0, 0);
+        for frame in 0..frames {
+            let whole = ((value(frame, k) - start) / quantum).round() as i64;
+            let change = whole - last;
+            put_integer(change - slope, out);
+            (last, slope) = (whole, change);
+        }
+    }
+}
+
+/// Seven bits per byte, least first, the sign in the last bit of all.
+fn put_integer(value: i64, out: &mut Vec<u8>) {
+    let mut rest = ((value << 1) ^ (value >> 63)) as u64;
+    while rest > 127 {
+        out.push((rest & 127) as u8 | 128);
+        rest >>= 7;
+    }
+    out.push(rest as u8);
+}
+
+/// Every `stride`th row of a table and its last, as comma-separated values.
+pub(super) fn table(record: &Record, stride: usize) -> String {
+    let mut text = Vec::new();
+    let mut writer = CsvWriter::new(&mut text);
+    let last = record.times.len().saturating_sub(1);
+    let mut values = Vec::with_capacity(record.columns.len());
+    let mut write = || {
+        writer.begin(&record.columns)?;
+        for (row, time) in
+            record.times.iter().enumerate().filter(|(row, _)| row % stride == 0 || *row == last)
+        {
+            values.clear();
+            values.extend(record.values.iter().map(|column| column[row]));
+            writer.row(*time, &values)?;
+        }
+        writer.finish()
+    };
+    write().expect("a vector takes all that is written");
+    deflated(&text)
+}
+
+/// In the format of zlib, in letters.
+fn deflated(bytes: &[u8]) -> String {
+    let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(6));
+    let packed = encoder.write_all(bytes).and_then(|()| encoder.finish());
+    base64(&packed.expect("a vector takes all that is written"))
+}
+
+/// RFC 4648.
+fn base64(bytes: &[u8]) -> String {
+    const LETTERS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for group in bytes.chunks(3) {
+        let at = |k: usize| u32::from(group.get(k).copied().unwrap_or(0));
+        let whole = at(0) << 16 | at(1) << 8 | at(2);
+        for k in 0..4 {
+            let letter = char::from(LETTERS[(whole >> (18 - 6 * k)) as usize & 63]);
+            // Writing to a string cannot fail.
+            let _ = text.write_char(if k > group.len() { '=' } else { letter });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::Read;
+
+    use flate2::read::ZlibDecoder;
+
+    use super::*;
+
+    #[test]
+    fn letters_are_those_of_the_standard() {
+        for (bytes, wanted) in
+            [("", ""), ("f", "Zg=="), ("fo", "Zm8="), ("foo", "Zm9v"), ("foobar", "Zm9vYmFy")]
+        {
+            assert_eq!(base64(bytes.as_bytes()), wanted);
+        }
+    }
+
+    #[test]
+    fn integers_take_few_bytes() {
+        let of = |value| {
+            let mut out = Vec::new();
+            put_integer(value, &mut out);
+            out
+        };
+        assert_eq!(of(0), [0]);
+        assert_eq!(of(-1), [1]);
+        assert_eq!(of(63), [126]);
+        assert_eq!(of(64), [128, 1]);
+        assert_eq!(of(i64::MIN).len(), 10);
+    }
+
+    #[test]
+    fn what_is_deflated_comes_back() {
+        let mut bytes = Vec::new();
+        let mut encoder = ZlibEncoder::new(Vec::new(), Compression::new(6));
+        encoder.write_all(&[7; 1000]).unwrap();
+        ZlibDecoder::new(&*encoder.finish().unwrap()).read_to_end(&mut bytes).unwrap();
+        assert_eq!(bytes, [7; 1000]);
+        assert!(deflated(&[7; 1000]).len() < 60);
+    }
+}

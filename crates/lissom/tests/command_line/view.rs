@@ -1,0 +1,202 @@
+//! `lissom view` as browsers see it: one page that asks nothing of anybody and holds the motion of the run.
+
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+
+use flate2::read::ZlibDecoder;
+use lissom::Record;
+use lissom::motion::Motion;
+use serde_json::Value;
+
+use crate::support::{CANTILEVER, Folder, example, lissom};
+
+/// The results in a page.
+fn results(page: &str) -> Value {
+    let (_, rest) = page.split_once("<script type=\"application/json\" id=\"result\">").unwrap();
+    let (text, _) = rest.split_once("</script>").unwrap();
+    serde_json::from_str(text).unwrap()
+}
+
+fn inflated(text: &str) -> Vec<u8> {
+    const LETTERS: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let (mut bits, mut count, mut packed) = (0_u32, 0, Vec::new());
+    for letter in text.trim_end_matches('=').chars() {
+        bits = bits << 6 | LETTERS.find(letter).unwrap() as u32;
+        count += 6;
+        if count >= 8 {
+            count -= 8;
+            packed.push((bits >> count) as u8);
+            bits &= (1 << count) - 1;
+        }
+    }
+    let mut bytes = Vec::new();
+    ZlibDecoder::new(&*packed).read_to_end(&mut bytes).unwrap();
+    bytes
+}
+
+/// Reads a packed motion as the page does.
+struct Packed(Vec<u8>, usize);
+
+impl Packed {
+    fn double(&mut self) -> f64 {
+        self.1 += 8;
+        f64::from_le_bytes(self.0[self.1 - 8..self.1].try_into().unwrap())
+    }
+
+    fn integer(&mut self) -> i64 {
+        let (mut value, mut shift) = (0_u64, 0);
+        loop {
+            let byte = self.0[self.1];
+            self.1 += 1;
+            value |= u64::from(byte & 127) << shift;
+            shift += 7;
+            if byte < 128 {
+                return (value >> 1).cast_signed() ^ -(value & 1).cast_signed();
+            }
+        }
+    }
+
+    /// A number over all frames.
+    fn channel(&mut self, frames: usize) -> (Vec<f64>, f64) {
+        let (start, quantum) = (self.double(), self.double());
+        let (mut value, mut slope) = (0, 0);
+        let mut next = || {
+            if quantum != 0.0 {
+                slope += self.integer();
+                value += slope;
+            }
+            start + quantum * value as f64
+        };
+        ((0..frames).map(|_| next()).collect(), quantum)
+    }
+}
+
+/// Compares the motion in a page with that of the file, number by number.
+fn compare(results: &Value, file: &Path) {
+    let motion = Motion::from_bytes(&fs::read(file).unwrap()).unwrap();
+    let frames = motion.times().len();
+    assert_eq!(results["motion"]["frames"], frames);
+    assert_eq!(results["motion"]["nodes"].as_array().unwrap().len(), motion.reference().len());
+    let mut packed = Packed(inflated(results["motion"]["packed"].as_str().unwrap()), 0);
+    let times: Vec<f64> = (0..frames).map(|_| packed.double()).collect();
+    assert_eq!(times, motion.times());
+    for pose in motion.reference() {
+        let found: Vec<f64> = (0..7).map(|_| packed.double()).collect();
+        assert_eq!(&found[..3], pose.position.as_slice());
+    }
+    for number in 0..motion.frame(0).len() {
+        let wanted: Vec<f64> = (0..frames).map(|frame| f64::from(motion.frame(frame)[number])).collect();
+        let [low, high] = wanted
+            .iter()
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)]);
+        let (found, quantum) = packed.channel(frames);
+        assert!(quantum <= (high - low).max(1e-30) / 4000.0 || quantum < 1e-5, "{number}: {quantum}");
+        for (found, wanted) in found.iter().zip(&wanted) {
+            assert!((found - wanted).abs() <= 0.51 * quantum + 1e-300, "{number}: {found} for {wanted}");
+        }
+    }
+    assert_eq!(packed.1, packed.0.len(), "all is read");
+}
+
+/// What would fetch something or send it somewhere, and the rule that forbids what is overlooked here.
+fn asks_nobody(page: &str) {
+    assert!(page.starts_with("<!doctype html>") && page.trim_end().ends_with("</html>"));
+    assert!(page.contains("default-src 'none'") && page.contains("connect-src 'none'"));
+    for needle in
+        ["src=\"http", "src='http", "href=\"http", "url(http", "url(\"http", "@import", "<link", "<iframe"]
+    {
+        assert!(!page.contains(needle), "{needle}");
+    }
+}
+
+#[test]
+fn a_folder_of_results_becomes_a_page() {
+    let folder = Folder::new("view-folder");
+    let run = lissom(
+        &["run", &example("four-bar"), "--set", "analysis.end=2", "--out", "out", "-q"],
+        folder.path(),
+    );
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let view = lissom(&["view", "out"], folder.path());
+    assert_eq!((view.code, view.output.trim()), (0, "out/view.html"), "{}", view.errors);
+    let page = fs::read_to_string(folder.path().join("out/view.html")).unwrap();
+    asks_nobody(&page);
+    let results = results(&page);
+    assert_eq!(results["title"], "Flexible four-bar with a misaligned joint");
+    assert_eq!(results["notices"].as_array().unwrap().len(), 0);
+    assert_eq!(results["scene"]["beams"].as_array().unwrap().len(), 3);
+    assert_eq!(results["scene"]["joints"].as_array().unwrap().len(), 5);
+    compare(&results, &folder.path().join("out/motion.bin"));
+    let table = String::from_utf8(inflated(results["history"].as_str().unwrap())).unwrap();
+    assert_eq!(table, fs::read_to_string(folder.path().join("out/history.csv")).unwrap());
+    assert_eq!(results["columns"].as_array().unwrap().len(), Record::from_csv(&table).unwrap().columns.len());
+}
+
+#[test]
+fn a_model_of_statics_is_simulated_and_shown() {
+    let folder = Folder::new("view-statics");
+    // A title that would end the page if it were put there as it is.
+    folder
+        .write("bar.toml", &CANTILEVER.replace("lissom = 1", "lissom = 1\ntitle = \"</script><b> & more\""));
+    let view = lissom(&["view", "bar.toml", "--html", "bar.html"], folder.path());
+    assert_eq!(view.code, 0, "{}", view.errors);
+    let page = fs::read_to_string(folder.path().join("bar.html")).unwrap();
+    asks_nobody(&page);
+    assert!(page.contains("<title>&lt;/script&gt;&lt;b&gt; &amp; more</title>"));
+    let results = results(&page);
+    assert_eq!(results["title"], "</script><b> & more");
+    assert_eq!(results["scene"]["is_static"], true);
+    assert_eq!(results["motion"]["frames"], 5);
+    compare(&results, &folder.path().join("out/bar/motion.bin"));
+}
+
+#[test]
+fn a_model_at_the_start_is_shown_without_being_simulated() {
+    let folder = Folder::new("view-initial");
+    folder.write("bar.toml", CANTILEVER);
+    let view = lissom(&["view", "bar.toml", "--initial"], folder.path());
+    assert_eq!((view.code, view.output.trim()), (0, "out/bar/initial.html"), "{}", view.errors);
+    let page = fs::read_to_string(folder.path().join("out/bar/initial.html")).unwrap();
+    asks_nobody(&page);
+    let results = results(&page);
+    assert_eq!(results["motion"]["frames"], 1);
+    assert_eq!(results["history"], Value::Null);
+    assert!(!folder.path().join("out/bar/history.csv").exists());
+}
+
+#[test]
+fn what_is_missing_or_went_wrong_is_told_in_the_page() {
+    let folder = Folder::new("view-failed");
+    folder.write("bar.toml", CANTILEVER);
+    let notices =
+        |page: &str| results(&fs::read_to_string(folder.path().join(page)).unwrap())["notices"].clone();
+    // No step of a load that is far too large has a solution: what there is is shown, and the exit code tells.
+    let args =
+        ["view", "bar.toml", "--set", "loads.tip.scale=1e9*t", "--set", "analysis.max_iterations=3", "-q"];
+    let view = lissom(&args, folder.path());
+    assert_eq!(view.code, 3, "{}", view.errors);
+    let told = notices("out/bar/view.html");
+    assert_eq!(told[0]["kind"], "error");
+    assert!(told[0]["text"].as_str().unwrap().contains("failed"), "{told}");
+    // Without motion the plots are left.
+    let run = lissom(&["run", "bar.toml", "--no-plots", "-q"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(!folder.path().join("out/bar/view.html").exists(), "a page of a former run would lie");
+    assert_eq!(lissom(&["view", "out/bar", "-q"], folder.path()).code, 0);
+    let told = notices("out/bar/view.html");
+    assert!(told[0]["text"].as_str().unwrap().contains("--no-plots"), "{told}");
+    for (args, words) in [
+        (vec!["view", "nowhere"], "there is no such file"),
+        (vec!["view", "out"], "history.csv"),
+        (vec!["view", "out/bar", "--initial"], "folder of results"),
+    ] {
+        let view = lissom(&args, folder.path());
+        assert_eq!(view.code, 2, "{args:?}");
+        assert!(view.errors.contains(words), "{}", view.errors);
+    }
+    folder.write("out/bar/motion.bin", "something else");
+    let view = lissom(&["view", "out/bar"], folder.path());
+    assert_eq!(view.code, 2);
+    assert!(view.errors.contains("no motion file"), "{}", view.errors);
+}

@@ -1,0 +1,81 @@
+// Rigid bodies as the boxes or ellipsoids that have their inertia, with arms to the points where something is attached.
+
+import * as THREE from "three";
+
+const up = new THREE.Vector3(0, 1, 0);
+
+/** A thin rod between two points. */
+export const rod = (from, to, radius, material) => {
+  const [a, b] = [new THREE.Vector3(...from), new THREE.Vector3(...to)];
+  const span = b.clone().sub(a);
+  const length = span.length();
+  const mesh = new THREE.Mesh(new THREE.CylinderGeometry(radius, radius, length, 12), material);
+  mesh.position.copy(a.add(b).multiplyScalar(0.5));
+  if (length > 0) mesh.quaternion.setFromUnitVectors(up, span.divideScalar(length));
+  return mesh;
+};
+
+/** Something that moves with a node. */
+export class Carried {
+  constructor(node, kinematics) {
+    this.node = node;
+    this.kinematics = kinematics;
+    this.group = new THREE.Group();
+  }
+  update() {
+    const { positions: p, quaternions: q } = this.kinematics;
+    this.group.position.set(p[3 * this.node], p[3 * this.node + 1], p[3 * this.node + 2]);
+    this.group.quaternion.set(...q.subarray(4 * this.node, 4 * this.node + 4));
+  }
+}
+
+export class BodyMesh extends Carried {
+  constructor(body, anchors, kinematics, size, colour, shape) {
+    super(body.node, kinematics);
+    this.name = body.name;
+    this.material = new THREE.MeshStandardMaterial({ color: colour, roughness: 0.6, metalness: 0.05 });
+    const { center, sides, quaternion } = body.shape;
+    const reach = Math.max(...anchors.map((at) => Math.hypot(...at.map((x, k) => x - center[k]))), 0);
+    // Inertias far bulkier than what the body reaches, as of models in a plane, must not hide all else.
+    const most = reach > 0.02 * size ? 0.8 * reach : 0.3 * size;
+    const [, second] = sides.toSorted((a, b) => b - a);
+    this.isShrunk = second > most;
+    const share = this.isShrunk ? (0.35 * most) / second : 1;
+    const least = 0.012 * size;
+    const drawn = sides.map((side) => Math.max(share * side, least));
+    const geometry =
+      shape === "ellipsoid" ? new THREE.SphereGeometry(Math.sqrt(5 / 12), 32, 20) : new THREE.BoxGeometry(1, 1, 1);
+    const mesh = new THREE.Mesh(geometry, this.material);
+    mesh.scale.set(...drawn);
+    mesh.position.set(...center);
+    const [w, x, y, z] = quaternion;
+    mesh.quaternion.set(x, y, z, w);
+    this.group.add(mesh);
+    for (const at of anchors) {
+      if (Math.hypot(...at.map((x, k) => x - center[k])) > 0.5 * least) {
+        this.group.add(rod(center, at, 0.0055 * size, this.material));
+      }
+    }
+    this.group.traverse((child) => (child.userData.part = body.name));
+  }
+
+  paint(colourAt, own) {
+    if (!colourAt) return void this.material.color.set(own);
+    const colour = [0, 0, 0];
+    colourAt(colour);
+    this.material.color.setRGB(...colour, THREE.LinearSRGBColorSpace);
+  }
+}
+
+export class PointMassMesh extends Carried {
+  constructor(mass, heaviest, kinematics, size, colour) {
+    super(mass.node, kinematics);
+    this.name = mass.name;
+    this.material = new THREE.MeshStandardMaterial({ color: colour, roughness: 0.5 });
+    const radius = size * (0.012 + 0.016 * Math.cbrt(mass.mass / heaviest));
+    const mesh = new THREE.Mesh(new THREE.SphereGeometry(radius, 28, 18), this.material);
+    mesh.userData.part = mass.name;
+    this.group.add(mesh);
+  }
+}
+PointMassMesh.prototype.paint = BodyMesh.prototype.paint;

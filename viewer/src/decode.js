@@ -1,0 +1,111 @@
+// From the result that stands in the page to numbers: texts and motions are compressed, see docs/viewing/motion-file.md.
+
+const inflate = async (text) => {
+  const bytes = Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return new Uint8Array(await new Response(stream).arrayBuffer());
+};
+
+/** Splits a line at the commas outside of quotes. */
+const fields = (line) => {
+  const found = [];
+  let field = "";
+  let inside = false;
+  for (let i = 0; i < line.length; i++) {
+    const letter = line[i];
+    if (letter === '"' && inside && line[i + 1] === '"') {
+      field += '"';
+      i++;
+    } else if (letter === '"') {
+      inside = !inside;
+    } else if (letter === "," && !inside) {
+      found.push(field);
+      field = "";
+    } else {
+      field += letter;
+    }
+  }
+  return [...found, field];
+};
+
+/** The table of results: times and columns, with quantity and unit from the summary where it has them. */
+export const decodeHistory = async (packed, known) => {
+  if (!packed) return { times: new Float64Array(), columns: [] };
+  const lines = new TextDecoder().decode(await inflate(packed)).split("\n").filter(Boolean);
+  const names = fields(lines[0]).slice(1);
+  const rows = lines.length - 1;
+  const times = new Float64Array(rows);
+  const columns = names.map((name) => {
+    const described = known.find((column) => column.name === name) ?? {};
+    const dot = name.lastIndexOf(".");
+    const [output, component] = dot < 0 ? [name, ""] : [name.slice(0, dot), name.slice(dot + 1)];
+    const { quantity = "", unit = "" } = described;
+    return { name, output, component, quantity, unit, values: new Float64Array(rows) };
+  });
+  for (let row = 0; row < rows; row++) {
+    const numbers = lines[row + 1].split(",");
+    times[row] = Number(numbers[0]);
+    for (let k = 0; k < columns.length; k++) columns[k].values[row] = Number(numbers[k + 1]);
+  }
+  return { times, columns };
+};
+
+/** Reads the numbers of a packed motion one after the other. */
+class Cursor {
+  constructor(bytes) {
+    this.bytes = bytes;
+    this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+    this.at = 0;
+  }
+  double() {
+    this.at += 8;
+    return this.view.getFloat64(this.at - 8, true);
+  }
+  /** A whole number: seven bits per byte, least first, and the sign in the last bit. */
+  integer() {
+    let value = 0;
+    let factor = 1;
+    let byte;
+    do {
+      byte = this.bytes[this.at++];
+      value += (byte & 127) * factor;
+      factor *= 128;
+    } while (byte > 127);
+    return value % 2 === 0 ? value / 2 : -(value + 1) / 2;
+  }
+}
+
+/** Frames of a channel are whole multiples of its quantum, kept as second differences. */
+const channel = (cursor, frames, out, offset, stride) => {
+  const start = cursor.double();
+  const quantum = cursor.double();
+  let value = 0;
+  let slope = 0;
+  for (let frame = 0; frame < frames; frame++) {
+    if (quantum !== 0) {
+      slope += cursor.integer();
+      value += slope;
+    }
+    out[frame * stride + offset] = start + quantum * value;
+  }
+};
+
+/** Poses and section forces of all frames. */
+export const decodeMotion = async (motion) => {
+  if (!motion) return null;
+  const cursor = new Cursor(await inflate(motion.packed));
+  const { nodes, force_points: forcePoints, frames } = motion;
+  const doubles = (count) => Float64Array.from({ length: count }, () => cursor.double());
+  const times = doubles(frames);
+  const reference = doubles(7 * nodes.length);
+  const read = (count) => {
+    const out = new Float32Array(frames * count);
+    for (let k = 0; k < count; k++) channel(cursor, frames, out, k, count);
+    return out;
+  };
+  const displacements = read(3 * nodes.length);
+  const rotations = read(3 * nodes.length);
+  const points = forcePoints.reduce((sum, beam) => sum + beam.at.length, 0);
+  const forces = read(6 * points);
+  return { nodes, forcePoints, points, frames, times, reference, displacements, rotations, forces };
+};

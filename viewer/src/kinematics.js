@@ -1,0 +1,177 @@
+// Where the nodes are at a time: between two frames displacements are straight, rotations uniform.
+
+/** Quaternion (x, y, z, w) of the product of two. */
+const multiply = (ax, ay, az, aw, bx, by, bz, bw, out, at) => {
+  out[at] = aw * bx + ax * bw + ay * bz - az * by;
+  out[at + 1] = aw * by - ax * bz + ay * bw + az * bx;
+  out[at + 2] = aw * bz + ax * by - ay * bx + az * bw;
+  out[at + 3] = aw * bw - ax * bx - ay * by - az * bz;
+};
+
+/** Quaternion of the rotation vector at `from` in `numbers`. */
+const exponential = (numbers, from, out) => {
+  const [x, y, z] = [numbers[from], numbers[from + 1], numbers[from + 2]];
+  const angle = Math.hypot(x, y, z);
+  const factor = angle < 1e-6 ? 0.5 : Math.sin(angle / 2) / angle;
+  out[0] = factor * x;
+  out[1] = factor * y;
+  out[2] = factor * z;
+  out[3] = Math.cos(angle / 2);
+};
+
+/** `vector` turned by the quaternion at `at` in `quaternions`. */
+export const turn = (quaternions, at, x, y, z, out, to) => {
+  const qx = quaternions[at];
+  const qy = quaternions[at + 1];
+  const qz = quaternions[at + 2];
+  const qw = quaternions[at + 3];
+  const tx = 2 * (qy * z - qz * y);
+  const ty = 2 * (qz * x - qx * z);
+  const tz = 2 * (qx * y - qy * x);
+  out[to] = x + qw * tx + qy * tz - qz * ty;
+  out[to + 1] = y + qw * ty + qz * tx - qx * tz;
+  out[to + 2] = z + qw * tz + qx * ty - qy * tx;
+};
+
+export class Kinematics {
+  constructor(motion) {
+    this.motion = motion;
+    const count = motion.nodes.length;
+    this.count = count;
+    /** Places [m] and quaternions (x, y, z, w) of all nodes, now. */
+    this.positions = new Float64Array(3 * count);
+    this.quaternions = new Float64Array(4 * count);
+    /** Speeds [m/s] and distances from the start [m] of all nodes, now. */
+    this.speeds = new Float64Array(count);
+    this.distances = new Float64Array(count);
+    /** Section forces and moments at all points, now. */
+    this.forces = new Float64Array(6 * motion.points);
+    /** Displacements are shown so many times as large. */
+    this.magnification = 1;
+    this.a = [0, 0, 0, 1];
+    this.b = [0, 0, 0, 1];
+    this.set(motion.times[0]);
+  }
+
+  get start() {
+    return this.motion.times[0];
+  }
+  get end() {
+    return this.motion.times[this.motion.frames - 1];
+  }
+
+  /** The last frame not after `time`. */
+  frameAt(time) {
+    const { times, frames } = this.motion;
+    let low = 0;
+    let high = frames - 1;
+    while (low < high) {
+      const middle = (low + high + 1) >> 1;
+      if (times[middle] <= time) low = middle;
+      else high = middle - 1;
+    }
+    return low;
+  }
+
+  /** Moves all nodes to where they are at `time`. */
+  set(time) {
+    const { motion, count, positions, quaternions, a, b } = this;
+    const { times, frames, displacements, rotations, reference, forces } = motion;
+    const frame = Math.min(this.frameAt(time), Math.max(frames - 2, 0));
+    const next = Math.min(frame + 1, frames - 1);
+    const duration = times[next] - times[frame];
+    const x = duration > 0 ? Math.min(Math.max((time - times[frame]) / duration, 0), 1) : 0;
+    this.time = time;
+    const m = this.magnification;
+    const before = 3 * count * frame;
+    const after = 3 * count * next;
+    for (let node = 0; node < count; node++) {
+      const p = 3 * node;
+      let speed = 0;
+      let distance = 0;
+      for (let k = 0; k < 3; k++) {
+        const first = displacements[before + p + k];
+        const change = displacements[after + p + k] - first;
+        const shift = first + x * change;
+        positions[p + k] = reference[7 * node + k] + m * shift;
+        speed += change * change;
+        distance += shift * shift;
+      }
+      this.speeds[node] = duration > 0 ? Math.sqrt(speed) / duration : 0;
+      this.distances[node] = Math.sqrt(distance);
+      exponential(rotations, before + p, a);
+      exponential(rotations, after + p, b);
+      const same = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] < 0 ? -1 : 1;
+      let norm = 0;
+      for (let k = 0; k < 4; k++) {
+        a[k] += x * (same * b[k] - a[k]);
+        norm += a[k] * a[k];
+      }
+      norm = 1 / Math.sqrt(norm);
+      if (m !== 1) this.magnify(a, norm, m);
+      else for (let k = 0; k < 4; k++) a[k] *= norm;
+      const r = 7 * node + 3;
+      multiply(
+        a[0], a[1], a[2], a[3],
+        reference[r + 1], reference[r + 2], reference[r + 3], reference[r],
+        quaternions, 4 * node,
+      );
+    }
+    const width = this.forces.length;
+    for (let k = 0; k < width; k++) {
+      const first = forces[frame * width + k];
+      this.forces[k] = first + x * (forces[next * width + k] - first);
+    }
+  }
+
+  /** Turns the quaternion `q` into that of its angle times `m`. */
+  magnify(q, norm, m) {
+    const sine = Math.hypot(q[0], q[1], q[2]) * norm;
+    const half = Math.atan2(sine, q[3] * norm);
+    const factor = sine > 1e-12 ? (Math.sin(m * half) / sine) * norm : m * norm;
+    for (let k = 0; k < 3; k++) q[k] *= factor;
+    q[3] = Math.cos(m * half);
+  }
+
+  /** The place of a point carried by a node, now. */
+  point(anchor, out = [0, 0, 0]) {
+    const { node, position } = anchor;
+    turn(this.quaternions, 4 * node, position[0], position[1], position[2], out, 0);
+    for (let k = 0; k < 3; k++) out[k] += this.positions[3 * node + k];
+    return out;
+  }
+
+  /** Least and greatest places of all nodes but the ground over all frames. */
+  bounds() {
+    const { count, motion } = this;
+    const low = [Infinity, Infinity, Infinity];
+    const high = [-Infinity, -Infinity, -Infinity];
+    const stride = Math.max(1, Math.floor((motion.frames * count) / 400000));
+    for (let frame = 0; frame < motion.frames; frame += stride) {
+      for (let node = count > 1 ? 1 : 0; node < count; node++) {
+        for (let k = 0; k < 3; k++) {
+          const shift = motion.displacements[3 * (frame * count + node) + k];
+          const place = motion.reference[7 * node + k] + this.magnification * shift;
+          low[k] = Math.min(low[k], place);
+          high[k] = Math.max(high[k], place);
+        }
+      }
+    }
+    return { low, high };
+  }
+
+  /** Places of a carried point in all frames, one after the other. */
+  path(anchor) {
+    const { frames, times } = this.motion;
+    const now = this.time;
+    const path = new Float32Array(3 * frames);
+    const place = [0, 0, 0];
+    for (let frame = 0; frame < frames; frame++) {
+      this.set(times[frame]);
+      this.point(anchor, place);
+      path.set(place, 3 * frame);
+    }
+    this.set(now);
+    return path;
+  }
+}

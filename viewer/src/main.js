@@ -1,0 +1,18 @@
+import { connect } from "./controls.js";
+import { Viewer } from "./viewer.js";
+
+const viewer = new Viewer();
+connect(viewer);
+viewer.setTheme(viewer.themeName);
+window.lissom = viewer;
+const text = document.getElementById("result").textContent.trim();
+viewer.ready = text ? viewer.load(JSON.parse(text)) : Promise.resolve();
+viewer.ready
+  .then(() => {
+    document.documentElement.dataset.ready = "true";
+    if (text && viewer.player.canPlay && !location.hash.includes("still")) viewer.player.play(true);
+  })
+  .catch((error) => {
+    viewer.notices([{ kind: "error", text: `The results cannot be shown: ${error.message}` }]);
+    throw error;
+  });

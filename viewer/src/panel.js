@@ -1,0 +1,112 @@
+// What the side of the page tells: the parts, and all about the one that is selected.
+
+import { spelled } from "./words.js";
+
+const element = (tag, properties = {}, ...children) => {
+  const made = Object.assign(document.createElement(tag), properties);
+  made.append(...children);
+  return made;
+};
+
+const vector = (numbers) => numbers.map((x) => spelled(x, 5)).join("  ");
+
+/** What does not change about a part. */
+const constants = (kind, part, drawn) => {
+  const rows = [];
+  const add = (name, value) => value !== undefined && value !== null && rows.push([name, value]);
+  if (kind === "beam") {
+    add("length", `${spelled(part.length, 5)} m`);
+    add("elements", `${part.elements}, order ${part.order}`);
+    add("section", part.stations.length === 1 ? part.stations[0].section : part.stations.map((s) => s.section).join(", "));
+    add("mass", `${spelled(part.mass_per_length, 4)} kg/m at the start`);
+    add("EA", `${spelled(part.stiffness[0], 4)} N`);
+    add("GJ", `${spelled(part.stiffness[3], 4)} N m²`);
+    add("EI₂, EI₃", `${spelled(part.stiffness[4], 4)}, ${spelled(part.stiffness[5], 4)} N m²`);
+    if (drawn?.isThickened) add("drawn", "thicker than it is");
+  }
+  if (part.mass !== undefined) add("mass", `${spelled(part.mass, 5)} kg`);
+  if (part.inertia) add("inertia", `${vector([0, 1, 2].map((k) => part.inertia[k][k]))} kg m²`);
+  if (drawn?.isShrunk) add("drawn", "smaller than its inertia");
+  if (part.parts?.length) add("connects", part.parts.join(" — "));
+  if (part.joint) add("acts on joint", part.joint);
+  if (part.part) add("acts on", part.part);
+  if (part.follower !== undefined) add("direction", part.follower ? "follows the part" : "fixed in space");
+  return rows;
+};
+
+export class Panel {
+  constructor({ selection, parts }, select) {
+    this.selection = selection;
+    this.parts = parts;
+    this.select = select;
+    parts.addEventListener("click", (event) => this.choose(event));
+    parts.addEventListener("keydown", (event) => event.key === "Enter" && this.choose(event));
+  }
+
+  choose(event) {
+    const name = event.target.closest("li")?.dataset.name;
+    if (name) this.select(name);
+  }
+
+  list(model) {
+    this.model = model;
+    const items = model
+      ? [...model.parts].map(([name, { kind, own }]) => {
+          const dot = element("i");
+          dot.style.background = own ?? "var(--faint)";
+          const item = element("li", { tabIndex: 0 }, dot, element("b", { textContent: name }), element("span", { textContent: kind }));
+          item.dataset.name = name;
+          return item;
+        })
+      : [];
+    this.parts.replaceChildren(...items);
+    this.parts.parentElement.hidden = items.length === 0;
+  }
+
+  /** Shows a part; none for nothing. */
+  show(name, plots) {
+    for (const item of this.parts.children) item.classList.toggle("selected", item.dataset.name === name);
+    const known = name && this.model?.parts.get(name);
+    this.cells = [];
+    if (!known) return void this.selection.replaceChildren();
+    const { kind, part, drawn } = known;
+    const table = element("table");
+    const row = (title, value) => {
+      const cell = element("td", { textContent: value });
+      table.append(element("tr", {}, element("td", { textContent: title }), cell));
+      return cell;
+    };
+    for (const [title, value] of constants(kind, part, drawn)) row(title, value);
+    const { kinematics } = this.model;
+    const anchor = this.model.anchorOf(name);
+    if (anchor) {
+      const where = kind === "beam" ? "middle at" : "at";
+      const cells = { place: row(`${where} [m]`, ""), speed: row("node's speed", "") };
+      this.cells.push(() => {
+        cells.place.textContent = vector(kinematics.point(anchor));
+        cells.speed.textContent = `${spelled(kinematics.speeds[anchor.node], 4)} m/s`;
+      });
+    }
+    for (const output of this.outputsOf(name)) {
+      for (const { name: column, unit } of plots.valuesOf(output)) {
+        const cell = row(column, "");
+        this.cells.push(() => {
+          const now = plots.valuesOf(output).find((value) => value.name === column);
+          cell.textContent = `${spelled(now.value, 5)} ${unit}`;
+        });
+      }
+    }
+    const heading = element("h2", { textContent: name }, element("span", { textContent: kind }));
+    this.selection.replaceChildren(heading, table);
+    this.update();
+  }
+
+  /** Names of the outputs of a part. */
+  outputsOf(name) {
+    return this.model.scene.outputs.filter((output) => output.of === name).map((output) => output.name);
+  }
+
+  update() {
+    for (const fill of this.cells ?? []) fill();
+  }
+}

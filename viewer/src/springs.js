@@ -1,0 +1,107 @@
+// Springs as coils, loads as arrows.
+
+import * as THREE from "three";
+
+import { placeRod } from "./joints.js";
+
+const TURNS = 9;
+
+/** A coil of length one along the second axis. */
+class Coil extends THREE.Curve {
+  constructor(radius) {
+    super();
+    this.radius = radius;
+  }
+  getPoint(t, out = new THREE.Vector3()) {
+    const body = Math.min(Math.max((t - 0.08) / 0.84, 0), 1);
+    const radius = this.radius * Math.min(1, 14 * Math.min(body, 1 - body));
+    const angle = 2 * Math.PI * TURNS * body;
+    return out.set(radius * Math.cos(angle), t - 0.5, radius * Math.sin(angle));
+  }
+}
+
+export class SpringMesh {
+  constructor(spring, kinematics, size, theme) {
+    this.name = spring.name;
+    this.kinematics = kinematics;
+    this.ends = spring.anchors;
+    this.material = new THREE.MeshStandardMaterial({ color: theme.spring, roughness: 0.4, metalness: 0.3 });
+    const [a, b] = this.ends.map((anchor) => kinematics.point(anchor));
+    const length = Math.hypot(...a.map((x, k) => x - b[k])) || size;
+    // The wire is as thick along the spring as across it, at the length of the start.
+    const wire = 0.0035 * size;
+    const geometry = new THREE.TubeGeometry(new Coil(0.016 * size), 240, wire, 6);
+    const places = geometry.attributes.position;
+    const centre = new THREE.Vector3();
+    const curve = new Coil(0.016 * size);
+    for (let k = 0; k < places.count; k++) {
+      curve.getPointAt(Math.floor(k / 7) / 240, centre);
+      places.setY(k, centre.y + (places.getY(k) - centre.y) / length);
+    }
+    geometry.computeVertexNormals();
+    this.mesh = new THREE.Mesh(geometry, this.material);
+    this.mesh.frustumCulled = false;
+    this.mesh.userData.part = spring.name;
+  }
+  update() {
+    placeRod(this.mesh, this.kinematics.point(this.ends[0]), this.kinematics.point(this.ends[1]));
+  }
+}
+
+export class LoadArrow {
+  constructor(load, kinematics, size, theme, span) {
+    this.name = load.name;
+    this.load = load;
+    this.kinematics = kinematics;
+    this.span = span;
+    this.length = 0.16 * size;
+    const colour = load.kind === "moment" ? theme.moment : theme.load;
+    this.material = new THREE.MeshStandardMaterial({ color: colour, roughness: 0.4 });
+    const r = 0.0045 * size;
+    this.group = new THREE.Group();
+    this.shaft = new THREE.Mesh(new THREE.CylinderGeometry(r, r, 1, 12), this.material);
+    this.group.add(this.shaft);
+    this.heads = Array.from({ length: load.kind === "moment" ? 2 : 1 }, () => {
+      const head = new THREE.Mesh(new THREE.ConeGeometry(2.9 * r, 8 * r, 20), this.material);
+      this.group.add(head);
+      return head;
+    });
+    this.headLength = 8 * r;
+    this.most = Math.max(...load.scale.map(Math.abs), 0) || 1;
+    this.group.traverse((child) => (child.userData.part = load.name));
+  }
+
+  /** The factor of the load now. */
+  factor() {
+    const { scale } = this.load;
+    if (scale.length === 0) return this.most;
+    const [start, end] = this.span;
+    const x = Math.min(Math.max((this.kinematics.time - start) / (end - start), 0), 1) * (scale.length - 1);
+    const k = Math.min(Math.floor(x), scale.length - 2);
+    return scale[k] + (x - k) * (scale[k + 1] - scale[k]);
+  }
+
+  update() {
+    const { load, kinematics } = this;
+    if (!load.vector) return void (this.group.visible = false);
+    const direction = new THREE.Vector3(...load.vector);
+    if (load.follower) {
+      const q = kinematics.quaternions.subarray(4 * load.anchor.node, 4 * load.anchor.node + 4);
+      direction.applyQuaternion(new THREE.Quaternion(...q));
+    }
+    const share = this.factor() / this.most;
+    const norm = direction.length();
+    this.group.visible = norm > 0 && Math.abs(share) > 1e-3;
+    if (!this.group.visible) return;
+    direction.multiplyScalar(Math.sign(share) / norm);
+    const length = this.length * (0.25 + 0.75 * Math.abs(share));
+    // The arrow of a force ends at the point it acts on, that of a moment begins there.
+    const at = new THREE.Vector3(...kinematics.point(load.anchor));
+    this.group.position.copy(at);
+    this.group.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), direction);
+    const tip = load.kind === "moment" ? length : 0;
+    this.shaft.scale.y = length - this.headLength;
+    this.shaft.position.y = tip - this.headLength - this.shaft.scale.y / 2;
+    this.heads.forEach((head, k) => (head.position.y = tip - this.headLength * (0.5 + 0.8 * k)));
+  }
+}

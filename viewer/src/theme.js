@@ -1,0 +1,43 @@
+// Colours of the page and of what is drawn; those of parts and curves can be told apart by colour-blind eyes.
+
+/** Okabe and Ito, without black. */
+export const curves = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7F7F7F", "#B8A800"];
+
+const light = {
+  background: "#f4f6f9",
+  parts: ["#6f9bc8", "#d99a6c", "#74b49b", "#c59bbd", "#d8bf6b", "#8fb8d6", "#a3a8b0", "#b5a98f"],
+  joint: "#f1b434", pin: "#4d5663", axis: "#8a94a3", ground: "#a9b2be", drive: "#d1495b", spring: "#5b8c5a",
+  load: "#d1495b", moment: "#8e5bb5", grid: "#d3d9e1", gridMain: "#c0c8d2", trace: "#d55e00", text: "#1d2430",
+  faint: "#6b7686", line: "#e3e7ed", selected: "#1f6feb", sky: "#ffffff", floor: "#b9c0ca",
+};
+
+const dark = {
+  ...light,
+  background: "#12161c",
+  parts: ["#7fadd9", "#e0a478", "#7fc4a9", "#cfa6c8", "#e0c977", "#9cc6e2", "#aab0b9", "#c2b698"],
+  pin: "#8b95a3", axis: "#6b7686", ground: "#525c69", grid: "#232a33", gridMain: "#303945", trace: "#f0a35e",
+  text: "#e6eaf0", faint: "#98a3b3", line: "#2a323c", selected: "#58a6ff", sky: "#e9eef5", floor: "#4a5361",
+};
+
+export const themeOf = (name) => (name === "dark" ? dark : light);
+
+/** Viridis at equal distances. */
+const viridis = [
+  [0.267, 0.005, 0.329], [0.283, 0.141, 0.458], [0.254, 0.265, 0.530], [0.207, 0.372, 0.553], [0.164, 0.471, 0.558],
+  [0.128, 0.567, 0.551], [0.135, 0.659, 0.518], [0.267, 0.749, 0.441], [0.478, 0.821, 0.318], [0.741, 0.873, 0.150],
+  [0.993, 0.906, 0.144],
+];
+
+/** From the numbers of a screen to those of light. */
+const linear = (value) => (value <= 0.04045 ? value / 12.92 : ((value + 0.055) / 1.055) ** 2.4);
+
+/** Writes the colour of a share from 0 to 1, in numbers of light. */
+export const shade = (share, out) => {
+  const x = (Number.isFinite(share) ? Math.min(Math.max(share, 0), 1) : 0) * (viridis.length - 1);
+  const k = Math.min(Math.floor(x), viridis.length - 2);
+  for (let i = 0; i < 3; i++) out[i] = linear(viridis[k][i] + (x - k) * (viridis[k + 1][i] - viridis[k][i]));
+};
+
+export const gradient = `linear-gradient(to right, ${viridis
+  .map((colour) => `rgb(${colour.map((value) => Math.round(255 * value)).join(" ")})`)
+  .join(", ")})`;

@@ -1,0 +1,273 @@
+// The page as a whole: results in, picture, plots and panel out.
+
+import * as THREE from "three";
+
+import { decodeHistory, decodeMotion } from "./decode.js";
+import { fields } from "./fields.js";
+import { Kinematics } from "./kinematics.js";
+import { ModelView } from "./model.js";
+import { Panel } from "./panel.js";
+import { Player } from "./player.js";
+import { Plots } from "./plots.js";
+import { Stage } from "./stage.js";
+import { gradient, themeOf } from "./theme.js";
+import { factor, spelled } from "./words.js";
+
+const $ = (id) => document.getElementById(id);
+const ICONS = {
+  play: '<svg width="13" height="14" viewBox="0 0 13 14"><path fill="currentColor" d="M1 0.6v12.8L12.4 7z"/></svg>',
+  pause: '<svg width="12" height="14" viewBox="0 0 12 14"><path fill="currentColor" d="M0 0h4v14H0zM8 0h4v14H8z"/></svg>',
+  dark: "☾",
+  light: "☀",
+};
+const VIEWS = { iso: [1, -1.35, 0.75], front: [0, -1, 0], side: [1, 0, 0], top: [0, 0, 1] };
+
+export class Viewer {
+  constructor() {
+    this.themeName = this.storedTheme();
+    document.documentElement.dataset.theme = this.themeName;
+    this.theme = themeOf(this.themeName);
+    this.isStale = true;
+    this.stage = new Stage($("stage"), () => (this.isStale = true));
+    this.player = new Player(() => (this.isMoved = true));
+    this.plots = new Plots($("plots"), (time) => this.player.seek(time));
+    this.panel = new Panel({ selection: $("selection"), parts: $("parts") }, (name) => this.select(name));
+    this.choices = { bodyShape: "box", colour: "part", magnification: 1, traces: false, follow: false };
+    requestAnimationFrame((now) => this.draw(now));
+  }
+
+  storedTheme() {
+    try {
+      const stored = localStorage.getItem("lissom-theme");
+      if (stored) return stored;
+    } catch {
+      // Pages from files may have no storage.
+    }
+    return matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light";
+  }
+
+  setTheme(name) {
+    this.themeName = name;
+    document.documentElement.dataset.theme = name;
+    this.theme = themeOf(name);
+    try {
+      localStorage.setItem("lissom-theme", name);
+    } catch {
+      // The choice is then for this page alone.
+    }
+    $("theme").textContent = ICONS[name === "dark" ? "light" : "dark"];
+    if (this.kinematics) this.rebuild();
+    this.plots.history && this.plots.draw();
+  }
+
+  /** Shows other results; with `keeps` the view stays as it is. */
+  async load(result, keeps = false) {
+    const [history, motion] = await Promise.all([
+      decodeHistory(result.history, result.columns ?? []),
+      decodeMotion(result.motion),
+    ]);
+    const { scene } = result;
+    this.result = result;
+    this.history = history;
+    const isStatic = Boolean(scene?.is_static);
+    $("title").textContent = result.title || result.name || "results";
+    document.title = `${result.title || result.name} — Lissom`;
+    $("facts").textContent = result.facts ?? "";
+    this.notices(result.notices ?? []);
+    this.kinematics = motion && motion.frames > 0 ? new Kinematics(motion) : null;
+    if (this.kinematics) this.kinematics.magnification = this.choices.magnification;
+    const span = this.kinematics
+      ? [this.kinematics.start, this.kinematics.end]
+      : [history.times[0] ?? 0, history.times[history.times.length - 1] ?? 0];
+    this.isStatic = isStatic;
+    $("stage").parentElement.classList.toggle("empty", !this.kinematics);
+    this.plots.load(history, isStatic);
+    const selected = keeps ? this.model?.selected : null;
+    this.rebuild();
+    if (this.kinematics && !keeps) this.firstLook();
+    this.player.load(...span, isStatic, keeps);
+    this.offerColours();
+    this.select(selected);
+    $("scrub").disabled = $("play").disabled = !this.player.canPlay;
+    this.isMoved = true;
+  }
+
+  notices(list) {
+    $("notices").replaceChildren(
+      ...list.map(({ kind, text, is_code: isCode }) =>
+        Object.assign(document.createElement("p"), { className: `${kind}${isCode ? " code" : ""}`, textContent: text }),
+      ),
+    );
+  }
+
+  /** Draws the model anew, as after another theme. */
+  rebuild() {
+    const selected = this.model?.selected;
+    this.model?.dispose();
+    this.model = null;
+    if (this.kinematics) {
+      const bounds = this.kinematics.bounds();
+      this.stage.surround(this.padded(bounds), this.upward(), this.theme);
+      this.stage.grid.visible = $("grid").checked;
+      this.model = new ModelView(this.result.scene, this.kinematics, this.stage, this.theme, this.choices);
+      for (const box of document.querySelectorAll("[data-show]")) this.model.show(box.dataset.show, box.checked);
+      this.colourBy(this.choices.colour);
+      this.setTraces(this.choices.traces);
+    }
+    this.panel.list(this.model);
+    this.select(selected);
+    this.isMoved = true;
+  }
+
+  /** Joints on the ground, and a single point, have room as well. */
+  padded({ low, high }) {
+    const { joints, springs } = this.result.scene;
+    for (const each of [...joints, ...springs]) {
+      for (const anchor of each.anchors ?? []) {
+        if (anchor.node !== 0) continue;
+        anchor.position.forEach((x, k) => {
+          low[k] = Math.min(low[k], x);
+          high[k] = Math.max(high[k], x);
+        });
+      }
+    }
+    const boxes = this.result.scene.bodies.flatMap((body) => body.shape.sides);
+    const least = Math.max(...high.map((x, k) => x - low[k]), 0) > 0 ? 0 : Math.max(...boxes, 1) / 2;
+    return { low: low.map((x) => x - least), high: high.map((x) => x + least) };
+  }
+
+  /** Against gravity, if that is along an axis; otherwise z. */
+  upward() {
+    const gravity = new THREE.Vector3(...this.result.scene.gravity);
+    const size = gravity.length();
+    if (size > 0) {
+      gravity.divideScalar(-size);
+      for (let k = 0; k < 3; k++) if (Math.abs(gravity.getComponent(k)) > 0.999) return gravity;
+    }
+    return new THREE.Vector3(0, 0, 1);
+  }
+
+  /** Models in a plane are looked at from the front, others from above at an angle. */
+  firstLook() {
+    const { low, high, size } = this.stage;
+    const flat = [0, 1, 2].filter((k) => high.getComponent(k) - low.getComponent(k) < 0.02 * size);
+    if (flat.length !== 1) return this.look("iso");
+    const [k] = flat;
+    const along = this.stage.up.getComponent(k) !== 0;
+    const toward = along ? [0.001, -0.35, 1] : k === 0 ? [1, -0.32, 0.24] : [0.28, -1, 0.24];
+    if (along) return this.look("top");
+    this.stage.look(this.oriented(toward));
+  }
+
+  /** A direction given for z upward, for the axis that is upward here. */
+  oriented(direction) {
+    const turn = new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 0, 1), this.stage.up);
+    return new THREE.Vector3(...direction).applyQuaternion(turn).toArray();
+  }
+
+  look(name) {
+    const isTop = name === "top";
+    // Named views are those of the axes' names, whatever is upward.
+    const up = isTop ? new THREE.Vector3(0, 1, 0) : name === "iso" ? this.stage.up : new THREE.Vector3(0, 0, 1);
+    this.stage.look(name === "iso" ? this.oriented(VIEWS.iso) : VIEWS[name], up);
+  }
+
+  select(name) {
+    this.model?.select(name);
+    const selected = this.model?.selected ?? null;
+    this.panel.show(selected, this.plots);
+    this.plots.mark(selected ? this.panel.outputsOf(selected) : []);
+    if (this.choices.traces) this.setTraces(true);
+    this.isMoved = true;
+  }
+
+  /** Paths of the selected part, or of all points that are observed. */
+  setTraces(isWanted) {
+    this.choices.traces = isWanted;
+    $("traces").checked = isWanted;
+    if (!this.model) return;
+    const anchor = this.model.selected && this.model.anchorOf(this.model.selected);
+    const observed = this.result.scene.outputs.map((output) => output.point).filter((point) => point && point.node !== 0);
+    const moving = observed.length ? observed : this.result.scene.bodies.map((body) => ({ node: body.node, position: body.shape.center }));
+    this.model.trace(isWanted ? (anchor ? [anchor] : moving) : []);
+    this.isMoved = true;
+  }
+
+  offerColours() {
+    const names = this.kinematics ? Object.keys(fields(this.result.scene, this.kinematics)) : [];
+    $("colour").replaceChildren(...["part", ...names].map((name) => new Option(name, name)));
+    $("colour").value = this.choices.colour;
+    if (!$("colour").value) this.colourBy("part");
+  }
+
+  colourBy(name) {
+    this.choices.colour = name;
+    $("colour").value = name;
+    const field = this.model?.colourBy(name);
+    $("legend").hidden = !field;
+    if (field) {
+      const [low, high] = field.range.map((value) => spelled(value, 3));
+      $("legend").innerHTML = '<span></span><div class="bar"></div><div class="ends"><span></span><span></span></div>';
+      const [title, least, most] = $("legend").querySelectorAll("span");
+      [title.textContent, least.textContent, most.textContent] = [`${field.title} [${field.unit}]`, low, high];
+      $("legend").querySelector(".bar").style.background = gradient;
+    }
+    this.isMoved = true;
+  }
+
+  magnify(value) {
+    this.choices.magnification = value;
+    $("magnify").value = String(value);
+    if (!this.kinematics) return;
+    this.kinematics.magnification = value;
+    if (this.choices.traces) this.setTraces(true);
+    this.isMoved = true;
+  }
+
+  /** Moves everything to the time of the player. */
+  move() {
+    const { time } = this.player;
+    this.kinematics?.set(time);
+    this.model?.update();
+    if (this.choices.follow && this.model?.selected) {
+      const anchor = this.model.anchorOf(this.model.selected);
+      if (anchor) this.stage.follow(this.kinematics.point(anchor));
+    }
+    this.plots.setTime(time);
+    this.panel.update();
+    this.tell();
+    this.isMoved = false;
+    this.isStale = true;
+  }
+
+  tell() {
+    const { time, start, end, speed, isPlaying, isLooping } = this.player;
+    $("scrub").value = end > start ? String((time - start) / (end - start)) : "0";
+    const digits = Math.max(0, Math.min(6, 3 - Math.floor(Math.log10(Math.max(end - start, 1e-9)))));
+    $("clock").textContent = this.isStatic ? `load ${time.toFixed(3)}` : `${time.toFixed(digits)} s of ${spelled(end, 6)} s`;
+    $("speed").textContent = factor(speed);
+    const icon = isPlaying ? ICONS.pause : ICONS.play;
+    if (this.icon !== icon) $("play").innerHTML = this.icon = icon;
+    $("loop").setAttribute("aria-pressed", String(isLooping));
+  }
+
+  /** Goes some frames on; back where negative. */
+  step(frames) {
+    this.player.play(false);
+    const times = this.kinematics ? this.kinematics.motion.times : this.history.times;
+    let now = 0;
+    while (now + 1 < times.length && times[now + 1] <= this.player.time + 1e-12) now++;
+    this.player.seek(times[Math.min(Math.max(now + frames, 0), times.length - 1)]);
+  }
+
+  draw(now) {
+    if (this.player.tick(now)) this.isMoved = true;
+    if (this.isMoved && this.history) this.move();
+    if (this.isStale && this.model) {
+      this.stage.render();
+      this.isStale = false;
+      this.drawn = (this.drawn ?? 0) + 1;
+    }
+    requestAnimationFrame((next) => this.draw(next));
+  }
+}

@@ -1,0 +1,203 @@
+// Pages as a browser shows them: `node test/browser.js PROGRAM`, with the program lissom. Needs chromium.
+
+import assert from "node:assert/strict";
+import { execFileSync, spawnSync } from "node:child_process";
+import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { dirname, join, resolve } from "node:path";
+import { fileURLToPath } from "node:url";
+
+import { chromium } from "playwright-core";
+
+const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
+const program = resolve(process.argv[2] ?? join(root, "target/release/lissom"));
+const folder = mkdtempSync(join(tmpdir(), "lissom-viewer-"));
+const found = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => existsSync(path));
+const executablePath = process.env.CHROMIUM ?? found;
+
+/** Makes the page of a model, with changes to it. */
+const view = (model, ...set) => {
+  const out = join(folder, `page${view.count++}`);
+  const changes = set.flatMap((change) => ["--set", change]);
+  execFileSync(program, ["view", join(root, model), "--out", out, "--quiet", ...changes]);
+  return out;
+};
+view.count = 0;
+
+/** Opens a page that must neither complain nor ask anybody. */
+const open = async (browser, file, size = { width: 1200, height: 800 }) => {
+  const page = await browser.newPage({ viewport: size });
+  const complaints = [];
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && complaints.push(message.text()));
+  page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || complaints.push(`asks ${request.url()}`));
+  await page.goto(`file://${file}#still`);
+  await page.waitForFunction(() => document.documentElement.dataset.ready === "true", null, { timeout: 60000 });
+  // What the driver of the graphics says about its speed is no complaint of the page.
+  const real = () => complaints.filter((text) => !/GPU stall|swiftshader|GL Driver/i.test(text));
+  return { page, complaints: real };
+};
+
+/** Rows of a table by name. */
+const table = (out) => {
+  const [heading, ...lines] = readFileSync(join(out, "history.csv"), "utf8").trim().split("\n");
+  const names = heading.split(",");
+  return lines.map((line) => Object.fromEntries(line.split(",").map((number, k) => [names[k], Number(number)])));
+};
+
+/** Points that are observed lie on the screen where the table says, at four times. */
+const comparePlaces = async (page, out) => {
+  const rows = table(out);
+  const outputs = await page.evaluate(() => lissom.result.scene.outputs.filter((output) => output.point));
+  let compared = 0;
+  for (const { name, kind, point } of outputs) {
+    const letters = { position: ["x", "y", "z"], displacement: ["u1", "u2", "u3"] }[kind];
+    if (!letters) continue;
+    for (const share of [0, 0.31, 0.77, 1]) {
+      const row = rows[Math.round(share * (rows.length - 1))];
+      const told = letters.map((letter) => row[`${name}.${letter}`]);
+      const pixels = await page.evaluate(
+        ([time, anchor, told, isChange]) => {
+          lissom.player.seek(time);
+          lissom.move();
+          const { reference } = lissom.kinematics.motion;
+          const drawn = lissom.kinematics.point(anchor);
+          const at = 7 * anchor.node;
+          // Offsets of displaced points are zero in these models.
+          const place = isChange ? told.map((x, k) => reference[at + k] + x) : told;
+          return [lissom.stage.pixel(drawn), lissom.stage.pixel(place)];
+        },
+        [row.time, point, told, kind === "displacement" && point.position.every((x) => x === 0)],
+      );
+      if (kind === "displacement" && point.position.some((x) => x !== 0)) continue;
+      const distance = Math.hypot(pixels[0][0] - pixels[1][0], pixels[0][1] - pixels[1][1]);
+      assert.ok(distance < 1, `${name} at ${row.time} s is drawn ${distance} pixels off`);
+      compared++;
+    }
+  }
+  return compared;
+};
+
+/** The page plays: its time goes on, and pictures are drawn. */
+const plays = async (page) => {
+  const before = await page.evaluate(() => {
+    lissom.player.seek(lissom.player.start);
+    return lissom.drawn;
+  });
+  await page.keyboard.press("Space");
+  await page.waitForFunction((before) => lissom.drawn > before + 5 && lissom.player.time > lissom.player.start, before, { timeout: 20000 });
+  await page.keyboard.press("Space");
+  assert.equal(await page.evaluate(() => lissom.player.isPlaying), false);
+};
+
+/** A click on a part selects it, tells its name and marks its plots. */
+const selects = async (page, part) => {
+  const [x, y] = await page.evaluate((part) => lissom.stage.pixel(lissom.kinematics.point(lissom.model.anchorOf(part))), part);
+  const stage = await page.locator("#stage").boundingBox();
+  await page.mouse.click(stage.x + x, stage.y + y);
+  await page.waitForFunction((part) => document.querySelector("#selection h2")?.textContent.startsWith(part), part, { timeout: 5000 });
+  await page.keyboard.press("Escape");
+  assert.equal(await page.evaluate(() => lissom.model.selected), null);
+};
+
+/** Pictures are not empty: pixels differ from the background, and from those at another time. */
+const draws = async (page) => {
+  const shot = async (share) => {
+    await page.evaluate((share) => lissom.player.seek(lissom.player.start + share * (lissom.player.end - lissom.player.start)), share);
+    await page.waitForTimeout(250);
+    return page.evaluate(() => {
+      const canvas = lissom.stage.renderer.domElement;
+      const copy = Object.assign(document.createElement("canvas"), { width: 160, height: 100 });
+      const pen = copy.getContext("2d");
+      pen.drawImage(canvas, 0, 0, 160, 100);
+      return [...pen.getImageData(0, 0, 160, 100).data];
+    });
+  };
+  const [first, second] = [await shot(0), await shot(0.4)];
+  const differs = first.filter((value, k) => Math.abs(value - second[k]) > 12).length;
+  assert.ok(new Set(first).size > 30, "something is drawn");
+  assert.ok(differs > 20, `the picture moves: ${differs} numbers differ`);
+};
+
+const tests = {
+  "a mechanism of beams": async (browser) => {
+    const out = view("examples/tip-crank.toml", "analysis.end=0.2");
+    const { page, complaints } = await open(browser, join(out, "view.html"));
+    assert.ok((await comparePlaces(page, out)) >= 8);
+    await plays(page);
+    await draws(page);
+    await page.evaluate(() => lissom.look("front"));
+    await selects(page, "beam");
+    for (const colour of await page.evaluate(() => [...document.getElementById("colour").options].map((option) => option.value))) {
+      await page.selectOption("#colour", colour);
+      assert.equal(await page.locator("#legend").isVisible(), colour !== "part");
+    }
+    assert.equal(await page.locator(".plot").count(), 6);
+    assert.deepEqual(complaints(), []);
+  },
+  "bodies, springs and all kinds of joints": async (browser) => {
+    const out = view("crates/lissom-model/tests/every_kind.toml", "outputs.end.kind=position", "outputs.end.of=f", "outputs.place.kind=position", "outputs.place.of=two.end");
+    const { page, complaints } = await open(browser, join(out, "view.html"));
+    assert.equal(await comparePlaces(page, out), 8);
+    await selects(page, "h");
+    for (const key of ["t", "d", "o", "c", "1", "2", "3", "0", "End", "ArrowLeft", "Home", "+", "-", "l", "f"]) await page.keyboard.press(key);
+    await page.selectOption("#shape", "ellipsoid");
+    await page.selectOption("#magnify", "2");
+    await page.waitForTimeout(300);
+    assert.deepEqual(complaints(), []);
+  },
+  "bodies in a plane": async (browser) => {
+    const out = view("verification/andrews-squeezer/model.toml");
+    const { page, complaints } = await open(browser, join(out, "view.html"));
+    await plays(page);
+    await draws(page);
+    assert.deepEqual(complaints(), []);
+  },
+  "statics": async (browser) => {
+    const out = view("verification/right-angle-frame/model.toml");
+    const { page, complaints } = await open(browser, join(out, "view.html"));
+    assert.match(await page.locator("#clock").textContent(), /load/);
+    await plays(page);
+    assert.deepEqual(complaints(), []);
+  },
+  "a phone": async (browser) => {
+    const out = view("examples/four-bar.toml", "analysis.end=2");
+    const { page, complaints } = await open(browser, join(out, "view.html"), { width: 390, height: 800 });
+    const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+    assert.ok(wide <= 390, `${wide} pixels wide`);
+    await plays(page);
+    assert.deepEqual(complaints(), []);
+  },
+  "a model at its start, and a run that failed": async (browser) => {
+    const still = join(folder, "still.html");
+    execFileSync(program, ["view", join(root, "examples/top.toml"), "--initial", "--html", still, "--quiet"]);
+    const first = await open(browser, still);
+    assert.ok(await first.page.locator("#play").isDisabled());
+    assert.deepEqual(first.complaints(), []);
+    const out = join(folder, "failed");
+    const failed = spawnSync(program, ["view", join(root, "examples/four-bar.toml"), "--out", out, "--quiet", "--set", "analysis.max_iterations=1", "--set", "analysis.tolerance=1e-14"]);
+    assert.equal(failed.status, 3);
+    const second = await open(browser, join(out, "view.html"));
+    assert.match(await second.page.locator("#notices .error").textContent(), /failed/);
+    assert.deepEqual(second.complaints(), []);
+  },
+};
+
+const browser = await chromium.launch({
+  executablePath,
+  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
+});
+let failures = 0;
+for (const [name, test] of Object.entries(tests)) {
+  const began = Date.now();
+  try {
+    await test(browser);
+    console.log(`ok      ${name} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
+  } catch (error) {
+    failures++;
+    console.log(`FAILED  ${name}\n${error.stack}`);
+  }
+}
+await browser.close();
+rmSync(folder, { recursive: true });
+process.exit(failures === 0 ? 0 : 1);
