@@ -60,6 +60,8 @@ pub(crate) enum Shape {
     Rows,
     /// Two numbers.
     Pair,
+    /// A table that is read entry by entry.
+    Table,
 }
 
 impl Shape {

@@ -150,6 +150,7 @@ fn words(shape: &Shape) -> String {
         Shape::Stations => "a list of tables",
         Shape::Rows => "a list of pairs",
         Shape::Pair => "two numbers",
+        Shape::Table => "a table",
     };
     fixed.to_owned()
 }

@@ -125,5 +125,6 @@ fn of_shape(shape: &Shape) -> Value {
         }
         Shape::Rows => json!({ "type": "array", "minItems": 2, "items": list(&plain(), 2) }),
         Shape::Pair => list(&plain(), 2),
+        Shape::Table => json!({ "type": "object" }),
     }
 }

@@ -74,6 +74,7 @@ fn table(table: DeTable<'_>) -> Table {
 }
 
 /// A tree, the texts it came from, and what was wrong with them.
+#[derive(Clone, Debug)]
 pub(crate) struct Tree {
     pub(crate) root: Table,
     pub(crate) sources: Sources,
@@ -82,21 +83,29 @@ pub(crate) struct Tree {
 
 /// Reads the file's `text` and lays the overrides `(path, value)` over it.
 pub(crate) fn read(text: &str, file_name: &str, overrides: &[(String, String)]) -> Tree {
-    let mut sources = Sources::new(file_name, text);
-    let (mut root, mut problems) = match parse(text) {
+    let sources = Sources::new(file_name, text);
+    let (root, problems) = match parse(text) {
         Ok(root) => (root, Vec::new()),
         Err(problem) => (Table::new(), vec![*problem]),
     };
-    let readable = problems.is_empty();
-    for (path, value) in overrides {
-        let start = sources.next_start();
-        let (shown, patch) = parse_override(path, value, start);
-        sources.push("override", &shown);
-        // Without a readable file there is nothing to override.
-        let done = patch.and_then(|patch| if readable { patch.apply(&mut root) } else { Ok(()) });
-        problems.extend(done.err().map(|problem| *problem));
+    let mut tree = Tree { root, sources, problems };
+    tree.lay(overrides);
+    tree
+}
+
+impl Tree {
+    /// Lays the overrides `(path, value)` over what is there.
+    pub(crate) fn lay(&mut self, overrides: &[(String, String)]) {
+        let readable = self.problems.is_empty();
+        for (path, value) in overrides {
+            let start = self.sources.next_start();
+            let (shown, patch) = parse_override(path, value, start);
+            self.sources.push("override", &shown);
+            // Without a readable file there is nothing to override.
+            let done = patch.and_then(|patch| if readable { patch.apply(&mut self.root) } else { Ok(()) });
+            self.problems.extend(done.err().map(|problem| *problem));
+        }
     }
-    Tree { root, sources, problems }
 }
 
 /// Only the first mistake in the text is told: what follows it is mostly its echo.

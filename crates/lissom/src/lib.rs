@@ -36,6 +36,7 @@ mod spent;
 mod state_writer;
 pub mod study;
 pub mod summary;
+pub mod sweep;
 pub mod telemetry;
 pub mod view;
 
@@ -47,7 +48,7 @@ pub use lissom_model::output::{Column, Record, Summary, Writer};
 pub use lissom_model::{Document, Report};
 pub use model::{Model, Override};
 pub use report::{EnergyChange, RunError, RunReport, Stopped};
-pub use session::{Checkpoints, Progress, Session, SessionError, SessionSnapshot};
+pub use session::{Checkpoints, Progress, Session, SessionError, SessionSnapshot, columns};
 pub use spent::Seconds;
 pub use state_writer::StateWriter;
 

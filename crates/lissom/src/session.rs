@@ -136,7 +136,7 @@ struct Tally {
 }
 
 /// The columns of a lowered model's outputs.
-pub(crate) fn columns(channels: &[Channel]) -> Vec<Column> {
+pub fn columns(channels: &[Channel]) -> Vec<Column> {
     let of = |channel: &Channel| {
         let quantity = channel.kind.name().replace('_', " ");
         let column = |(component, unit): (&String, &&'static str)| {
@@ -251,14 +251,34 @@ impl Session {
     /// # Errors
     /// If a step has no solution; the session then stands at the end of the last one that has.
     pub fn step_to(&mut self, time: f64) -> Result<(), StepError> {
-        let outcome = self.go_to(time);
+        self.step_to_watched(time, &mut |_| ControlFlow::Continue(())).map(|_| ())
+    }
+
+    /// Goes on to `time` [s] as [`step_to`](Self::step_to) does. `watch` is asked before every step whether to go on; once
+    /// it says no, the session stands at the end of a step before `time`.
+    ///
+    /// # Errors
+    /// As [`step_to`](Self::step_to).
+    pub fn step_to_watched(
+        &mut self,
+        time: f64,
+        watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, StepError> {
+        let outcome = self.go_to(time, watch);
         self.spent.pause();
         outcome
     }
 
-    fn go_to(&mut self, time: f64) -> Result<(), StepError> {
+    fn go_to(
+        &mut self,
+        time: f64,
+        watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, StepError> {
         let is_controlled = self.schedule.plan().is_controlled;
         while time - self.schedule.time() > WHOLE * self.schedule.step_size() {
+            if watch(&self.progress()).is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
             let now = self.schedule.time();
             if is_controlled {
                 self.take(Next::Until(time))?;
@@ -274,14 +294,14 @@ impl Session {
                 self.step()?;
             } else if (rest - planned).abs() <= WHOLE * planned && !self.schedule.is_finished() {
                 self.step()?;
-                return Ok(());
+                return Ok(ControlFlow::Continue(()));
             } else {
                 let size = rest.min(planned);
                 self.take(Next::Planned(size))?;
                 self.schedule.divert(if size == rest { time } else { now + size });
             }
         }
-        Ok(())
+        Ok(ControlFlow::Continue(()))
     }
 
     /// The next step where another follows at once, and whether it is to be recorded.

@@ -7,6 +7,8 @@ mod motion;
 #[path = "command_line/study.rs"]
 mod study;
 mod support;
+#[path = "command_line/sweep.rs"]
+mod sweep;
 #[path = "command_line/view.rs"]
 mod view;
 

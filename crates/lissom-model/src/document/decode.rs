@@ -12,7 +12,7 @@ use crate::reader::Reader;
 use crate::registry::Registry;
 use crate::report::{Problem, Report, Severity, Span};
 use crate::suggest;
-use crate::text::{self, Node, Value};
+use crate::text::{self, Node, Tree, Value};
 
 impl Document {
     /// Reads a model file's text. `file_name` is for messages only.
@@ -34,24 +34,28 @@ impl Document {
         registry: &Registry,
         overrides: &[(String, String)],
     ) -> Result<Self, Report> {
-        let tree = text::read(text, file_name, overrides);
-        if !tree.problems.is_empty() {
-            return Err(Report::new(tree.problems, &tree.sources));
-        }
-        let context = Context::new(&tree.sources, &tree.root);
-        let document = decode(&context, registry);
-        let problems = context.into_problems();
-        if problems.iter().any(|problem| problem.severity == Severity::Error) {
-            return Err(Report::new(problems, &tree.sources));
-        }
-        let warnings = Report::new(problems, &tree.sources);
-        if let Some(document) = document {
-            return Ok(Self { warnings, sources: tree.sources, ..document });
-        }
-        // Every decoder that gives nothing has told why; this is for the case that one forgot.
-        let problem = Problem::error(Span::default(), "the model could not be read");
-        Err(Report::new(vec![problem], &tree.sources))
+        from_tree(text::read(text, file_name, overrides), registry)
     }
+}
+
+/// Reads a tree that is laid out.
+pub(crate) fn from_tree(tree: Tree, registry: &Registry) -> Result<Document, Report> {
+    if !tree.problems.is_empty() {
+        return Err(Report::new(tree.problems, &tree.sources));
+    }
+    let context = Context::new(&tree.sources, &tree.root);
+    let document = decode(&context, registry);
+    let problems = context.into_problems();
+    if problems.iter().any(|problem| problem.severity == Severity::Error) {
+        return Err(Report::new(problems, &tree.sources));
+    }
+    let warnings = Report::new(problems, &tree.sources);
+    if let Some(document) = document {
+        return Ok(Document { warnings, sources: tree.sources, ..document });
+    }
+    // Every decoder that gives nothing has told why; this is for the case that one forgot.
+    let problem = Problem::error(Span::default(), "the model could not be read");
+    Err(Report::new(vec![problem], &tree.sources))
 }
 
 fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {

@@ -6,7 +6,7 @@ mod beams;
 mod bodies;
 mod components;
 mod connections;
-mod decode;
+pub(crate) mod decode;
 mod materials;
 mod outputs;
 mod places;

@@ -56,12 +56,22 @@ impl<W: Write> Writer for CsvWriter<W> {
     }
 }
 
-/// Quotes a heading that has commas or quotes in it.
-fn quoted(text: &str) -> String {
+/// A cell of a table, quoted where it has commas, quotes or ends of lines in it.
+pub fn quoted(text: &str) -> String {
     if text.contains([',', '"', '\n', '\r']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {
         text.to_owned()
+    }
+}
+
+/// A number with the fewest digits that give it back exactly; also a number of a model file.
+pub fn number_text(value: f64) -> String {
+    let size = value.abs();
+    if value == 0.0 || !value.is_finite() || (1e-4..1e9).contains(&size) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
     }
 }
 

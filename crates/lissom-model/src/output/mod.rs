@@ -8,7 +8,7 @@ mod summary;
 
 use std::io;
 
-pub use csv::CsvWriter;
+pub use csv::{CsvWriter, number_text, quoted};
 pub use log_plot::LogFigure;
 pub use plot::{Figure, FigureError, figures};
 pub use record::{Record, RecordError};

@@ -7,6 +7,7 @@ mod plot;
 mod run;
 mod schema;
 mod study;
+mod sweep;
 mod view;
 
 use std::path::PathBuf;
@@ -107,6 +108,7 @@ enum Command {
     Plot(plot::Plot),
     Study(study::Study),
     View(view::View),
+    Sweep(sweep::SweepCommand),
 }
 
 impl Line {
@@ -121,6 +123,7 @@ impl Line {
             Command::Plot(command) => command.run(),
             Command::Study(command) => command.run(),
             Command::View(command) => command.run(),
+            Command::Sweep(command) => command.run(),
         };
         let exit = outcome.unwrap_or_else(|failure| {
             terminal::complain(&failure.words);

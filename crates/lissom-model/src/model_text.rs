@@ -1,0 +1,99 @@
+//! The text of a model, read once, and the documents it becomes under overrides.
+
+use crate::Document;
+use crate::document::decode::from_tree;
+use crate::registry::Registry;
+use crate::report::Report;
+use crate::text::{self, Tree};
+use crate::toml_text;
+
+/// A model's text as a tree of values. It is read once and opened many times, with different overrides.
+#[derive(Clone, Debug)]
+pub struct ModelText(Tree);
+
+impl ModelText {
+    /// Reads `text` and lays `overrides` over it, as [`Document::parse_with`] does. `file_name` is for messages only.
+    ///
+    /// # Errors
+    /// If the text is not TOML, or an override leads nowhere.
+    pub fn read(text: &str, file_name: &str, overrides: &[(String, String)]) -> Result<Self, Report> {
+        let tree = text::read(text, file_name, overrides);
+        if tree.problems.is_empty() { Ok(Self(tree)) } else { Err(Report::new(tree.problems, &tree.sources)) }
+    }
+
+    /// The checked document, with further `overrides` put in place.
+    ///
+    /// # Errors
+    /// All that is wrong with the model or with an override.
+    pub fn document(&self, registry: &Registry, overrides: &[(String, String)]) -> Result<Document, Report> {
+        let mut tree = self.0.clone();
+        tree.lay(overrides);
+        from_tree(tree, registry)
+    }
+
+    /// The model as TOML, overrides in place, without comments. Every number comes back to the last bit.
+    pub fn to_toml(&self) -> String {
+        toml_text::file(&self.0.root)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = r#"
+lissom = 1
+title = "a \"b\"" # a comment
+[parameters]
+length = 0.1
+area = "length^2"
+[point_masses."my ball"]
+mass = 0.30000000000000004
+velocity = [3, 0, "sqrt(2)"]
+[outputs.ball]
+kind = "position"
+of = "my ball"
+[analysis]
+kind = "dynamics"
+end = 1
+step = 1e-300
+"#;
+
+    fn set(pairs: &[(&str, &str)]) -> Vec<(String, String)> {
+        pairs.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect()
+    }
+
+    #[test]
+    fn a_text_opened_twice_is_the_same_as_a_text_read_twice() {
+        let registry = Registry::default();
+        let text = ModelText::read(TEXT, "a.toml", &set(&[("analysis.end", "2")])).unwrap();
+        for step in ["1e-1", "1e-2"] {
+            let both = set(&[("analysis.end", "2"), ("analysis.step", step)]);
+            let once = text.document(&registry, &both[1..]).unwrap();
+            let twice = Document::parse_with(TEXT, "a.toml", &registry, &both).unwrap();
+            assert_eq!(format!("{once:?}"), format!("{twice:?}"));
+        }
+        let report = text.document(&registry, &set(&[("analysis.stepp", "1")])).unwrap_err().render(false);
+        assert!(report.contains("stepp") && report.contains("[override:1"), "{report}");
+    }
+
+    #[test]
+    fn a_text_written_anew_means_the_same() {
+        let registry = Registry::default();
+        let changed =
+            set(&[("point_masses.\"my ball\".mass", "0.1"), ("analysis.scheme", "generalized-alpha")]);
+        let text = ModelText::read(TEXT, "a.toml", &changed[..1]).unwrap();
+        let again = text.to_toml();
+        assert!(again.contains("mass = 0.1\n") && again.contains("step = 1e-300\n"), "{again}");
+        assert!(again.find("length").unwrap() < again.find("area").unwrap(), "order matters: {again}");
+        let first = text.document(&registry, &[]).unwrap();
+        let second = Document::parse(&again, "a.toml", &registry).unwrap();
+        assert_eq!(
+            first.point_masses[0].velocity.unwrap().value,
+            second.point_masses[0].velocity.unwrap().value
+        );
+        assert_eq!(first.parameters, second.parameters);
+        assert_eq!(first.title, second.title);
+        assert_eq!(ModelText::read(&again, "a.toml", &[]).unwrap().to_toml(), again);
+    }
+}

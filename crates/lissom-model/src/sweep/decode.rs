@@ -1,0 +1,463 @@
+//! Reads a sweep file: words, values, and the table of samples.
+
+use std::collections::BTreeSet;
+
+use super::sampling::{Draw, SAMPLINGS, SamplingKind, WORDS};
+use super::statistic::{self, STATISTICS};
+use super::{Collected, MOST_MEMBERS, SweepFile, SweepValue, VERSION, Variation, Varied};
+use crate::context::Context;
+use crate::keys::{Key, Shape, choice, optional, required};
+use crate::reader::Reader;
+use crate::report::{Problem, Report, Severity, Span};
+use crate::suggest;
+use crate::text::{self, Node, Value, in_order};
+use crate::toml_text::{inline, key};
+
+/// Columns of the table besides the varied paths and what is collected.
+const OTHER_COLUMNS: [&str; 6] =
+    ["member", "state", "time", "steps", "max_constraint_violation", "diagnosis"];
+
+impl SweepFile {
+    /// Reads a sweep file's text. `file_name` is for messages only.
+    ///
+    /// # Errors
+    /// If anything is wrong: a report of all mistakes that could be found.
+    pub fn parse(text: &str, file_name: &str) -> Result<Self, Report> {
+        let tree = text::read(text, file_name, &[]);
+        if !tree.problems.is_empty() {
+            return Err(Report::new(tree.problems, &tree.sources));
+        }
+        let context = Context::new(&tree.sources, &tree.root);
+        let root = Node { span: Span::default(), value: Value::Table(tree.root.clone()) };
+        let sweep = decode(&context, &root);
+        let problems = context.into_problems();
+        match sweep {
+            Some(sweep) if problems.iter().all(|problem| problem.severity == Severity::Warning) => Ok(sweep),
+            _ if problems.is_empty() => {
+                // Every reader that gives nothing has told why; this is for the case that one forgot.
+                let problem = Problem::error(Span::default(), "the sweep could not be read");
+                Err(Report::new(vec![problem], &tree.sources))
+            }
+            _ => Err(Report::new(problems, &tree.sources)),
+        }
+    }
+}
+
+fn keys() -> Vec<Key> {
+    vec![
+        required("lissom_sweep", Shape::Version, "", "version of the format of sweep files"),
+        optional("model", Shape::Text, "", "path of the model file, relative to this file"),
+        optional("sampling", choice(&WORDS), "", "how values are combined or drawn, default grid"),
+        optional("members", Shape::Count(1, MOST_MEMBERS), "", "number of members, where values are drawn"),
+        optional("seed", Shape::Count(0, 1 << 53), "", "start of the random numbers, default 0"),
+        optional("set", Shape::Table, "", "paths of the model and the value each has in all members"),
+        required("vary", Shape::Table, "", "paths of the model and the values each takes"),
+        required("collect", Shape::Table, "", "names and what each collects, as max(tip.u2)"),
+    ]
+}
+
+fn decode(context: &Context<'_>, root: &Node) -> Option<SweepFile> {
+    let reader = Reader::open(context, root, ("the sweep".to_owned(), Span::default()), keys())?;
+    version(context, &reader)?;
+    let word = reader.choice("sampling").map_or(SAMPLINGS[0].name, |word| word.value);
+    let sampling = SAMPLINGS.iter().find(|kind| kind.name == word)?;
+    let seed = reader.count("seed").map_or(0, |seed| seed.value as u64);
+    let set = set(context, &reader);
+    let vary = vary(context, &reader, sampling)?;
+    let collect = collect(context, &reader)?;
+    check_columns(context, &vary, &collect, &set);
+    if context.has_errors() {
+        return None;
+    }
+    let (members, samples) = samples(context, &reader, sampling, &vary, seed)?;
+    let model = reader.text("model").map(|model| model.value.to_owned());
+    Some(SweepFile {
+        model,
+        set,
+        sampling: sampling.name,
+        seed,
+        vary: vary.into_iter().map(|(varied, _)| varied).collect(),
+        collect: collect.into_iter().map(|(collected, _)| collected).collect(),
+        members,
+        samples,
+    })
+}
+
+fn version(context: &Context<'_>, reader: &Reader<'_, '_>) -> Option<()> {
+    let node = reader.node("lissom_sweep")?;
+    if matches!(node.value, Value::Number(number) if number == VERSION as f64) {
+        return Some(());
+    }
+    let help = format!("this program reads version {VERSION}: write `lissom_sweep = {VERSION}`");
+    context.fail(node.span, "this version of the format of sweep files is not supported", help)
+}
+
+/// Leaves of nested tables with the paths that lead to them. `is_leaf` says where a table is one itself.
+fn leaves<'n>(
+    node: &'n Node,
+    path: &str,
+    is_leaf: &dyn Fn(&Node) -> bool,
+    found: &mut Vec<(String, Span, &'n Node)>,
+) {
+    let Some(table) = node.table() else { return };
+    for (name, span, inner) in in_order(table) {
+        // A name with a dot is a path as it is written; others are keys.
+        let step = if name.contains('.') { name.to_owned() } else { key(name) };
+        let path = if path.is_empty() { step } else { format!("{path}.{step}") };
+        if inner.table().is_some() && !is_leaf(inner) {
+            leaves(inner, &path, is_leaf, found);
+        } else {
+            found.push((path, span, inner));
+        }
+    }
+}
+
+fn table_of<'c>(context: &Context<'_>, reader: &Reader<'c, '_>, word: &str) -> Option<&'c Node> {
+    let node = reader.node(word)?;
+    if node.table().is_some() {
+        Some(node)
+    } else {
+        context.wrong_type(node, &format!("`{word}`"), "a table")
+    }
+}
+
+fn set(context: &Context<'_>, reader: &Reader<'_, '_>) -> Vec<(String, String)> {
+    let mut found = Vec::new();
+    if let Some(node) = table_of(context, reader, "set") {
+        leaves(node, "", &|_| false, &mut found);
+    }
+    found.into_iter().map(|(path, _, node)| (path, inline(node))).collect()
+}
+
+/// Words of which each makes a table a variation.
+const MARKS: [&str; 3] = ["values", "from", "mean"];
+
+fn vary(
+    context: &Context<'_>,
+    reader: &Reader<'_, '_>,
+    sampling: &SamplingKind,
+) -> Option<Vec<(Varied, Span)>> {
+    let node = table_of(context, reader, "vary")?;
+    let is_leaf = |node: &Node| {
+        node.table().is_some_and(|table| {
+            let is_value = |mark: &&str| table.get(*mark).is_some_and(|entry| entry.node.table().is_none());
+            table.is_empty() || MARKS.iter().any(is_value)
+        })
+    };
+    let mut found = Vec::new();
+    leaves(node, "", &is_leaf, &mut found);
+    if found.is_empty() {
+        return context.fail(
+            node.span,
+            "the sweep varies nothing",
+            "add for example vary.\"analysis.step\" = [1e-3, 1e-4]",
+        );
+    }
+    let of = |(path, span, node): (String, Span, &Node)| {
+        let variation = variation(context, (&path, span), node)?;
+        check_sampling(context, (&path, span), &variation, sampling);
+        Some((Varied { path, variation }, span))
+    };
+    let all: Vec<Option<_>> = found.into_iter().map(of).collect();
+    all.into_iter().collect()
+}
+
+fn variation(context: &Context<'_>, (path, span): (&str, Span), node: &Node) -> Option<Variation> {
+    let what = format!("the variation of `{path}`");
+    if let Value::List(list) = &node.value {
+        return listed(context, list, node.span, &what);
+    }
+    let Some(table) = node.table() else {
+        return context.fail(
+            node.span,
+            format!("{what} must be a list of values or a table"),
+            "write [1, 2, 3], { from = 1, to = 3, count = 5 } or { mean = 1, standard_deviation = 0.1 }; \
+             a fixed value belongs below [set]",
+        );
+    };
+    let open = |keys| Reader::open(context, node, (what.clone(), span), keys);
+    if table.contains_key("values") {
+        let reader = open(vec![required("values", Shape::Rows, "", "the values")])?;
+        let values = reader.node("values")?;
+        let Value::List(list) = &values.value else {
+            return context.wrong_type(values, &reader.words("values"), "a list");
+        };
+        return listed(context, list, values.span, &what);
+    }
+    if table.contains_key("mean") || table.contains_key("standard_deviation") {
+        let reader = open(vec![
+            required("mean", Shape::Number, "", "mean"),
+            required("standard_deviation", Shape::Positive, "", "standard deviation"),
+        ])?;
+        let (mean, deviation) = (reader.number("mean"), reader.number("standard_deviation"));
+        return Some(Variation::Normal { mean: mean?.value, standard_deviation: deviation?.value });
+    }
+    let reader = open(vec![
+        required("from", Shape::Number, "", "the first value"),
+        required("to", Shape::Number, "", "the last value"),
+        optional("count", Shape::Count(2, MOST_MEMBERS), "", "how many, where values are not drawn"),
+        optional("spacing", choice(&["linear", "logarithmic"]), "", "default linear"),
+    ])?;
+    let (from, to) = (reader.number("from"), reader.number("to"));
+    let count = reader.count("count").map(|count| count.value);
+    let logarithmic = reader.choice("spacing").is_some_and(|word| word.value == "logarithmic");
+    let (from, to) = (from?, to?);
+    if from.value == to.value {
+        let help = "give two different numbers, or put a fixed value below [set]";
+        return context.fail(to.span, format!("{what} ends where it begins"), help);
+    }
+    if logarithmic && !(from.value > 0.0 && to.value > 0.0) {
+        let message = format!("{what} is logarithmic and must be greater than zero");
+        return context.fail(
+            from.span,
+            message,
+            "give two numbers greater than zero, or leave out `spacing`",
+        );
+    }
+    Some(Variation::Range { from: from.value, to: to.value, count, logarithmic })
+}
+
+fn listed(context: &Context<'_>, list: &[Node], span: Span, what: &str) -> Option<Variation> {
+    if list.is_empty() {
+        return context.fail(span, format!("{what} has no values"), "give at least one");
+    }
+    let value = |node: &Node| match &node.value {
+        Value::Number(number) if number.is_finite() => Some(SweepValue::Number(*number)),
+        Value::Number(_) => {
+            context.fail(node.span, format!("{what} has a number that is not finite"), "leave it out")
+        }
+        Value::Text(text) if text.contains(['\n', '\r']) => {
+            context.fail(node.span, format!("{what} has a text of several lines"), "write it on one line")
+        }
+        Value::Text(text) => Some(SweepValue::Text(text.clone())),
+        Value::Date => {
+            context.fail(node.span, format!("{what} has a date"), "no key of a model holds a date")
+        }
+        _ => Some(SweepValue::Toml(inline(node))),
+    };
+    let values: Vec<Option<SweepValue>> = list.iter().map(value).collect();
+    values.into_iter().collect::<Option<Vec<_>>>().map(Variation::Listed)
+}
+
+/// Whether the sampling can do with the variation.
+fn check_sampling(
+    context: &Context<'_>,
+    (path, span): (&str, Span),
+    variation: &Variation,
+    sampling: &SamplingKind,
+) {
+    let name = sampling.name;
+    match (&sampling.draw, variation) {
+        (Draw::Indices(_), variation) if variation.count().is_none() => {
+            let message = format!("the sampling `{name}` needs to know how many values `{path}` takes");
+            context.fail::<()>(
+                span,
+                message,
+                "list them, or give `from`, `to` and `count`; or choose another `sampling`",
+            );
+        }
+        (Draw::Fractions(_), Variation::Range { count: Some(_), .. }) => {
+            let message =
+                format!("`count` of `{path}` has no meaning: the sampling `{name}` draws the values");
+            context.fail::<()>(span, message, "leave out `count`; `members` says how many there are");
+        }
+        _ => {}
+    }
+}
+
+fn collect(context: &Context<'_>, reader: &Reader<'_, '_>) -> Option<Vec<(Collected, Span)>> {
+    let node = table_of(context, reader, "collect")?;
+    let entries = node.table().map(in_order).unwrap_or_default();
+    if entries.is_empty() {
+        return context.fail(
+            node.span,
+            "the sweep collects nothing",
+            "add for example collect.tip = \"final(tip.u2)\"",
+        );
+    }
+    let of = |(name, span, node): (&str, Span, &Node)| {
+        let Value::Text(text) = &node.value else {
+            return context.wrong_type(node, &format!("`{name}` of `collect`"), "a text, as \"max(tip.u2)\"");
+        };
+        let words = || {
+            let names = STATISTICS.iter().map(|statistic| statistic.name);
+            format!(
+                "write a statistic and a column, as \"max(tip.u2)\"; statistics are {}",
+                suggest::list(names)
+            )
+        };
+        let parts = text.trim().strip_suffix(')').and_then(|text| text.split_once('('));
+        let Some((word, column)) = parts else {
+            return context.fail(node.span, format!("`{name}` of `collect` cannot be read"), words());
+        };
+        let (word, column) = (word.trim(), column.trim());
+        let Some(found) = statistic::find(word) else {
+            let known = STATISTICS.iter().map(|statistic| statistic.name);
+            let help = suggest::help(word, known).unwrap_or_else(words);
+            return context.fail(node.span, format!("`{word}` is no statistic"), help);
+        };
+        let (name, column) = (name.to_owned(), column.to_owned());
+        Some((Collected { name, statistic: found.name, column }, span))
+    };
+    let all: Vec<Option<_>> = entries.into_iter().map(of).collect();
+    all.into_iter().collect()
+}
+
+/// Every column of the table needs a name of its own, and a path has either one value or several.
+fn check_columns(
+    context: &Context<'_>,
+    vary: &[(Varied, Span)],
+    collect: &[(Collected, Span)],
+    set: &[(String, String)],
+) {
+    let mut known: BTreeSet<&str> = OTHER_COLUMNS.into_iter().collect();
+    let paths = vary.iter().map(|(varied, span)| (varied.path.as_str(), *span));
+    let names = collect.iter().map(|(collected, span)| (collected.name.as_str(), *span));
+    for (name, span) in paths.chain(names) {
+        if !known.insert(name) {
+            let message = format!("the table would have two columns `{name}`");
+            context.fail::<()>(
+                span,
+                message,
+                "choose another name for what is collected; vary each path once",
+            );
+        }
+    }
+    for (varied, span) in vary {
+        if set.iter().any(|(path, _)| *path == varied.path) {
+            let message = format!("`{}` is set and varied", varied.path);
+            context.fail::<()>(*span, message, "leave it out below [set]");
+        }
+    }
+}
+
+/// Number of members, and the table of samples.
+fn samples(
+    context: &Context<'_>,
+    reader: &Reader<'_, '_>,
+    sampling: &SamplingKind,
+    vary: &[(Varied, Span)],
+    seed: u64,
+) -> Option<(usize, Vec<f64>)> {
+    let span = reader.node("sampling").map_or(vary[0].1, |node| node.span);
+    let fail = |message: String| context.fail::<()>(span, message, "change `sampling`, or the values");
+    let name = sampling.name;
+    let of = |path: usize| &vary[path % vary.len()].0.variation;
+    match sampling.draw {
+        Draw::Indices(draw) => {
+            for key in
+                ["members", "seed"].into_iter().filter_map(|key| reader.node(key).map(|node| (key, node)))
+            {
+                let message = format!("`{}` has no meaning: the sampling `{name}` draws nothing", key.0);
+                context.fail::<()>(key.1.span, message, "leave it out, or choose another `sampling`");
+            }
+            let counts: Vec<usize> = vary.iter().filter_map(|(varied, _)| varied.variation.count()).collect();
+            let indices = draw(&counts).map_err(fail);
+            let indices = indices.ok().filter(|indices| !indices.is_empty())?;
+            let samples = indices.iter().enumerate().map(|(at, index)| of(at).at_index(*index)).collect();
+            Some((indices.len() / vary.len(), samples))
+        }
+        Draw::Fractions(draw) => {
+            let Some(members) = reader.count("members") else {
+                return match reader.node("members") {
+                    Some(_) => None,
+                    None => context.fail(
+                        span,
+                        format!("the sampling `{name}` needs the number of members"),
+                        "add `members = 64`",
+                    ),
+                };
+            };
+            let drawn = draw(vary.len(), members.value, seed).map_err(fail).ok()?;
+            let samples = drawn.iter().enumerate().map(|(at, u)| of(at).at_fraction(*u)).collect();
+            Some((members.value, samples))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sweep(text: &str) -> SweepFile {
+        let head = "lissom_sweep = 1\ncollect.a = \"max(bob.x)\"\n";
+        SweepFile::parse(&format!("{head}{text}"), "s.toml").map_err(|report| report.render(false)).unwrap()
+    }
+
+    fn complaint(text: &str) -> String {
+        SweepFile::parse(text, "s.toml").unwrap_err().render(false)
+    }
+
+    #[test]
+    fn paths_may_be_nested_or_quoted() {
+        let sweep = sweep(
+            "[set.analysis]\nend = 2\nscheme = \"hht\"\n[vary.bodies.\"my body\"]\nmass = [1, \"2*pi\"]\n\
+             [vary]\n\"beams.b.elements\" = { values = [4, 8] }\njoints.a.kind = [\"clamp\", [0, 1]]\n",
+        );
+        assert_eq!(
+            sweep.set,
+            [("analysis.end", "2"), ("analysis.scheme", "\"hht\"")].map(|(a, b)| (a.into(), b.into()))
+        );
+        assert_eq!(sweep.len(), 8);
+        let of_last =
+            [("bodies.\"my body\".mass", "\"2*pi\""), ("beams.b.elements", "8"), ("joints.a.kind", "[0, 1]")];
+        assert_eq!(sweep.overrides(7), of_last.map(|(a, b)| (a.to_owned(), b.to_owned())));
+        assert_eq!(sweep.value(0, 2), SweepValue::Text("clamp".to_owned()));
+    }
+
+    #[test]
+    fn drawn_values_keep_to_their_ranges() {
+        for sampling in ["latin-hypercube", "sobol", "monte-carlo"] {
+            let text = format!(
+                "sampling = \"{sampling}\"\nmembers = 200\nseed = 3\n[vary]\n\"a.x\" = {{ from = 2, to = 3 }}\n\
+                 \"a.y\" = {{ from = 1e3, to = 1e-3, spacing = \"logarithmic\" }}\n\
+                 \"a.z\" = {{ mean = 5, standard_deviation = 0.1 }}\n\"a.w\" = [\"p\", \"q\"]\n"
+            );
+            let sweep = sweep(&text);
+            assert_eq!(sweep.len(), 200);
+            let number = |member, path| match sweep.value(member, path) {
+                SweepValue::Number(number) => number,
+                other => panic!("{other:?}"),
+            };
+            let mean = |path| (0..200).map(|member| number(member, path)).sum::<f64>() / 200.0;
+            assert!((0..200).all(|member| (2.0..=3.0).contains(&number(member, 0))));
+            assert!((0..200).all(|member| (1e-3..=1e3).contains(&number(member, 1))));
+            assert!((mean(0) - 2.5).abs() < 0.1 && (mean(2) - 5.0).abs() < 0.05, "{sampling}");
+            let chosen =
+                (0..200).filter(|member| sweep.value(*member, 3) == SweepValue::Text("p".into())).count();
+            assert!((70..130).contains(&chosen), "{sampling}: {chosen}");
+        }
+    }
+
+    #[test]
+    fn mistakes_are_named() {
+        let head = "lissom_sweep = 1\ncollect.c = \"max(b.x)\"\n";
+        let cases = [
+            ("vary.a = 3", "must be a list of values or a table"),
+            ("vary.a = []", "has no values"),
+            ("vary.a = { from = 1, to = 2 }", "needs to know how many values"),
+            ("vary.a = { from = 1, to = 1, count = 3 }", "ends where it begins"),
+            ("vary.a = { from = 0, to = 1, count = 3, spacing = \"logarithmic\" }", "greater than zero"),
+            ("vary.a = { from = 1, too = 2, count = 3 }", "unknown key `too`"),
+            ("sampling = \"gird\"\nvary.a = [1]", "did you mean `grid`"),
+            ("sampling = \"sobol\"\nvary.a = { from = 0, to = 1 }", "needs the number of members"),
+            ("sampling = \"list\"\nvary.a = [1, 2]\nvary.b = [1]", "as many values"),
+            ("members = 4\nvary.a = [1, 2]", "has no meaning"),
+            ("vary.a = [1, 2]\nset.a = 1", "is set and varied"),
+            ("vary.member = [1, 2]", "two columns `member`"),
+            ("collect.b = \"maximum(b.x)\"\nvary.a = [1]", "is no statistic"),
+            ("collect.b = \"b.x\"\nvary.a = [1]", "cannot be read"),
+            ("vary.a = [1]\nworkers = 3", "unknown key `workers`"),
+            ("[vary]", "varies nothing"),
+        ];
+        for (text, words) in cases {
+            let text = format!("{head}{text}\n");
+            let found = complaint(&text);
+            // Lines are wrapped where they are long.
+            let flat = found.split_whitespace().collect::<Vec<_>>().join(" ").replace(" │ ", " ");
+            assert!(flat.contains(words), "{text}\n{found}");
+        }
+        assert!(complaint("lissom_sweep = 2\nvary.a=[1]\ncollect.a=\"max(a)\"").contains("not supported"));
+        assert!(complaint("vary.a=[1]\ncollect.a=\"max(a)\"").contains("lissom_sweep"));
+    }
+}

@@ -1,0 +1,119 @@
+//! The sweep file: which values of a model are varied, how they are sampled, and which scalars are collected from the
+//! histories. Becomes the overrides of every member. Knows no simulation.
+//!
+//! ```
+//! use lissom_model::sweep::SweepFile;
+//!
+//! let text = r#"
+//! lissom_sweep = 1
+//! model = "pendulum.toml"
+//! vary."point_masses.bob.mass" = [1, 2, 4]
+//! vary."springs.spring.stiffness" = { from = 10, to = 20, count = 2 }
+//! collect.highest = "max(bob.y)"
+//! "#;
+//! let sweep = SweepFile::parse(text, "masses.toml").expect("a good sweep");
+//! assert_eq!(sweep.len(), 6);
+//! let of_last = [("point_masses.bob.mass", "4"), ("springs.spring.stiffness", "20")];
+//! assert_eq!(sweep.overrides(5), of_last.map(|(path, value)| (path.to_owned(), value.to_owned())));
+//! ```
+
+mod decode;
+pub mod sampling;
+mod statistic;
+mod variation;
+
+use serde::Serialize;
+
+pub use statistic::{Accumulator, STATISTICS, Statistic};
+pub use variation::{SweepValue, Variation};
+
+/// The newest version of the format.
+pub const VERSION: usize = 1;
+
+/// Most members of a sweep.
+pub const MOST_MEMBERS: usize = 10_000_000;
+
+/// A path of the model and the values it takes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Varied {
+    /// Path into the model file, as `point_masses.bob.mass`.
+    pub path: String,
+    /// The values.
+    pub variation: Variation,
+}
+
+/// A scalar of each member's history.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Collected {
+    /// Name of its column in the table.
+    pub name: String,
+    /// What is taken of the history.
+    pub statistic: &'static str,
+    /// Name of the history's column, as `midspan.u2`.
+    pub column: String,
+}
+
+impl Collected {
+    /// The statistic that [`statistic`](Self::statistic) names.
+    ///
+    /// # Panics
+    /// Never for what was read from a file: the name was looked up there.
+    pub fn kind(&self) -> &'static Statistic {
+        statistic::find(self.statistic).expect("the name was looked up when it was read")
+    }
+}
+
+/// A sweep as it was written, checked. Serialises to what defines its members and results.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SweepFile {
+    /// Path of the model file as it was written, if it was; relative to the sweep file.
+    #[serde(skip)]
+    pub model: Option<String>,
+    /// What is changed in every member, as paths and TOML values.
+    pub set: Vec<(String, String)>,
+    /// Word of the sampling.
+    pub sampling: &'static str,
+    /// Start of the random numbers.
+    pub seed: u64,
+    /// What is varied.
+    pub vary: Vec<Varied>,
+    /// What is collected.
+    pub collect: Vec<Collected>,
+    members: usize,
+    /// Of each member, for each varied path: the number, or the index of a listed value.
+    #[serde(skip)]
+    samples: Vec<f64>,
+}
+
+impl SweepFile {
+    /// Number of members.
+    pub fn len(&self) -> usize {
+        self.members
+    }
+
+    /// Whether there are none; a file with no members is refused.
+    pub fn is_empty(&self) -> bool {
+        self.members == 0
+    }
+
+    /// Value of the varied path number `path` in `member`.
+    ///
+    /// # Panics
+    /// If there is no such member or path.
+    pub fn value(&self, member: usize, path: usize) -> SweepValue {
+        let sample = self.samples[member * self.vary.len() + path];
+        match &self.vary[path].variation {
+            Variation::Listed(values) => values[sample as usize].clone(),
+            _ => SweepValue::Number(sample),
+        }
+    }
+
+    /// What is changed in `member` besides [`set`](Self::set).
+    ///
+    /// # Panics
+    /// If there is no such member.
+    pub fn overrides(&self, member: usize) -> Vec<(String, String)> {
+        let of = |(path, varied): (usize, &Varied)| (varied.path.clone(), self.value(member, path).to_toml());
+        self.vary.iter().enumerate().map(of).collect()
+    }
+}

@@ -1,0 +1,37 @@
+//! All combinations of the values; the last path varies fastest.
+
+use super::{Draw, SamplingKind};
+use crate::sweep::MOST_MEMBERS;
+
+pub(super) const KIND: SamplingKind = SamplingKind {
+    name: "grid",
+    summary: "All combinations of the values; the last path varies fastest.",
+    draw: Draw::Indices(indices),
+};
+
+fn indices(counts: &[usize]) -> Result<Vec<usize>, String> {
+    let product = counts.iter().try_fold(1_usize, |product, count| product.checked_mul(*count));
+    let members = product
+        .filter(|members| *members <= MOST_MEMBERS)
+        .ok_or_else(|| format!("the grid has more than {MOST_MEMBERS} members"))?;
+    let mut all = vec![0; members * counts.len()];
+    for member in 0..members {
+        let mut rest = member;
+        for path in (0..counts.len()).rev() {
+            all[member * counts.len() + path] = rest % counts[path];
+            rest /= counts[path];
+        }
+    }
+    Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn all_combinations_come_once() {
+        assert_eq!(indices(&[2, 3]).unwrap(), [0, 0, 0, 1, 0, 2, 1, 0, 1, 1, 1, 2]);
+        assert!(indices(&[100_000, 100_000, 100_000, 100_000, 100_000]).is_err());
+    }
+}

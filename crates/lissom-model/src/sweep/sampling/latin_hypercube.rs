@@ -1,0 +1,44 @@
+//! Latin hypercube [McKay, Beckman and Conover 1979]: every path has one member in each of as many equal parts.
+
+use super::random::{fraction, permutation};
+use super::{Draw, SamplingKind};
+
+pub(super) const KIND: SamplingKind = SamplingKind {
+    name: "latin-hypercube",
+    summary: "Every path has one member in each of as many parts of equal probability.",
+    draw: Draw::Fractions(fractions),
+};
+
+// The signature is that of all samplings.
+#[allow(clippy::unnecessary_wraps)]
+fn fractions(paths: usize, members: usize, seed: u64) -> Result<Vec<f64>, String> {
+    let mut all = vec![0.0; paths * members];
+    for path in 0..paths {
+        let parts = permutation(members, seed, 2 * path as u64);
+        for (member, part) in parts.into_iter().enumerate() {
+            let within = fraction(seed, 2 * path as u64 + 1, member as u64);
+            // The largest number below 1 stands for one that would be rounded to it.
+            let value = (part as f64 + within) / members as f64;
+            all[member * paths + path] = value.min(1.0 - f64::EPSILON / 2.0);
+        }
+    }
+    Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_part_has_one_member() {
+        let (paths, members) = (3, 50);
+        let all = fractions(paths, members, 11).unwrap();
+        for path in 0..paths {
+            let mut parts: Vec<usize> =
+                (0..members).map(|member| (all[member * paths + path] * members as f64) as usize).collect();
+            assert!(!parts.is_sorted(), "shuffled");
+            parts.sort_unstable();
+            assert!(parts.iter().enumerate().all(|(index, part)| index == *part));
+        }
+    }
+}

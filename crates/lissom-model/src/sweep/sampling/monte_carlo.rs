@@ -1,0 +1,29 @@
+//! Independent draws.
+
+use super::random::fraction;
+use super::{Draw, SamplingKind};
+
+pub(super) const KIND: SamplingKind = SamplingKind {
+    name: "monte-carlo",
+    summary: "Independent draws; more members leave the first ones as they are.",
+    draw: Draw::Fractions(fractions),
+};
+
+// The signature is that of all samplings.
+#[allow(clippy::unnecessary_wraps)]
+fn fractions(paths: usize, members: usize, seed: u64) -> Result<Vec<f64>, String> {
+    let of = |member| (0..paths).map(move |path| fraction(seed, path as u64, member as u64));
+    Ok((0..members).flat_map(of).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn more_members_leave_the_first_ones() {
+        let few = fractions(3, 10, 5).unwrap();
+        assert_eq!(fractions(3, 20, 5).unwrap()[..30], few);
+        assert_ne!(fractions(3, 10, 6).unwrap(), few);
+    }
+}

@@ -1,0 +1,59 @@
+//! Random numbers by place: SplitMix64 [Steele, Lea and Flood 2014], so that number k of a stream needs no number before.
+
+const STEP: u64 = 0x9e37_79b9_7f4a_7c15;
+
+fn mixed(mut z: u64) -> u64 {
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+/// Number `index` of the stream `stream` of `seed`.
+pub(super) fn bits(seed: u64, stream: u64, index: u64) -> u64 {
+    let start = mixed(mixed(seed.wrapping_add(STEP)).wrapping_add(stream.wrapping_add(1).wrapping_mul(STEP)));
+    mixed(start.wrapping_add(index.wrapping_add(1).wrapping_mul(STEP)))
+}
+
+/// Number `index` of the stream `stream` of `seed`, between 0 and 1, both excluded.
+pub(super) fn fraction(seed: u64, stream: u64, index: u64) -> f64 {
+    ((bits(seed, stream, index) >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
+}
+
+/// The numbers below `count`, shuffled [Fisher and Yates, by Durstenfeld 1964].
+pub(super) fn permutation(count: usize, seed: u64, stream: u64) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..count).collect();
+    for last in (1..count).rev() {
+        // The product's upper half is even to within 2^-40 for as many members as there may be.
+        let choice = (u128::from(bits(seed, stream, last as u64)) * (last as u128 + 1)) >> 64;
+        order.swap(last, choice as usize);
+    }
+    order
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn streams_are_even_and_differ() {
+        let count = 100_000;
+        for stream in 0..3 {
+            let mean: f64 = (0..count).map(|k| fraction(7, stream, k)).sum::<f64>() / count as f64;
+            // Five standard deviations of the mean.
+            assert!((mean - 0.5).abs() < 5.0 / (12.0 * count as f64).sqrt(), "{stream}: {mean}");
+        }
+        let product = |k| (fraction(7, 0, k) - 0.5) * (fraction(7, 1, k) - 0.5);
+        assert!(
+            ((0..count).map(product).sum::<f64>() / count as f64).abs() < 5.0 / 12.0 / (count as f64).sqrt()
+        );
+        assert_ne!(bits(1, 0, 0), bits(2, 0, 0));
+    }
+
+    #[test]
+    fn a_permutation_has_every_number_once() {
+        let mut order = permutation(1000, 3, 1);
+        assert_ne!(order, permutation(1000, 4, 1));
+        order.sort_unstable();
+        assert!(order.iter().enumerate().all(|(index, number)| index == *number));
+    }
+}

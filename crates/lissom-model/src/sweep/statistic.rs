@@ -1,0 +1,162 @@
+//! What is taken of a history: one number from a column of values over time. A new statistic is a line in
+//! [`STATISTICS`].
+
+/// One number of a history.
+#[derive(Debug)]
+pub struct Statistic {
+    /// Word in the sweep file.
+    pub name: &'static str,
+    /// One sentence.
+    pub summary: &'static str,
+    of: fn(&Accumulator) -> f64,
+}
+
+/// All of them.
+pub static STATISTICS: [Statistic; 9] = [
+    Statistic { name: "max", summary: "Largest recorded value.", of: |history| history.most.1 },
+    Statistic { name: "min", summary: "Smallest recorded value.", of: |history| history.least.1 },
+    Statistic {
+        name: "max_abs",
+        summary: "Largest recorded magnitude.",
+        of: |history| history.most.1.max(-history.least.1),
+    },
+    Statistic {
+        name: "time_of_max",
+        summary: "Time of the first largest value [s].",
+        of: |history| history.most.0,
+    },
+    Statistic {
+        name: "time_of_min",
+        summary: "Time of the first smallest value [s].",
+        of: |history| history.least.0,
+    },
+    Statistic {
+        name: "mean",
+        summary: "Mean over time, by the trapezoidal rule.",
+        of: |history| history.means()[0],
+    },
+    Statistic {
+        name: "rms",
+        summary: "Root of the mean square over time, by the trapezoidal rule.",
+        of: |history| history.means()[1].sqrt(),
+    },
+    Statistic { name: "initial", summary: "First recorded value.", of: |history| history.first.1 },
+    Statistic { name: "final", summary: "Last recorded value.", of: |history| history.last.1 },
+];
+
+/// The statistic called `name`.
+pub(super) fn find(name: &str) -> Option<&'static Statistic> {
+    STATISTICS.iter().find(|known| known.name == name)
+}
+
+impl Statistic {
+    /// Its value for a history that was gone through; none where there is no record, or one that is not finite.
+    pub fn of(&self, history: &Accumulator) -> Option<f64> {
+        let value = (self.of)(history);
+        (history.records > 0 && history.fault.is_none() && value.is_finite()).then_some(value)
+    }
+}
+
+/// Goes through a history record by record, and keeps what all statistics need.
+#[derive(Clone, Debug)]
+pub struct Accumulator {
+    records: usize,
+    first: (f64, f64),
+    last: (f64, f64),
+    most: (f64, f64),
+    least: (f64, f64),
+    /// Integrals over time of the value and of its square.
+    integrals: [f64; 2],
+    fault: Option<f64>,
+}
+
+impl Default for Accumulator {
+    fn default() -> Self {
+        let nothing = (0.0, 0.0);
+        Self {
+            records: 0,
+            first: nothing,
+            last: nothing,
+            most: nothing,
+            least: nothing,
+            integrals: [0.0; 2],
+            fault: None,
+        }
+    }
+}
+
+impl Accumulator {
+    /// Takes the value at `time` [s].
+    pub fn add(&mut self, time: f64, value: f64) {
+        let now = (time, value);
+        if !value.is_finite() && self.fault.is_none() {
+            self.fault = Some(time);
+        }
+        if self.records == 0 {
+            (self.first, self.last, self.most, self.least) = (now, now, now, now);
+        }
+        self.records += 1;
+        let half = 0.5 * (time - self.last.0);
+        self.integrals[0] += half * (self.last.1 + value);
+        self.integrals[1] += half * (self.last.1 * self.last.1 + value * value);
+        self.last = now;
+        if value > self.most.1 {
+            self.most = now;
+        }
+        if value < self.least.1 {
+            self.least = now;
+        }
+    }
+
+    /// Time of the first value that was not finite, if any [s].
+    pub fn fault(&self) -> Option<f64> {
+        self.fault
+    }
+
+    /// Means over time of the value and of its square.
+    fn means(&self) -> [f64; 2] {
+        let duration = self.last.0 - self.first.0;
+        let value = self.last.1;
+        if duration > 0.0 {
+            self.integrals.map(|integral| integral / duration)
+        } else {
+            [value, value * value]
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn all(history: &[(f64, f64)]) -> Vec<Option<f64>> {
+        let mut accumulator = Accumulator::default();
+        for (time, value) in history {
+            accumulator.add(*time, *value);
+        }
+        STATISTICS.iter().map(|statistic| statistic.of(&accumulator)).collect()
+    }
+
+    #[test]
+    fn statistics_are_those_of_the_history() {
+        // Uneven steps: means are over time, not over records.
+        let values = all(&[(1.0, -3.0), (1.5, 1.0), (3.0, 1.0)]);
+        let [duration, mean, square] = [2.0_f64, 0.25 * -2.0 + 1.5, 0.25 * (9.0 + 1.0) + 1.5];
+        let (mean, rms) = (mean / duration, (square / duration).sqrt());
+        let wanted = [1.0, -3.0, 3.0, 1.5, 1.0, mean, rms, -3.0, 1.0];
+        assert_eq!(values, wanted.map(Some));
+        assert_eq!(all(&[(0.0, -2.0)]), [-2.0, -2.0, 2.0, 0.0, 0.0, -2.0, 2.0, -2.0, -2.0].map(Some));
+    }
+
+    #[test]
+    fn what_is_not_finite_is_never_passed_over() {
+        let history = [(0.0, 1.0), (0.1, f64::NAN), (0.2, 2.0)];
+        assert!(all(&history).iter().all(Option::is_none));
+        assert!(all(&[]).iter().all(Option::is_none));
+        let mut accumulator = Accumulator::default();
+        for (time, value) in history {
+            accumulator.add(time, value);
+        }
+        assert_eq!(accumulator.fault(), Some(0.1));
+    }
+}

@@ -1,0 +1,258 @@
+//! `lissom sweep`: solves a model many times with other values and leaves one table.
+
+use std::fmt::Write;
+use std::io::{IsTerminal, stderr};
+use std::num::NonZero;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use clap::Args;
+use indicatif::{ProgressBar, ProgressStyle};
+use lissom::sweep::{
+    MemberOutcome, MemberState, Sweep, SweepError, SweepFile, SweepFolder, SweepFolderError,
+};
+use lissom::{Model, Override, Summary};
+use lissom_model::files;
+use serde_json::json;
+
+use super::{Exit, Failure};
+use crate::terminal::{self, Interrupt};
+
+/// Most members that are named when they have no solution.
+const NAMED: usize = 5;
+
+/// Solve a model many times with other values, on all processors.
+///
+/// The sweep file names the model, the paths that are varied, how they are sampled, and the scalars that are collected.
+/// The folder gets `sweep.csv` (one row per member), `sweep.json` (counts and times), and `members.jsonl`, to which every
+/// member that ends adds a line: a sweep that was cut off goes on from there when it is started again.
+#[derive(Args)]
+#[command(after_help = "\
+A sweep file:
+  lissom_sweep = 1
+  model = \"pendulum.toml\"
+  sampling = \"sobol\"        # grid (default), list, latin-hypercube, sobol, monte-carlo
+  members = 64
+  [vary]
+  \"point_masses.bob.mass\" = { from = 1, to = 4 }
+  \"springs.spring.stiffness\" = { mean = 10, standard_deviation = 1 }
+  [collect]
+  swing = \"max(bob.x)\"      # max min max_abs time_of_max time_of_min mean rms initial final
+
+Exit code: 0 every member is solved; 2 wrong model, sweep file or command line; 3 a member has no solution, or results
+cannot be written: the table is there all the same; 130 interrupted by Ctrl-C: start it again to go on.")]
+pub(super) struct SweepCommand {
+    /// The sweep file.
+    #[arg(value_name = "SWEEP.toml")]
+    file: PathBuf,
+
+    /// Put another value into all members, as `analysis.step=1e-4`; may be repeated.
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
+    set: Vec<Override>,
+
+    /// Folder for the results [default: out/<name of the sweep file>].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Members solved at the same time; results do not depend on their number [default: all processors].
+    #[arg(long, value_name = "N")]
+    workers: Option<NonZero<usize>>,
+
+    /// Discard what an earlier sweep left in the folder.
+    #[arg(long)]
+    restart: bool,
+
+    /// No progress, no summary on the terminal.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl From<SweepError> for Failure {
+    fn from(error: SweepError) -> Self {
+        match error {
+            SweepError::Model(report) => report.into(),
+            other => Self::new(Exit::BadModel, other),
+        }
+    }
+}
+
+impl From<SweepFolderError> for Failure {
+    fn from(error: SweepFolderError) -> Self {
+        match error {
+            SweepFolderError::File(error) => Self::file(Exit::Failed, &error),
+            other => Self::new(Exit::BadModel, other),
+        }
+    }
+}
+
+impl SweepCommand {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let interrupt = Interrupt::listen();
+        let began = Instant::now();
+        let sweep = self.sweep()?;
+        if !self.quiet && !sweep.warnings().is_empty() {
+            terminal::complain(&sweep.warnings().render(terminal::in_colour()));
+        }
+        let stem = self.file.file_stem().unwrap_or_default();
+        let path = self.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
+        let (mut folder, mut outcomes) = SweepFolder::open(&path, &sweep, self.restart)?;
+        let mut is_there = vec![false; sweep.len()];
+        for outcome in &outcomes {
+            is_there[outcome.member] = true;
+        }
+        let missing: Vec<usize> = (0..sweep.len()).filter(|member| !is_there[*member]).collect();
+        let found = outcomes.len();
+        let processors = || std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
+        let workers = self.workers.unwrap_or_else(processors);
+        let bar = self.bar(sweep.len(), found);
+        let mut keep = |outcome: MemberOutcome| {
+            folder.append(&outcome)?;
+            outcomes.push(outcome);
+            Ok(())
+        };
+        let mut watch = |done: usize| {
+            bar.set_position((found + done) as u64);
+            if interrupt.is_noted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        };
+        let ended = sweep.run(&missing, workers, &mut keep, &mut watch);
+        bar.finish_and_clear();
+        let ended = ended.map_err(|error| Failure::file(Exit::Failed, &error))?;
+        if ended.is_break() {
+            if !self.quiet {
+                let (done, all) = (outcomes.len(), sweep.len());
+                terminal::complain(&format!(
+                    "interrupted: {done} of {all} members are in `{}`; the same command goes on from there\n",
+                    path.display()
+                ));
+            }
+            return Ok(Exit::Interrupted);
+        }
+        outcomes.sort_by_key(|outcome| outcome.member);
+        let seconds = began.elapsed().as_secs_f64();
+        let summary = summary(&sweep, &outcomes, (found, workers, seconds));
+        let table = folder
+            .finish(&sweep, &outcomes, &summary)
+            .map_err(|error| Failure::file(Exit::Failed, &error))?;
+        if !self.quiet {
+            terminal::print(&told(&sweep, &outcomes, (found, workers, seconds), &table));
+        }
+        exit(&outcomes, &table)
+    }
+
+    fn sweep(&self) -> Result<Sweep, Failure> {
+        let unreadable = |error| Failure::file(Exit::BadModel, &error);
+        let text = files::read_text(&self.file).map_err(unreadable)?;
+        let file = SweepFile::parse(&text, &self.file.display().to_string())?;
+        let Some(model) = &file.model else {
+            let message = format!("`{}` names no model: add `model = \"….toml\"`", self.file.display());
+            return Err(Failure::new(Exit::BadModel, message));
+        };
+        let folder = self.file.parent().unwrap_or(Path::new(""));
+        let model = Model::read(&folder.join(model)).map_err(unreadable)?;
+        Ok(Sweep::new(&model, file, &self.set)?)
+    }
+
+    /// A bar of members with the time that is left; nothing in a pipe.
+    fn bar(&self, members: usize, found: usize) -> ProgressBar {
+        let bar = if !self.quiet && stderr().is_terminal() {
+            ProgressBar::new(members as u64)
+        } else {
+            ProgressBar::hidden()
+        };
+        let style = ProgressStyle::with_template(
+            "{bar:30} {human_pos} of {human_len} members, {per_sec}, {eta} left",
+        );
+        bar.set_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()).progress_chars("━╸ "));
+        bar.with_position(found as u64)
+    }
+}
+
+/// The exit code; members that are not solved are named.
+fn exit(outcomes: &[MemberOutcome], table: &Path) -> Result<Exit, Failure> {
+    let failed: Vec<&MemberOutcome> =
+        outcomes.iter().filter(|outcome| outcome.state != MemberState::Solved).collect();
+    if failed.is_empty() {
+        return Ok(Exit::Done);
+    }
+    let mut words = format!("{} of {} members are not solved:\n", failed.len(), outcomes.len());
+    for outcome in failed.iter().take(NAMED) {
+        let diagnosis = outcome.diagnosis.as_deref().unwrap_or_default();
+        // Writing to a string cannot fail.
+        let _ = writeln!(words, "  member {}: {diagnosis}", outcome.member);
+    }
+    if failed.len() > NAMED {
+        let _ = writeln!(words, "  and {} more", failed.len() - NAMED);
+    }
+    let _ = write!(words, "  all members, these with their diagnosis, are in `{}`", table.display());
+    Err(Failure::new(Exit::Failed, words))
+}
+
+fn count(outcomes: &[MemberOutcome], state: MemberState) -> usize {
+    outcomes.iter().filter(|outcome| outcome.state == state).count()
+}
+
+/// Time that all simulations of this process took together [s].
+fn simulating(outcomes: &[MemberOutcome]) -> f64 {
+    outcomes.iter().map(|outcome| outcome.seconds).sum()
+}
+
+/// The facts of `sweep.json`.
+fn summary(
+    sweep: &Sweep,
+    outcomes: &[MemberOutcome],
+    (found, workers, seconds): (usize, NonZero<usize>, f64),
+) -> Summary {
+    let mut summary = Summary::new();
+    let facts = [
+        ("model", json!(sweep.model_name())),
+        ("version", json!(lissom::VERSION)),
+        ("set", sweep.overrides().iter().map(|(path, value)| (path.clone(), json!(value))).collect()),
+        ("sweep", json!(sweep.file())),
+        ("members", json!(outcomes.len())),
+        ("solved", json!(count(outcomes, MemberState::Solved))),
+        ("failed", json!(count(outcomes, MemberState::Failed))),
+        ("wrong_model", json!(count(outcomes, MemberState::WrongModel))),
+        ("members_found", json!(found)),
+        ("workers", json!(workers)),
+        ("wall_seconds", json!(seconds)),
+        ("simulation_seconds", json!(simulating(outcomes))),
+    ];
+    for (name, fact) in facts {
+        // A JSON value can be said in JSON.
+        let _ = summary.insert(name, fact);
+    }
+    summary
+}
+
+/// A few lines for a person.
+fn told(
+    sweep: &Sweep,
+    outcomes: &[MemberOutcome],
+    (found, workers, seconds): (usize, NonZero<usize>, f64),
+    table: &Path,
+) -> String {
+    let solved = count(outcomes, MemberState::Solved);
+    let mut text = format!("{}\n", sweep.model_name());
+    let there = if found > 0 { format!(", {found} of them were there already") } else { String::new() };
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "  members     {} by {}, {solved} solved{there}",
+        outcomes.len(),
+        sweep.file().sampling
+    );
+    let computed = outcomes.len() - found;
+    if computed > 0 {
+        let per_member = |seconds: f64| 1e3 * seconds / computed as f64;
+        let (whole, simulating) = (seconds * workers.get() as f64, simulating(outcomes));
+        let _ = writeln!(
+            text,
+            "  time        {seconds:.3} s on {workers} workers; of a worker {:.3} ms per member, {:.3} ms of it simulation",
+            per_member(whole),
+            per_member(simulating)
+        );
+    }
+    let _ = writeln!(text, "  table       {}", table.display());
+    text
+}

@@ -1,0 +1,157 @@
+//! The folder of a sweep: `members.jsonl`, to which every member that ends adds a line, and once all have ended
+//! `sweep.csv` and `sweep.json`. What was computed before a crash is found there again. The only place where sweeps open
+//! files for output.
+
+use std::fs::{File, TryLockError};
+use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::path::{Path, PathBuf};
+
+use lissom_model::files::{self, Action, FileError, failure};
+use lissom_model::output::Summary;
+
+use super::table::write_table;
+use super::{MemberOutcome, Sweep};
+
+/// Name of the record of members.
+const MEMBERS: &str = "members.jsonl";
+/// Name of the table.
+const TABLE: &str = "sweep.csv";
+/// Name of the summary.
+const SUMMARY: &str = "sweep.json";
+
+/// A folder that cannot take a sweep.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SweepFolderError {
+    /// A file or folder cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// It holds members of another sweep.
+    #[error(
+        "`{0}` holds another sweep: its model, its sweep file or the version of the program is not this one; choose \
+         another folder by `--out`, or discard what is there by `--restart`"
+    )]
+    OtherSweep(String),
+    /// Another process writes to it.
+    #[error("another process is writing to `{0}`: wait for it, or choose another folder by `--out`")]
+    Busy(String),
+    /// A line of the record is none.
+    #[error("line {line} of `{path}` is no member of this sweep: discard what is there by `--restart`")]
+    Damaged {
+        /// The file.
+        path: String,
+        /// The line.
+        line: usize,
+    },
+}
+
+/// A folder open for the members of one sweep, and closed to other processes.
+pub struct SweepFolder {
+    path: PathBuf,
+    members: File,
+}
+
+impl SweepFolder {
+    /// Opens the folder, created where it is missing, and gives the outcomes that are there already, in the order of
+    /// members. With `restarts` they are discarded. Table and summary are removed: old ones beside new members would lie.
+    ///
+    /// # Errors
+    /// If it cannot be written, belongs to another sweep, or is in use.
+    pub fn open(
+        path: &Path,
+        sweep: &Sweep,
+        restarts: bool,
+    ) -> Result<(Self, Vec<MemberOutcome>), SweepFolderError> {
+        files::create_folder(path)?;
+        let file = path.join(MEMBERS);
+        let wrong = |error| failure(Action::Write, &file, error);
+        let mut members =
+            File::options().read(true).write(true).create(true).truncate(false).open(&file).map_err(wrong)?;
+        match members.try_lock() {
+            Ok(()) => {}
+            Err(TryLockError::WouldBlock) => return Err(SweepFolderError::Busy(path.display().to_string())),
+            Err(TryLockError::Error(error)) => return Err(wrong(error).into()),
+        }
+        let mut text = String::new();
+        if !restarts {
+            members.read_to_string(&mut text).map_err(|error| failure(Action::Read, &file, error))?;
+        }
+        // A line without end was being written when the process ended.
+        let whole = text.rfind('\n').map_or(0, |end| end + 1);
+        let definition = sweep.definition();
+        let outcomes = match text[..whole].split_once('\n') {
+            Some((head, _)) if head != definition => {
+                return Err(SweepFolderError::OtherSweep(path.display().to_string()));
+            }
+            Some((_, lines)) => outcomes(sweep, lines, &file)?,
+            None => Vec::new(),
+        };
+        for name in [TABLE, SUMMARY] {
+            let old = path.join(name);
+            match std::fs::remove_file(&old) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                    return Err(failure(Action::Write, &old, error).into());
+                }
+                _ => {}
+            }
+        }
+        let mut begin = || {
+            members.set_len(whole as u64)?;
+            members.seek(SeekFrom::End(0))?;
+            if whole == 0 { members.write_all(format!("{definition}\n").as_bytes()) } else { Ok(()) }
+        };
+        begin().map_err(wrong)?;
+        Ok((Self { path: path.to_owned(), members }, outcomes))
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Adds a member, as one line by one call: a process that is killed leaves it whole or cut, never mixed.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn append(&mut self, outcome: &MemberOutcome) -> Result<(), FileError> {
+        let mut line = serde_json::to_string(outcome).unwrap_or_default();
+        line.push('\n');
+        let written = self.members.write_all(line.as_bytes());
+        written.map_err(|error| failure(Action::Write, &self.path.join(MEMBERS), error))
+    }
+
+    /// Writes table and summary, once all members have ended. The table appears as a whole.
+    ///
+    /// # Errors
+    /// If they cannot be written.
+    pub fn finish(
+        &self,
+        sweep: &Sweep,
+        outcomes: &[MemberOutcome],
+        summary: &Summary,
+    ) -> Result<PathBuf, FileError> {
+        let table = self.path.join(TABLE);
+        let unfinished = self.path.join("sweep.csv.new");
+        files::write(&unfinished, write_table(sweep, outcomes).as_bytes())?;
+        std::fs::rename(&unfinished, &table).map_err(|error| failure(Action::Write, &table, error))?;
+        files::write(&self.path.join(SUMMARY), summary.to_json().as_bytes())?;
+        Ok(table)
+    }
+}
+
+/// The outcomes in the lines of a record, in the order of members, each once.
+fn outcomes(sweep: &Sweep, lines: &str, path: &Path) -> Result<Vec<MemberOutcome>, SweepFolderError> {
+    let mut all = Vec::new();
+    for (index, line) in lines.lines().enumerate() {
+        let read = serde_json::from_str::<MemberOutcome>(line).ok();
+        let fits = |outcome: &MemberOutcome| {
+            outcome.member < sweep.len()
+                && (outcome.diagnosis.is_some() || outcome.values.len() == sweep.file().collect.len())
+        };
+        let damaged = || SweepFolderError::Damaged { path: path.display().to_string(), line: index + 2 };
+        all.push(read.filter(fits).ok_or_else(damaged)?);
+    }
+    all.sort_by_key(|outcome| outcome.member);
+    all.dedup_by_key(|outcome| outcome.member);
+    Ok(all)
+}

@@ -1,0 +1,129 @@
+//! One member of a sweep: its run and its outcome.
+
+use std::ops::ControlFlow;
+
+use lissom_model::sweep::Collected;
+use lissom_model::{Document, Report, Severity};
+use serde::{Deserialize, Serialize};
+
+use super::collector::Collector;
+use crate::report::Stopped;
+use crate::session::{Progress, Session, SessionError};
+
+/// How a member ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum MemberState {
+    /// At its planned end, with all that was to be collected.
+    Solved,
+    /// Its values make no good model.
+    WrongModel,
+    /// It has no solution, or what was to be collected is not finite.
+    Failed,
+}
+
+impl MemberState {
+    /// The word in the table.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Solved => "solved",
+            Self::WrongModel => "wrong_model",
+            Self::Failed => "failed",
+        }
+    }
+}
+
+/// What a member came to. Serialises with serde.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MemberOutcome {
+    /// Number of the member.
+    pub member: usize,
+    /// How it ended.
+    pub state: MemberState,
+    /// What was collected, in the order of the sweep file; nothing of a member that is not solved.
+    pub values: Vec<f64>,
+    /// Time reached [s]; none where it could not start.
+    pub time: Option<f64>,
+    /// Steps taken.
+    pub steps: usize,
+    /// Largest violation of a constraint over all records [m, rad]; none where it could not start.
+    pub max_constraint_violation: Option<f64>,
+    /// Why it is not solved.
+    pub diagnosis: Option<String>,
+    /// Time its simulation took, from before the initial values to the last record [s]; not kept in a folder.
+    #[serde(skip)]
+    pub seconds: f64,
+}
+
+impl MemberOutcome {
+    fn not_started(member: usize, state: MemberState, diagnosis: String) -> Self {
+        Self {
+            member,
+            state,
+            values: Vec::new(),
+            time: None,
+            steps: 0,
+            max_constraint_violation: None,
+            diagnosis: Some(diagnosis),
+            seconds: 0.0,
+        }
+    }
+
+    /// Of a member whose values make no good model.
+    pub(super) fn wrong_model(member: usize, report: &Report) -> Self {
+        let errors = report.problems().filter(|problem| problem.severity == Severity::Error);
+        let words: Vec<String> = errors
+            .map(|problem| match &problem.help {
+                Some(help) => format!("{} ({help})", problem.message),
+                None => problem.message.clone(),
+            })
+            .collect();
+        Self::not_started(member, MemberState::WrongModel, words.join("; "))
+    }
+
+    /// Of a member that met a defect of the program.
+    pub(super) fn defect(member: usize, words: &str) -> Self {
+        let diagnosis = format!("a defect of the program, please report it: {words}");
+        Self::not_started(member, MemberState::Failed, diagnosis)
+    }
+}
+
+/// Runs a member to its end, unless told to stop.
+pub(super) fn run(
+    member: usize,
+    document: &Document,
+    collect: &[Collected],
+    watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+) -> Option<MemberOutcome> {
+    let mut session = match Session::new(document) {
+        Ok(session) => session,
+        Err(SessionError::Model(report)) => return Some(MemberOutcome::wrong_model(member, &report)),
+        Err(error @ SessionError::NotInTime(_)) => {
+            return Some(MemberOutcome::not_started(member, MemberState::WrongModel, error.to_string()));
+        }
+        Err(error) => {
+            return Some(MemberOutcome::not_started(member, MemberState::Failed, error.to_string()));
+        }
+    };
+    let mut collector = Collector::new(collect);
+    let report = session.run(&mut [&mut collector], watch);
+    let collected = match report.stopped {
+        Stopped::End => collector.values(),
+        Stopped::Interrupted => return None,
+        Stopped::Failed(error) => Err(error.to_string()),
+    };
+    let (state, values, diagnosis) = match collected {
+        Ok(values) => (MemberState::Solved, values, None),
+        Err(diagnosis) => (MemberState::Failed, Vec::new(), Some(diagnosis)),
+    };
+    Some(MemberOutcome {
+        member,
+        state,
+        values,
+        time: Some(report.time).filter(|time| time.is_finite()),
+        steps: report.totals.steps,
+        max_constraint_violation: Some(report.violation).filter(|violation| violation.is_finite()),
+        diagnosis,
+        seconds: report.wall.as_secs_f64(),
+    })
+}

@@ -1,0 +1,258 @@
+//! Sweeps: one model solved many times with other values, by all processors; a scalar or several of every history, in
+//! one table. Members are independent, so that results do not depend on the number of workers.
+//!
+//! ```
+//! use std::num::NonZero;
+//! use std::ops::ControlFlow;
+//! use lissom::Model;
+//! use lissom::sweep::{Sweep, SweepFile};
+//!
+//! let model = Model::from_text("stone.toml", r#"
+//!     lissom = 1
+//!     point_masses.stone = { mass = 2, velocity = [3, 0, 0] }
+//!     outputs.stone = { kind = "position", of = "stone" }
+//!     analysis = { kind = "dynamics", end = 1.0, step = 0.1 }
+//! "#);
+//! let file = SweepFile::parse(r#"
+//!     lissom_sweep = 1
+//!     vary."analysis.end" = [1, 2, 3]
+//!     collect.distance = "final(stone.x)"
+//! "#, "ends.toml")?;
+//! let sweep = Sweep::new(&model, file, &[])?;
+//! let mut outcomes = Vec::new();
+//! let all: Vec<usize> = (0..sweep.len()).collect();
+//! let mut keep = |outcome| { outcomes.push(outcome); Ok::<(), std::io::Error>(()) };
+//! sweep.run(&all, NonZero::<usize>::MIN, &mut keep, &mut |_| ControlFlow::Continue(()))?;
+//! assert!(outcomes.iter().zip([3.0, 6.0, 9.0]).all(|(outcome, x)| (outcome.values[0] - x).abs() < 1e-12));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod collector;
+mod folder;
+mod member;
+mod table;
+
+use std::any::Any;
+use std::num::NonZero;
+use std::ops::ControlFlow;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
+
+use lissom_model::document::AnalysisKind;
+use lissom_model::lower::lower;
+use lissom_model::lower::registry::registry;
+use lissom_model::registry::Registry;
+use lissom_model::{ModelText, Report};
+use serde_json::json;
+
+use crate::model::{Model, Override};
+use crate::session::{Progress, columns};
+
+pub use folder::{SweepFolder, SweepFolderError};
+pub use lissom_model::sweep::{Collected, STATISTICS, SweepFile, SweepValue, Varied, sampling};
+pub use member::{MemberOutcome, MemberState};
+pub use table::{headings, rows, write_table};
+
+/// How often the watch is asked while no member ends.
+const PATIENCE: Duration = Duration::from_millis(50);
+
+/// A sweep that cannot start.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SweepError {
+    /// The model is wrong, or wrong with what the sweep puts into it.
+    #[error(transparent)]
+    Model(#[from] Report),
+    /// What is computed has no course in time.
+    #[error(
+        "an analysis of kind `{0}` has no history to collect from: a sweep needs `dynamics` or `statics`"
+    )]
+    NotInTime(&'static str),
+    /// The model has no such column.
+    #[error("`{name}` collects `{column}`, which the model does not record; {known}")]
+    Column {
+        /// Name of what is collected.
+        name: String,
+        /// The column asked for.
+        column: String,
+        /// The columns there are, in words.
+        known: String,
+    },
+}
+
+/// A model and what is varied in it, ready to be solved member by member, in any order and from any thread.
+pub struct Sweep {
+    name: String,
+    text: ModelText,
+    registry: Registry,
+    file: SweepFile,
+    overrides: Vec<Override>,
+    warnings: Report,
+}
+
+impl Sweep {
+    /// A sweep over `model` as `file` says, with `overrides` in every member. The model's text is read once.
+    ///
+    /// # Errors
+    /// If no member has a good model (the complaint is about the first one), or if the model does not record what is
+    /// to be collected. Single members that are wrong are told in their outcomes.
+    pub fn new(model: &Model, file: SweepFile, overrides: &[Override]) -> Result<Self, SweepError> {
+        let mut all = file.set.clone();
+        all.extend_from_slice(overrides);
+        let text = ModelText::read(model.text(), model.name(), &all)?;
+        let registry = registry();
+        let mut first = None;
+        for member in 0..file.len() {
+            let document = text.document(&registry, &file.overrides(member));
+            let lowered = document.and_then(|document| Ok((lower(&document)?, document)));
+            let (lowered, document) = match lowered {
+                Ok(found) => found,
+                Err(report) => {
+                    first.get_or_insert(report);
+                    continue;
+                }
+            };
+            if !matches!(document.analysis.kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. })
+            {
+                return Err(SweepError::NotInTime(document.analysis.kind.name()));
+            }
+            let columns = columns(&lowered.channels);
+            collector::check(&file.collect, &columns)?;
+            let (name, overrides) = (model.name().to_owned(), overrides.to_vec());
+            return Ok(Self { name, text, registry, file, overrides, warnings: document.warnings });
+        }
+        let nothing = || Report::new(Vec::new(), &lissom_model::Sources::default());
+        Err(first.unwrap_or_else(nothing).into())
+    }
+
+    /// Number of members.
+    pub fn len(&self) -> usize {
+        self.file.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.file.is_empty()
+    }
+
+    /// What is varied and collected.
+    pub fn file(&self) -> &SweepFile {
+        &self.file
+    }
+
+    /// Path or name of the model.
+    pub fn model_name(&self) -> &str {
+        &self.name
+    }
+
+    /// What was changed in every member besides what the sweep file sets.
+    pub fn overrides(&self) -> &[Override] {
+        &self.overrides
+    }
+
+    /// What may not be meant as it is written, in the first member with a good model.
+    pub fn warnings(&self) -> &Report {
+        &self.warnings
+    }
+
+    /// All that results depend on, as one line of JSON: version of the program, model, what is varied and collected.
+    /// Sweeps with the same line have the same members and the same table.
+    pub fn definition(&self) -> String {
+        let definition = json!({
+            "lissom_sweep": lissom_model::sweep::VERSION,
+            "version": crate::VERSION,
+            "model": self.text.to_toml(),
+            "sweep": self.file,
+            "members": self.len(),
+        });
+        definition.to_string()
+    }
+
+    /// Solves one member. `watch` is asked after every step whether to go on; nothing comes of a member that is told to
+    /// stop.
+    ///
+    /// # Panics
+    /// If there is no such member.
+    pub fn run_member(
+        &self,
+        member: usize,
+        watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
+    ) -> Option<MemberOutcome> {
+        let overrides = self.file.overrides(member);
+        match self.text.document(&self.registry, &overrides) {
+            Ok(document) => member::run(member, &document, &self.file.collect, watch),
+            Err(report) => Some(MemberOutcome::wrong_model(member, &report)),
+        }
+    }
+
+    /// Solves `members` on `workers` threads. `keep` receives each outcome on the calling thread, in the order in which
+    /// members end; `watch` is told there how many have ended, after each and every 50 ms, and says whether to go on.
+    ///
+    /// # Errors
+    /// The first error of `keep`: then no further member is started.
+    pub fn run<E>(
+        &self,
+        members: &[usize],
+        workers: NonZero<usize>,
+        keep: &mut dyn FnMut(MemberOutcome) -> Result<(), E>,
+        watch: &mut dyn FnMut(usize) -> ControlFlow<()>,
+    ) -> Result<ControlFlow<()>, E> {
+        let next = AtomicUsize::new(0);
+        let stopped = AtomicBool::new(false);
+        let (sender, receiver) = mpsc::channel();
+        let work = |sender: mpsc::Sender<MemberOutcome>| {
+            let mut go_on = |_: &Progress| {
+                let is_stopped = stopped.load(Ordering::Relaxed);
+                if is_stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+            };
+            while !stopped.load(Ordering::Relaxed) {
+                let Some(&member) = members.get(next.fetch_add(1, Ordering::Relaxed)) else { return };
+                // A defect of the program in one member must not lose the others.
+                let caught = catch_unwind(AssertUnwindSafe(|| self.run_member(member, &mut go_on)));
+                let outcome = caught
+                    .unwrap_or_else(|panic| Some(MemberOutcome::defect(member, &words_of(panic.as_ref()))));
+                if outcome.is_none_or(|outcome| sender.send(outcome).is_err()) {
+                    return;
+                }
+            }
+        };
+        thread::scope(|scope| {
+            for _ in 0..workers.get().min(members.len()) {
+                let sender = sender.clone();
+                scope.spawn(|| work(sender));
+            }
+            drop(sender);
+            let (mut done, mut outcome) = (0, Ok(ControlFlow::Continue(())));
+            loop {
+                let told = match receiver.recv_timeout(PATIENCE) {
+                    Ok(member) => {
+                        done += 1;
+                        if outcome.is_ok() {
+                            outcome = keep(member).map(|()| ControlFlow::Continue(()));
+                        }
+                        watch(done)
+                    }
+                    Err(RecvTimeoutError::Timeout) => watch(done),
+                    Err(RecvTimeoutError::Disconnected) => {
+                        return match outcome {
+                            Ok(_) if done < members.len() => Ok(ControlFlow::Break(())),
+                            outcome => outcome,
+                        };
+                    }
+                };
+                if told.is_break() || outcome.is_err() {
+                    stopped.store(true, Ordering::Relaxed);
+                }
+            }
+        })
+    }
+}
+
+/// What a panic said.
+fn words_of(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|text| (*text).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned()).unwrap_or_else(|| "no message".to_owned())
+}
