@@ -14,6 +14,7 @@ mod node_motion;
 pub mod registry;
 pub mod scaling;
 pub mod schemes;
+pub mod signals;
 pub mod stepping;
 pub mod system;
 

@@ -54,6 +54,10 @@ pub enum ParameterType {
     Flag,
     /// A number or an expression in the time `t`.
     Function,
+    /// The size of a load, a factor of all its forces: a number or an expression in the time `t`, inputs, signals,
+    /// states and outputs. A load is told functions of time only: where there is more in the expression, the load of
+    /// size one is multiplied.
+    Size,
     /// One of the listed words.
     Choice(&'static [&'static str]),
 }

@@ -111,12 +111,16 @@ impl Representative {
         let count = system.layout().coordinate_count();
         let length = spread(at);
         let quantities = system.layout().quantities();
+        // States are of other units than places.
+        let is_place = |row: &usize| quantities[*row] != Quantity::State;
+        let places = (0..count).filter(is_place).count().max(1);
         let average = |values: &[f64]| {
             let sum: f64 = (0..count)
+                .filter(is_place)
                 .filter_map(|row| Some((row, pattern.position(row, row)?)))
                 .map(|(row, position)| values[position].abs() / unit(quantities[row], length).powi(2))
                 .sum();
-            sum / count as f64
+            sum / places as f64
         };
         Self {
             mass: average(&linearization.mass),
@@ -130,7 +134,7 @@ impl Representative {
 /// Length that stands for a unit of `quantity` where a radian is worth `radian` [m].
 fn unit(quantity: Quantity, radian: f64) -> f64 {
     match quantity {
-        Quantity::Length => 1.0,
+        Quantity::Length | Quantity::State => 1.0,
         Quantity::Angle => radian,
     }
 }
@@ -330,6 +334,7 @@ impl Scaled {
         let square = self.h * self.h;
         let StageMotion { at: out, changes, coordinate_changes } = reached;
         (out.time, out.elapsed) = self.instant(start.kinematics.time, stage);
+        out.held.copy_from_slice(&start.kinematics.held);
         let own = &increments.all[increments.stage];
         let table = self.stage_table(scheme, stage);
         unit.nodes.reach(increments.stage, &table, &start.kinematics, increments.all, (out, changes));
@@ -367,6 +372,7 @@ impl Scaled {
         let (w, end) = (&tableau.inverse, &tableau.reached);
         reached.at.elapsed = self.h;
         reached.at.time = start.kinematics.time + self.h;
+        reached.at.held.copy_from_slice(&start.kinematics.held);
         for (node, rows) in layout.node_rows.iter().enumerate() {
             let from = &start.kinematics.nodes[node];
             let (a, b) = (&mut first.at.nodes[node], &mut second.at.nodes[node]);

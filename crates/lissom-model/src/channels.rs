@@ -7,6 +7,7 @@ use lissom_core::elements::beam::line::{BeamLine, BeamProbe};
 use lissom_core::elements::quadrature::gauss_lobatto;
 use lissom_core::elements::shape::lagrange;
 use lissom_core::joints::{Equations, Quantity};
+use lissom_core::signals::Argument;
 use lissom_core::system::{CoordinateId, Kinematics, NodeId, State, System};
 use lissom_motion::{Motion, Vector3, rotation_part, translation_part};
 
@@ -31,6 +32,17 @@ pub(crate) struct Resolver<'a> {
     pub(crate) nodes: &'a BTreeMap<String, NodeId>,
     pub(crate) lines: &'a BTreeMap<String, BeamLine>,
     pub(crate) coordinates: &'a BTreeMap<String, Vec<CoordinateId>>,
+    /// Signals, inputs and states.
+    pub(crate) signals: &'a BTreeMap<String, Argument>,
+}
+
+/// Value of a signal, an input or a state.
+pub fn signal_value(system: &System, at: &Kinematics, argument: Argument) -> f64 {
+    match argument {
+        Argument::Held(held) => at.held[held],
+        Argument::Signal(signal) => system.signals().value(signal, at),
+        Argument::Measured(measurement) => system.signals().measured(measurement, at),
+    }
 }
 
 /// A point that moves: carried by a node, or at a place in a beam element.
@@ -46,6 +58,7 @@ enum Source {
     Coordinates(Vec<CoordinateId>),
     Energy,
     Momentum,
+    Signal(Argument),
 }
 
 impl Place {
@@ -114,6 +127,7 @@ impl Channel {
                     out.extend([motion.value, motion.rate]);
                 }
             }
+            Source::Signal(argument) => out.push(signal_value(system, at, *argument)),
             Source::Momentum => {
                 let (linear, angular) = system.momentum(at);
                 out.extend(linear.iter().chain(angular.iter()));
@@ -179,6 +193,11 @@ fn channel(
     let source = match &output.source {
         OutputSource::Model if output.kind == OutputKind::Momentum => Source::Momentum,
         OutputSource::Model => Source::Energy,
+        OutputSource::Signal(name) => {
+            names.signals.get(&name.value).map(|&of| Source::Signal(of)).ok_or_else(|| {
+                Problem::error(name.span, format!("there is no signal called `{}`", name.value))
+            })?
+        }
         OutputSource::Joint(name) => joint_source(output, name, system, names)?,
         OutputSource::Node { node, point } => {
             let place = place(output, node, point.as_ref(), state, names)?;
@@ -280,7 +299,7 @@ fn components(kind: OutputKind, source: &Source, system: &System) -> (Vec<String
         (OutputKind::Reaction, Source::Drive(index)) => {
             match system.layout().coordinate_quantity(system.drives()[*index].prescribed.coordinate) {
                 Quantity::Angle => words(&["moment"], &["N m"]),
-                Quantity::Length => words(&["force"], &["N"]),
+                Quantity::Length | Quantity::State => words(&["force"], &["N"]),
             }
         }
         (OutputKind::Reaction, _) => {
@@ -291,6 +310,7 @@ fn components(kind: OutputKind, source: &Source, system: &System) -> (Vec<String
         (OutputKind::Momentum, _) => {
             words(&["p1", "p2", "p3", "l1", "l2", "l3"], &["N s", "N s", "N s", "N m s", "N m s", "N m s"])
         }
+        (OutputKind::Signal, _) => words(&["value"], &[""]),
         (OutputKind::Energy, _) => words(&["kinetic", "strain", "potential", "total"], &["J"; 4]),
     }
 }
@@ -308,6 +328,7 @@ fn relative(coordinates: &[CoordinateId], system: &System) -> (Vec<String>, Vec<
         let (words, of_words) = match kind(coordinate) {
             Quantity::Angle => (["angle", "rate"], ["rad", "rad/s"]),
             Quantity::Length => (["displacement", "velocity"], ["m", "m/s"]),
+            Quantity::State => (["value", "rate"], ["", "1/s"]),
         };
         components.extend(words.map(|word| format!("{word}{number}")));
         units.extend(of_words);

@@ -123,6 +123,9 @@ pub(crate) fn singular(table: &str) -> &'static str {
         "springs" => "spring",
         "loads" => "load",
         "outputs" => "output",
+        "inputs" => "input",
+        "signals" => "signal",
+        "states" => "state",
         "parameters" => "parameter",
         _ => "entry",
     }

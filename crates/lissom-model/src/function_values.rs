@@ -5,6 +5,7 @@ use std::sync::Arc;
 use lissom_core::registry::Function;
 
 use crate::context::Context;
+use crate::expression::Formula;
 use crate::functions::{Interpolation, Table, TableError, of_expression};
 use crate::keys::{Key, Shape, choice, optional, required};
 use crate::reader::Reader;
@@ -18,7 +19,33 @@ pub(crate) fn table_keys() -> Vec<Key> {
     ]
 }
 
+/// The size of a load.
+pub(crate) enum Size {
+    /// A function of time.
+    OfTime(Function),
+    /// An expression that names more than the time.
+    Signal(Formula),
+}
+
 impl Context<'_> {
+    /// A number, an expression of time, inputs, signals, states and outputs, or a table of rows.
+    pub(crate) fn size(&self, node: &Node, what: &str) -> Option<Size> {
+        if let Value::Text(_) = node.value {
+            let formula = self.formula(node, what)?;
+            if !formula.arguments().is_empty() {
+                return Some(Size::Signal(formula));
+            }
+        }
+        self.function(node, what).map(Size::OfTime)
+    }
+
+    /// The same of a text alone, where mistakes were told before.
+    pub(crate) fn size_untold(&self, node: &Node) -> Option<Size> {
+        let Value::Text(text) = &node.value else { return None };
+        let formula = Formula::parse(text, &self.parameters.borrow()).ok()?;
+        (!formula.arguments().is_empty()).then_some(Size::Signal(formula))
+    }
+
     /// A number, an expression of `t`, or a table of rows.
     pub(crate) fn function(&self, node: &Node, what: &str) -> Option<Function> {
         let function = match node.value {

@@ -40,6 +40,12 @@ pub(crate) enum Shape {
     Node,
     /// A number, an expression of the time `t`, or a table.
     Function,
+    /// A number, an expression of time, inputs, signals, states and outputs, or a table.
+    Size,
+    /// The same without tables.
+    Formula,
+    /// A formula, or a table of a formula, its sample period and its start.
+    Signal,
     /// A number, or an expression of `s`.
     Profile,
     /// Three numbers or expressions of `s`.
@@ -71,6 +77,20 @@ impl Shape {
             required("per_length", Self::Positive, "kg/m", "mass per length"),
             required("inertia", Self::Vector, "kg m", "[J11, J22, J33] per length about the centre of mass"),
             optional("center", Self::Pair, "m", "[c2, c3]: centre of mass across the beam"),
+        ]
+    }
+
+    /// Keys of a signal that is given by a table.
+    pub(crate) fn signal_keys() -> Vec<Key> {
+        vec![
+            required("value", Self::Formula, "", "its expression"),
+            required(
+                "sample",
+                Self::Positive,
+                "s",
+                "time from sample to sample; the value is held in between",
+            ),
+            optional("start", Self::Number, "", "value before the first sample, default 0"),
         ]
     }
 
@@ -133,6 +153,7 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
         ParameterType::Direction => Shape::Direction,
         ParameterType::Flag => Shape::Flag,
         ParameterType::Function => Shape::Function,
+        ParameterType::Size => Shape::Size,
         ParameterType::Choice(words) => choice(words),
     };
     let Parameter { name, required, unit, summary, .. } = *parameter;

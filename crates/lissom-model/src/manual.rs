@@ -18,6 +18,8 @@ A model is a TOML file. Units are SI, angles radians, axes right-handed.
 - **Functions of time** are a number, an expression of `t`, or
   `{ table = [[t, value], …], interpolation = \"linear\" }` (or `\"spline\"`); before and after the table the end
   values hold.
+- **Sizes** of loads are functions of time, or expressions that name inputs, signals, states, coordinates of joints as
+  `arm.rotation`, and components of outputs as `tip.u1`.
 - **Places** are three numbers or the name of an entry of `[points]`.
 - **Nodes** are `\"ground\"`, the name of a body or point mass, `\"beam.start\"`, `\"beam.end\"` or `\"beam@0.5\"`.
   Beams, bodies and point masses share one set of names.
@@ -140,6 +142,9 @@ fn words(shape: &Shape) -> String {
         Shape::PlaceOrNode => "a place or a node",
         Shape::Node => "a node",
         Shape::Function => "a function of time",
+        Shape::Size => "a size",
+        Shape::Formula => "an expression of signals",
+        Shape::Signal => "an expression of signals, or `{ value, sample, start }`",
         Shape::Profile => "a number or an expression of `s`",
         Shape::Curve => "three expressions of `s`",
         Shape::Axes => "two vectors",

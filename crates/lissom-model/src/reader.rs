@@ -5,6 +5,8 @@ use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Valu
 use lissom_motion::{Matrix3, Vector3};
 
 use crate::context::Context;
+use crate::expression::Formula;
+use crate::function_values::Size;
 use crate::keys::{Key, Shape};
 use crate::report::{Located, Problem, Span};
 use crate::suggest;
@@ -200,6 +202,28 @@ impl<'c, 'a> Reader<'c, 'a> {
         Some(Located::new(self.context.function(node, &self.words(key))?, node.span))
     }
 
+    /// An expression of time and of named quantities.
+    pub(crate) fn formula(&self, key: &str) -> Option<Located<Formula>> {
+        let node = self.node(key)?;
+        Some(Located::new(self.context.formula(node, &self.words(key))?, node.span))
+    }
+
+    /// The size of a load.
+    fn size(&self, key: &str) -> Option<Size> {
+        let node = self.node(key)?;
+        self.context.size(node, &self.words(key))
+    }
+
+    /// The size of a load that is more than a function of time, and its key.
+    pub(crate) fn signal(&self, table: &[Parameter]) -> Option<(&'static str, Located<Formula>)> {
+        let parameter = table.iter().find(|parameter| parameter.holds == ParameterType::Size)?;
+        let node = self.node(parameter.name)?;
+        match self.context.size_untold(node)? {
+            Size::Signal(formula) => Some((parameter.name, Located::new(formula, node.span))),
+            Size::OfTime(_) => None,
+        }
+    }
+
     /// The registered parameters that are given.
     pub(crate) fn parameters(&self, table: &[Parameter]) -> (Parameters, Vec<(String, Span)>) {
         let mut parameters = Parameters::new();
@@ -214,6 +238,11 @@ impl<'c, 'a> Reader<'c, 'a> {
                 }
                 ParameterType::Flag => self.flag(name).map(|flag| Held::Flag(flag.value)),
                 ParameterType::Function => self.function(name).map(|function| Held::Function(function.value)),
+                ParameterType::Size => self.size(name).map(|size| match size {
+                    Size::OfTime(function) => Held::Function(function),
+                    // The load of size one is multiplied.
+                    Size::Signal(_) => Held::Number(1.0),
+                }),
                 ParameterType::Choice(_) => self.choice(name).map(|word| Held::Text(word.value.to_owned())),
             };
             if let (Some(value), Some(node)) = (value, self.node(name)) {

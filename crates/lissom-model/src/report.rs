@@ -148,6 +148,16 @@ impl Sources {
         piece.source.inner().get(local).unwrap_or("")
     }
 
+    /// Where a part of an expression stands, whose `text` is within `whole`; all of it where it is written otherwise.
+    pub(crate) fn within(&self, whole: Span, text: &str, range: &Range<usize>) -> Span {
+        let found = self.text(whole).find(text).filter(|_| !text.is_empty());
+        found.map_or(whole, |offset| {
+            let start = whole.start + offset + range.start;
+            // The end of the expression is shown at the closing quote.
+            Span { start, end: start + range.len().max(1) }
+        })
+    }
+
     fn piece(&self, span: Span) -> Option<&Piece> {
         let found = self.pieces.iter().find(|piece| span.start >= piece.start && span.start <= piece.end);
         found.or(self.pieces.first())

@@ -104,7 +104,7 @@ fn of_shape(shape: &Shape) -> Value {
     match shape {
         Shape::Text => json!({ "type": "string" }),
         Shape::Version => json!({ "const": VERSION }),
-        Shape::Number | Shape::Profile => plain(),
+        Shape::Number | Shape::Profile | Shape::Formula => plain(),
         Shape::Positive => number(&json!({ "exclusiveMinimum": 0 })),
         Shape::NotNegative => number(&json!({ "minimum": 0 })),
         Shape::Between(least, most) => number(&json!({ "minimum": least, "maximum": most })),
@@ -114,7 +114,8 @@ fn of_shape(shape: &Shape) -> Value {
         Shape::Choice(words) => json!({ "enum": words }),
         Shape::Name(_) | Shape::Node => text(),
         Shape::Place | Shape::PlaceOrNode => any_of(&[text(), vector()]),
-        Shape::Function => any_of(&[plain(), of_keys(&table_keys())]),
+        Shape::Function | Shape::Size => any_of(&[plain(), of_keys(&table_keys())]),
+        Shape::Signal => any_of(&[plain(), of_keys(&Shape::signal_keys())]),
         Shape::Axes => list(&vector(), 2),
         Shape::Inertia => any_of(&[vector(), matrix(3)]),
         Shape::Stiffness => any_of(&[list(&plain(), 6), matrix(6)]),

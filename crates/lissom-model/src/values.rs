@@ -4,8 +4,8 @@
 use lissom_motion::{Matrix3, Matrix6, Vector3, Vector6};
 
 use crate::context::Context;
-use crate::expression::{Expression, ExpressionError};
-use crate::report::{Problem, Span};
+use crate::expression::{Expression, ExpressionError, Formula};
+use crate::report::Problem;
 use crate::text::{Node, Value};
 
 /// A value's type, in words.
@@ -58,16 +58,24 @@ impl Context<'_> {
         }
     }
 
+    /// An expression of time and of named quantities.
+    pub(crate) fn formula(&self, node: &Node, what: &str) -> Option<Formula> {
+        let Value::Text(text) = &node.value else {
+            return self.number(node, what).map(Formula::of_constant);
+        };
+        match Formula::parse(text, &self.parameters.borrow()) {
+            Ok(formula) => Some(formula),
+            Err(error) => {
+                self.tell(self.expression_problem(node, text, &error, what));
+                None
+            }
+        }
+    }
+
     /// Underlines the offending bytes, where the text stands in the file as it is read.
     fn expression_problem(&self, node: &Node, text: &str, error: &ExpressionError, what: &str) -> Problem {
-        let whole = node.span;
-        let written = self.sources.text(whole);
-        let place = written.find(text).filter(|_| !text.is_empty()).map(|offset| {
-            let start = whole.start + offset + error.range.start;
-            // The end of the expression is shown at the closing quote.
-            Span { start, end: start + error.range.len().max(1) }
-        });
-        Problem::error(place.unwrap_or(whole), format!("{what} cannot be read: {error}"))
+        let place = self.sources.within(node.span, text, &error.range);
+        Problem::error(place, format!("{what} cannot be read: {error}"))
             .label("here")
             .help("expressions know + - * / ^ ( ), pi, [parameters] and functions such as sin(x)")
             .maybe_help(error.help.clone())

@@ -1,13 +1,15 @@
 //! One model on its way from start to end: steps, and what is recorded on the way. The only loop over steps
 //! there is. Knows no files and no terminal.
 
+use std::collections::BTreeMap;
 use std::io;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use lissom_core::analysis::{InitialError, Simulation, StepError, StepReport};
+use lissom_core::analysis::{InitialError, InputError, Simulation, StepError, StepReport};
+use lissom_core::signals::Argument;
 use lissom_core::stepping::{Snapshot, SnapshotError};
-use lissom_model::channels::Channel;
+use lissom_model::channels::{Channel, signal_value};
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, Plan, lower};
 use lissom_model::output::{Column, Record, Writer};
@@ -87,6 +89,7 @@ pub struct Session {
     simulation: Simulation,
     channels: Vec<Channel>,
     columns: Vec<Column>,
+    signals: BTreeMap<String, Argument>,
     schedule: Schedule,
     tally: Tally,
     spent: Spent,
@@ -166,7 +169,7 @@ impl Session {
     /// If there are no consistent initial values.
     pub fn start(lowered: Lowered) -> Result<Self, InitialError> {
         let began = Instant::now();
-        let Lowered { system, state, settings, plan, channels, .. } = lowered;
+        let Lowered { system, state, settings, plan, channels, names } = lowered;
         let schedule = Schedule::new(plan, settings.step_size);
         let simulation = Simulation::new(system, state, settings)?;
         let violations = vec![0.0; simulation.system().layout().multiplier_rows().len()];
@@ -181,6 +184,7 @@ impl Session {
             state_writers: Vec::new(),
             simulation,
             channels,
+            signals: names.signals,
             schedule,
             began,
         })
@@ -232,6 +236,28 @@ impl Session {
         for channel in &self.channels {
             channel.evaluate(self.simulation.system(), self.simulation.state(), out);
         }
+    }
+
+    /// The value of a signal, an input or a state, or of a column, as `tip.u1`, now; none where nothing is called so.
+    pub fn value(&self, name: &str) -> Option<f64> {
+        let (system, state) = (self.simulation.system(), self.simulation.state());
+        if let Some(&argument) = self.signals.get(name) {
+            return Some(signal_value(system, &state.kinematics, argument));
+        }
+        let (owner, component) = name.rsplit_once('.')?;
+        let channel = self.channels.iter().find(|channel| channel.name == owner)?;
+        let index = channel.components.iter().position(|known| known == component)?;
+        let mut values = Vec::new();
+        channel.evaluate(system, state, &mut values);
+        values.get(index).copied()
+    }
+
+    /// Sets an input from now on, until it is set again.
+    ///
+    /// # Errors
+    /// If the model has no such input, or the value is not finite.
+    pub fn set_input(&mut self, name: &str, value: f64) -> Result<(), InputError> {
+        self.simulation.set_input(name, value)
     }
 
     /// Takes one step: the next planned one, or one that is as long as its error allows. On failure the state stays

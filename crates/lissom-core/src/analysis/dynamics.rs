@@ -8,10 +8,12 @@ use serde::{Deserialize, Serialize};
 use super::conditioning::TangentValues;
 use super::equations::StepEquations;
 use super::equilibrium;
+use super::held_values::settle;
 use super::initial::{Initial, InitialError};
 use super::phase::{Stopwatch, Unwatched};
 use super::step_error::{StepError, pivot_hint};
 use super::workspace::Workspace;
+use crate::joints::Quantity;
 use crate::newton::{self, Equations, Failure, Limits, Memory, Outcome};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Coupling, Scheme, Tableau};
@@ -101,6 +103,8 @@ pub struct Simulation {
     pub(crate) work: Box<Workspace>,
     /// For schemes whose velocities leave the constraints a little.
     projection: Option<Projection>,
+    /// For held values that change between steps.
+    pub(super) held_values: Option<Initial>,
     pub(crate) memory: Memory,
     /// For schemes that remember what belongs to the step size.
     pub(crate) method_memory: Option<MethodMemory>,
@@ -135,12 +139,12 @@ impl Simulation {
         let at_start = Linearization::of_state(&system, &state.kinematics);
         let representative = Representative::of(&system, &state.kinematics, &at_start);
         let mut velocity_correction = 0.0;
+        let mut held_values = None;
         if settings.scheme.dynamic {
             let mut initial = Initial::new(&system, &state, &representative, pivoting_unless(&settings));
             velocity_correction = initial.velocities(&system, &mut state)?;
-            initial.accelerations(&system, &mut state)?;
-            let delay = settings.scheme.memory_delay * settings.step_size;
-            state.algorithmic = initial.delayed_accelerations(&system, &state, delay)?;
+            settle(&system, &mut state, &mut initial, &settings)?;
+            held_values = (!state.kinematics.held.is_empty()).then_some(initial);
         }
         let mut violations = vec![0.0; system.layout().multiplier_count];
         system.violations(&state.kinematics, &mut violations);
@@ -180,6 +184,7 @@ impl Simulation {
             scaled,
             work: Box::new(work),
             projection,
+            held_values,
             memory: Memory::default(),
             method_memory,
             parts: Parts::whole(),
@@ -298,6 +303,11 @@ impl Simulation {
         self.scaled = equations.scaled;
         let outcome = result.map_err(|failure| {
             self.memory = Memory::default();
+            if matches!(failure, Failure::NotFinite { .. } | Failure::Factor(FactorError::NotFinite { .. }))
+                && let Some(error) = equations.signal_error()
+            {
+                return StepError::Signal(error);
+            }
             let failure = equations.unforgiven(failure);
             let time = self.state.kinematics.time + self.scaled.step_size();
             describe(&failure, self.system.layout(), time, &self.settings, &equations.worst_unknown())
@@ -316,6 +326,7 @@ impl Simulation {
                 .apply(&self.system, &mut self.next)
                 .map_err(|error| StepError::Velocities { time: self.next.kinematics.time, error })?;
         }
+        self.system.signals().check(&self.next.kinematics).map_err(StepError::Signal)?;
         Ok(outcome)
     }
 
@@ -366,6 +377,7 @@ fn copy_motion(from: &Kinematics, to: &mut Kinematics) {
     to.elapsed = from.elapsed;
     to.nodes.copy_from_slice(&from.nodes);
     to.coordinates.copy_from_slice(&from.coordinates);
+    to.held.copy_from_slice(&from.held);
 }
 
 /// Adds each node's displacement to its position, and the step to the time, with the remainders of earlier
@@ -419,8 +431,10 @@ impl Projection {
             for node in &mut state.kinematics.nodes {
                 node.twist *= factor;
             }
-            for coordinate in &mut state.kinematics.coordinates {
-                coordinate.rate *= factor;
+            for (index, coordinate) in state.kinematics.coordinates.iter_mut().enumerate() {
+                if system.layout().coordinate_quantity(index) != Quantity::State {
+                    coordinate.rate *= factor;
+                }
             }
         }
         Ok(())

@@ -21,6 +21,10 @@ const LARGEST_ROTATION: f64 = 1.0;
 /// Iterates whose last correction is larger than this are far from equilibrium [-].
 pub(crate) const FAR: f64 = 1e-3;
 
+/// Departures from going straight on below this are not resolved for their own sake where states are measured beside
+/// places [-].
+const LEAST_DEPARTURE: f64 = 1e-5;
+
 /// Roundings that add up in a force.
 const ROUNDINGS: f64 = 16.0;
 
@@ -222,7 +226,27 @@ impl StepEquations<'_> {
         // Where nothing bears a load yet, as before the first wave arrives, multipliers are nothing but round-off.
         let is_known = largest > 0.0 && change > work.force_round_off;
         let multipliers = if is_known { change / largest * reference } else { 0.0 };
-        Correction { size: size.max(multipliers), reference }
+        self.with_states(Correction { size: size.max(multipliers), reference })
+    }
+
+    /// The same with first-order states: corrections of each relative to what the step has to find out about it, as if
+    /// they were corrections of places.
+    fn with_states(&self, places: Correction) -> Correction {
+        let layout = self.system.layout();
+        if layout.state_count() == 0 {
+            return places;
+        }
+        let reference = places.reference.max(LEAST_DEPARTURE);
+        let mut size = places.size;
+        for (row, coordinate, magnitude) in layout.states() {
+            let magnitude = magnitude.max(self.start.kinematics.coordinates[coordinate].value.abs());
+            let of = |stages: &[Vec<f64>]| {
+                stages.iter().fold(0.0_f64, |most, values| most.max(values[row].abs())) / magnitude
+            };
+            let departure = of(&self.work.increments).max(LEAST_DEPARTURE);
+            size = size.max(of(&self.work.residuals) / departure * reference);
+        }
+        Correction { size, reference }
     }
 
     /// Adds corrections of all stages, times `share`.
@@ -274,6 +298,11 @@ impl StepEquations<'_> {
             }
             None => failure,
         }
+    }
+
+    /// The first signal that is not finite at the last iterate, if there is one.
+    pub(crate) fn signal_error(&self) -> Option<crate::signals::SignalError> {
+        self.work.motions.iter().find_map(|motion| self.system.signals().check(&motion.at).err())
     }
 
     /// Name of the unknown with the largest entry in the last corrections, or the first that is not

@@ -32,6 +32,9 @@ pub enum InitialError {
         /// What to try.
         hint: &'static str,
     },
+    /// A signal is not finite.
+    #[error("at the start: {0}")]
+    Signal(crate::signals::SignalError),
     /// The places of rest were not found.
     #[error("initial equilibrium: {0}")]
     NoEquilibrium(Box<super::StepError>),
@@ -76,6 +79,12 @@ impl Initial {
         let zero = vec![0.0; system.layout().multiplier_count];
         let mut linearization = std::mem::take(&mut self.linearization);
         system.linearize(&self.point(&state.kinematics, &zero), Chart::Body, &mut linearization);
+        // States have no inertia: a unit in its place keeps them apart from the rest.
+        for (row, ..) in system.layout().states() {
+            if let Some(diagonal) = system.structure().pattern.position(row, row) {
+                linearization.mass[diagonal] += 1.0;
+            }
+        }
         self.linearization = linearization;
         let layout = system.layout();
         let mut result = self.factor_values(system);
@@ -230,6 +239,40 @@ impl Initial {
         Ok(())
     }
 
+    /// Second derivatives of first-order states by a central difference of their derivatives over `delay` [s] before
+    /// and after the state, along the motion.
+    pub(super) fn accelerate_states(system: &System, state: &mut State, delay: f64) {
+        let states: Vec<_> = system.layout().states().map(|(_, coordinate, _)| coordinate).collect();
+        if states.is_empty() {
+            return;
+        }
+        for &coordinate in &states {
+            state.kinematics.coordinates[coordinate].acceleration = 0.0;
+        }
+        let [after, before] = [delay, -delay].map(|delay| {
+            let mut moved = moved(state, delay).kinematics;
+            system.feedback.set_rates(&mut moved);
+            moved.coordinates
+        });
+        for coordinate in states {
+            let difference = after[coordinate].rate - before[coordinate].rate;
+            let acceleration = difference / (2.0 * delay);
+            // Outside of where its expression is defined a state starts without.
+            let own = &mut state.kinematics.coordinates[coordinate];
+            own.acceleration = if acceleration.is_finite() { acceleration } else { 0.0 };
+        }
+    }
+
+    /// Accelerations and multipliers by row; in the rows of states, what their rates lack.
+    pub(super) fn acceleration_at(
+        &mut self,
+        system: &System,
+        state: &State,
+    ) -> Result<Vec<f64>, InitialError> {
+        self.factor(system, state)?;
+        Ok(self.acceleration_vector(system, state))
+    }
+
     fn acceleration_vector(&mut self, system: &System, state: &State) -> Vec<f64> {
         let layout = system.layout();
         let count = layout.coordinate_count();
@@ -273,10 +316,15 @@ impl Initial {
                 *value += 0.5 * sign * acceleration;
             }
         }
+        // States follow their rates, which are in equilibrium already.
+        let mut compared = now.clone();
+        for (row, ..) in layout.states() {
+            (compared[row], difference[row]) = (0.0, 0.0);
+        }
         let size = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         // Where accelerations change more than they are, the step does not resolve them, and starting
         // ahead of them would only feed the oscillation.
-        if size(&difference) <= size(&now) {
+        if size(&difference) <= size(&compared) {
             for (value, change) in now.iter_mut().zip(&difference) {
                 *value += change;
             }

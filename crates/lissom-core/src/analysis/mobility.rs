@@ -51,14 +51,14 @@ struct Reduced {
 pub fn mobility(system: &System, state: &State) -> Mobility {
     let layout = system.layout();
     let mut result = Mobility {
-        coordinates: layout.coordinate_count(),
+        coordinates: layout.coordinate_count() - layout.state_count(),
         constraints: layout.multiplier_rows().len(),
         ..Mobility::default()
     };
     let mut reduced: Vec<Reduced> = Vec::new();
     let mut by_pivot: BTreeMap<usize, usize> = BTreeMap::new();
     // Columns of nodes come before those of joints' own coordinates.
-    let of_nodes = result.coordinates - layout.coordinate_rows.len();
+    let of_nodes = layout.coordinate_count() - layout.coordinate_rows.len();
     for (k, row) in rows(system, state).into_iter().enumerate() {
         match eliminate(row, k, &reduced, &by_pivot, of_nodes) {
             Ok(row) => {

@@ -11,6 +11,7 @@ pub mod equilibrium;
 mod factorization;
 pub mod factorization_study;
 mod guess;
+mod held_values;
 pub mod initial;
 pub mod mobility;
 pub mod phase;
@@ -21,6 +22,7 @@ mod workspace;
 
 pub use conditioning::{Condition, ConditionMethod};
 pub use dynamics::{Settings, Simulation, StepReport, Totals};
+pub use held_values::InputError;
 pub use initial::InitialError;
 pub use mobility::{Mobility, Redundant};
 pub use phase::{Phase, Stopwatch, Unwatched};

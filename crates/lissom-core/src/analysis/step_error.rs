@@ -43,6 +43,9 @@ pub enum StepError {
         /// Size of the last attempt [s].
         size: f64,
     },
+    /// A signal is not finite.
+    #[error("{0}")]
+    Signal(crate::signals::SignalError),
     /// The velocities at the end of the step could not be made consistent.
     #[error("step to t = {time:.6e} s, velocities at its end: {error}")]
     Velocities {
@@ -70,7 +73,7 @@ pub enum StepError {
 impl StepError {
     /// Whether a smaller step may have a solution where this one has none.
     pub fn may_need_a_smaller_step(&self) -> bool {
-        matches!(self, Self::NotConverged { .. } | Self::NotFinite { .. })
+        matches!(self, Self::NotConverged { .. } | Self::NotFinite { .. } | Self::Signal(_))
     }
 }
 

@@ -187,11 +187,13 @@ impl Workspace {
     }
 }
 
-/// Scaled size of one unit of each coordinate row: 1/ℓ_r for lengths, 1 for angles.
+/// Scaled size of one unit of each coordinate row: 1/ℓ_r for lengths, 1 for angles, 0 for states.
 pub(crate) fn sizes(layout: &Layout, representative: &Representative) -> Vec<f64> {
     let size = |quantity: &Quantity| match quantity {
         Quantity::Length => 1.0 / representative.length,
         Quantity::Angle => 1.0,
+        // Measured apart, each by its own magnitude.
+        Quantity::State => 0.0,
     };
     layout.quantities()[..layout.coordinate_count()].iter().map(size).collect()
 }

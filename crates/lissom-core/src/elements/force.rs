@@ -24,7 +24,7 @@ pub(super) const LOAD_PARAMETERS: &[Parameter] = &[
         "N or N m",
         "Force or moment at scale 1, in global axes at the start.",
     ),
-    Parameter::optional("scale", ParameterType::Function, "", "Factor, a function of time; default 1."),
+    Parameter::optional("scale", ParameterType::Size, "", "Factor; default 1."),
     Parameter::optional(
         "follower",
         ParameterType::Flag,

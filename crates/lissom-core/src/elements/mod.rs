@@ -9,6 +9,7 @@ pub mod coordinate_spring;
 pub mod force;
 pub mod inertia;
 mod inertia_blocks;
+pub mod joint_load;
 pub mod moment;
 pub mod passage;
 pub mod point_spring;
@@ -70,6 +71,28 @@ impl Tangents {
     pub fn new(size: usize) -> Self {
         let zeros = vec![0.0; size * size];
         Self { size, stiffness: zeros.clone(), damping: zeros.clone(), mass: zeros }
+    }
+
+    /// Multiplies everything by a number.
+    pub(crate) fn multiply(&mut self, factor: f64) {
+        for matrix in [&mut self.stiffness, &mut self.damping, &mut self.mass] {
+            for value in matrix {
+                *value *= factor;
+            }
+        }
+    }
+
+    /// Makes room for more unknowns after those there are, all zero.
+    pub(crate) fn widen(&mut self, size: usize) {
+        let own = std::mem::replace(&mut self.size, size);
+        for matrix in [&mut self.stiffness, &mut self.damping, &mut self.mass] {
+            matrix.resize(size * size, 0.0);
+            // From the end on, so that nothing is overwritten before it is moved.
+            for entry in (0..own * own).rev() {
+                let value = std::mem::take(&mut matrix[entry]);
+                matrix[entry / own * size + entry % own] = value;
+            }
+        }
     }
 
     /// Number of local unknowns.
@@ -251,4 +274,4 @@ pub static SPRINGS: &[ElementKind] =
     &[coordinate_spring::AXIAL, point_spring::KIND, coordinate_spring::TORSIONAL];
 
 /// Loads, one line each.
-pub static LOADS: &[ElementKind] = &[force::KIND, moment::KIND];
+pub static LOADS: &[ElementKind] = &[force::KIND, moment::KIND, joint_load::TORQUE, joint_load::FORCE];

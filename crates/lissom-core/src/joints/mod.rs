@@ -47,6 +47,8 @@ pub enum Quantity {
     Length,
     /// [rad]
     Angle,
+    /// A first-order state, in units of its own.
+    State,
 }
 
 impl Quantity {
@@ -55,6 +57,7 @@ impl Quantity {
         match self {
             Self::Length => "displacement",
             Self::Angle => "rotation",
+            Self::State => "state",
         }
     }
 }

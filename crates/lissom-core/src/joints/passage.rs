@@ -57,7 +57,7 @@ impl AttachedJoint {
             squares[j] = relative.dot(&weighted);
             for (k, coordinate) in self.joint().coordinates().iter().enumerate() {
                 let unit = match coordinate.quantity {
-                    Quantity::Length => 1.0,
+                    Quantity::Length | Quantity::State => 1.0,
                     Quantity::Angle => passage.length,
                 };
                 weights[j][OWN + k] = unit * unit * speeds[OWN + k];

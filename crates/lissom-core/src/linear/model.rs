@@ -23,6 +23,12 @@ const ROUND_OFF: f64 = 1e-11;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LinearError {
+    /// Loads depend on the motion, or there are states.
+    #[error(
+        "the linear model of a system with feedback is not known: loads or states whose signals depend on the motion; \
+         remove them for this analysis"
+    )]
+    Feedback,
     /// A pivot vanished or a number is not finite.
     #[error(
         "the linear model at t = {time:.6e} s: elimination stops at the {unknown}; give it mass, stiffness or a joint"
@@ -64,6 +70,9 @@ impl<'a> LinearModel<'a> {
     /// # Errors
     /// If they do not exist.
     pub fn of(system: &'a System, state: &State, solver: &SolverKind) -> Result<Self, LinearError> {
+        if system.has_feedback() {
+            return Err(LinearError::Feedback);
+        }
         let mut state = state.clone();
         let is_at_rest = is_at_rest(&state.kinematics);
         let zeros = vec![0.0; system.layout().multiplier_rows().len()];
@@ -227,7 +236,7 @@ fn hold(
         let quantities = layout.quantities();
         imbalance = residual[..count].iter().enumerate().fold(0.0_f64, |most, (row, value)| {
             let unit = match quantities[row] {
-                crate::joints::Quantity::Length => 1.0,
+                crate::joints::Quantity::Length | crate::joints::Quantity::State => 1.0,
                 crate::joints::Quantity::Angle => length,
             };
             most.max((value * unit / length).abs())

@@ -15,6 +15,7 @@ pub(crate) fn interpolate(from: &State, to: &State, time: f64, out: &mut State) 
     let (start, end) = (&from.kinematics, &to.kinematics);
     let duration = end.time - start.time;
     let x = if duration > 0.0 { ((time - start.time) / duration).clamp(0.0, 1.0) } else { 1.0 };
+    out.kinematics.held.clone_from(&start.held);
     let between = |a: f64, b: f64| a + x * (b - a);
     out.kinematics.time = time;
     out.kinematics.elapsed = 0.0;

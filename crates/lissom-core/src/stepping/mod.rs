@@ -9,6 +9,7 @@ mod dense;
 mod error_estimate;
 mod method_memory;
 mod parts;
+mod samples;
 mod snapshot;
 
 pub(crate) use controller::Controller;
@@ -60,8 +61,11 @@ impl Simulation {
         let before = self.work.effort;
         let mut report = StepReport::default();
         let result = match self.controller {
-            Some(controller) => self.controlled_step(controller, limit, watch, &mut report),
-            None => self.planned_step(watch, &mut report),
+            Some(controller) => {
+                let limit = self.next_sample().map_or(limit, |sample| sample.min(limit));
+                self.controlled_step(controller, limit, watch, &mut report).and_then(|()| self.take_samples())
+            }
+            None => self.sampled_step(watch, &mut report),
         };
         let effort = self.work.effort;
         report.iterations = effort.iterations - before.iterations;
@@ -81,8 +85,12 @@ impl Simulation {
 
     /// Takes a step of planned size: as a whole, or in parts where that has no solution. What a step of a scheme
     /// promises holds for its parts, and so for the whole.
-    fn planned_step(&mut self, watch: &mut dyn Stopwatch, report: &mut StepReport) -> Result<(), StepError> {
-        let whole = self.settings.step_size;
+    fn planned_step(
+        &mut self,
+        whole: f64,
+        watch: &mut dyn Stopwatch,
+        report: &mut StepReport,
+    ) -> Result<(), StepError> {
         let mut start: Option<State> = None;
         let mut first_error = None;
         self.parts.restart();
@@ -237,7 +245,19 @@ impl Simulation {
         let largest = work.filtered.iter().zip(&work.sizes).fold(0.0_f64, |most, (error, size)| {
             if (error * size).abs() <= most { most } else { (error * size).abs() }
         });
-        largest / (SHARE_OF_STEP * tolerance * reference)
+        let (places, states) = (largest / reference, self.error_of_states());
+        (if states <= places || places.is_nan() { places } else { states }) / (SHARE_OF_STEP * tolerance)
+    }
+
+    /// The same of first-order states, each relative to its magnitude, unfiltered.
+    fn error_of_states(&self) -> f64 {
+        let of = |(row, coordinate, magnitude): (usize, usize, f64)| {
+            let value = self.state.kinematics.coordinates[coordinate].value;
+            (self.work.error[row] / magnitude.max(value.abs())).abs()
+        };
+        let errors = self.system.layout().states().map(of);
+        // A NaN counts as the largest.
+        errors.fold(0.0_f64, |most, error| if error <= most || most.is_nan() { most } else { error })
     }
 }
 

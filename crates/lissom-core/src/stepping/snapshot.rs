@@ -15,7 +15,7 @@ use crate::scaling::Scaled;
 use crate::system::{CoordinateMotion, Kinematics, NodeMotion, State};
 
 /// Changes whenever what a snapshot holds does.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -66,6 +66,7 @@ struct StateNumbers {
     time_remainder: f64,
     nodes: Vec<[f64; 19]>,
     coordinates: Vec<[f64; 3]>,
+    held: Vec<f64>,
     multipliers: Vec<f64>,
     violations: Vec<f64>,
     algorithmic: Vec<f64>,
@@ -76,7 +77,7 @@ impl From<&State> for StateNumbers {
     fn from(state: &State) -> Self {
         let State { kinematics, multipliers, violations, algorithmic, time_remainder, position_remainders } =
             state;
-        let Kinematics { time, elapsed, nodes, coordinates } = kinematics;
+        let Kinematics { time, elapsed, nodes, coordinates, held } = kinematics;
         let of_node = |node: &NodeMotion| {
             let mut numbers = [0.0; 19];
             numbers[..4].copy_from_slice(&node.frame.rotation.quaternion());
@@ -91,6 +92,7 @@ impl From<&State> for StateNumbers {
             time_remainder: *time_remainder,
             nodes: nodes.iter().map(of_node).collect(),
             coordinates: coordinates.iter().map(|own| [own.value, own.rate, own.acceleration]).collect(),
+            held: held.clone(),
             multipliers: multipliers.clone(),
             violations: violations.clone(),
             algorithmic: algorithmic.clone(),
@@ -120,6 +122,7 @@ impl From<&StateNumbers> for State {
                     .iter()
                     .map(|&[value, rate, acceleration]| CoordinateMotion { value, rate, acceleration })
                     .collect(),
+                held: numbers.held.clone(),
             },
             multipliers: numbers.multipliers.clone(),
             violations: numbers.violations.clone(),

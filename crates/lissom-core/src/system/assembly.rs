@@ -58,7 +58,7 @@ impl Augmentation {
     /// Weight of an equation's violation relative to that of a length: 1 or [m²].
     pub fn relative(&self, quantity: Quantity) -> f64 {
         match quantity {
-            Quantity::Length => 1.0,
+            Quantity::Length | Quantity::State => 1.0,
             Quantity::Angle => self.radian * self.radian,
         }
     }

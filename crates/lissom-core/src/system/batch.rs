@@ -9,7 +9,7 @@ use lissom_solver::Pattern;
 use super::layout::{LOCKED, Layout};
 use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
-use super::state::{Kinematics, NodeMotion};
+use super::state::{Kinematics, NodeId, NodeMotion};
 use super::threads::Threads;
 use crate::elements::blocks::Blocks;
 use crate::elements::passage::{Passage, STAGES, Variation};
@@ -107,21 +107,8 @@ impl<E: Element> Batch<E> {
 
     /// Takes an item's derivatives through the chart and hands them over.
     fn receive(&self, index: usize, chart: Chart<'_>, scratch: &mut Tangents, out: &mut Receiver<'_>) {
-        let size = scratch.size();
-        for (k, &node) in self.items[index].nodes().iter().enumerate() {
-            match chart {
-                Chart::Body => {}
-                Chart::Increments(increments) => {
-                    through_chart(&mut scratch.stiffness, size, 6 * k, &increments[node]);
-                }
-                Chart::Departures(start) => {
-                    let turning = lie_bracket_matrix(&start[node].twist);
-                    let Tangents { stiffness, damping, mass, .. } = scratch;
-                    add_columns(stiffness, damping, size, 6 * k, &turning);
-                    add_columns(damping, mass, size, 6 * k, &turning);
-                }
-            }
-        }
+        let nodes = self.items[index].nodes().iter();
+        through(chart, nodes.enumerate().map(|(k, &node)| (node, 6 * k)), scratch);
         out.add_element(self.place(index), scratch);
     }
 
@@ -308,6 +295,29 @@ impl<E: Element> AnyBatch for Batch<E> {
 
     fn as_any_mut(&mut self) -> &mut dyn Any {
         self
+    }
+}
+
+/// Takes local derivatives through the chart, for nodes whose six columns begin as given.
+pub(super) fn through(
+    chart: Chart<'_>,
+    nodes: impl Iterator<Item = (NodeId, usize)>,
+    scratch: &mut Tangents,
+) {
+    let size = scratch.size();
+    for (node, column) in nodes {
+        match chart {
+            Chart::Body => {}
+            Chart::Increments(increments) => {
+                through_chart(&mut scratch.stiffness, size, column, &increments[node]);
+            }
+            Chart::Departures(start) => {
+                let turning = lie_bracket_matrix(&start[node].twist);
+                let Tangents { stiffness, damping, mass, .. } = scratch;
+                add_columns(stiffness, damping, size, column, &turning);
+                add_columns(damping, mass, size, column, &turning);
+            }
+        }
     }
 }
 

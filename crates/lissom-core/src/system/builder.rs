@@ -7,6 +7,7 @@ use lissom_motion::{Matrix6, Motion, Rotation, Vector3, Vector6};
 use lissom_solver::{Group, Pattern, Structure};
 
 use super::batch::{AnyBatch, Batch};
+use super::feedback::{Feedback, Target};
 use super::layout::{Freedoms, LOCKED, Layout};
 use super::places::{Places, free_rows, position_of};
 use super::state::{CoordinateId, CoordinateMotion, Kinematics, NodeId, NodeMotion, State};
@@ -19,6 +20,8 @@ use crate::joints::derivatives::{LOCAL, OWN, TIP};
 use crate::joints::prescribed::Prescribed;
 use crate::joints::{Build, Frames, Geometry, JointKind, Quantity, equation_quantity};
 use crate::registry::{ParameterError, Parameters};
+use crate::signals::measurement::Measurement;
+use crate::signals::{Argument, Graph, HeldId, MOST_ARGUMENTS, MeasurementId, Signal, SignalId};
 
 /// Why a system could not be built.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -30,6 +33,9 @@ pub enum BuildError {
     /// A coordinate that no constraint or spring sees, or a structure that cannot be ordered.
     #[error("the equations cannot be ordered: {0}")]
     Structure(String),
+    /// A signal depends on too many parts of the model.
+    #[error("{0} depends on too many parts: more than 255 unknowns; measure less in one expression")]
+    SignalTouchesTooMuch(String),
 }
 
 /// Where a joint lies at the start, in inertial axes.
@@ -71,6 +77,11 @@ pub struct Builder {
     multipliers: Vec<(String, &'static str)>,
     multiplier_quantities: Vec<Quantity>,
     gravity: Vector3,
+    states: Vec<(CoordinateId, f64)>,
+    graph: Graph,
+    targets: Vec<(Target, SignalId)>,
+    /// The signal that is the size of the loads being added.
+    driver: Option<SignalId>,
 }
 
 impl Default for Builder {
@@ -97,6 +108,10 @@ impl Builder {
             multipliers: Vec::new(),
             multiplier_quantities: Vec::new(),
             gravity: Vector3::zeros(),
+            states: Vec::new(),
+            graph: Graph::default(),
+            targets: Vec::new(),
+            driver: None,
         }
     }
 
@@ -136,6 +151,10 @@ impl Builder {
 
     /// Adds an element.
     pub fn add_element<E: Element>(&mut self, element: E) {
+        if let Some(signal) = self.driver {
+            self.targets.push((Target::Load(Box::new(element)), signal));
+            return;
+        }
         for batch in &mut self.batches {
             if let Some(batch) = batch.as_any_mut().downcast_mut::<Batch<E>>() {
                 batch.push(element);
@@ -236,6 +255,68 @@ impl Builder {
         Ok(())
     }
 
+    /// Adds a held value, an input or the last sample of a signal, with its value at the start.
+    pub fn add_held(&mut self, name: &str, start: f64) -> HeldId {
+        self.graph.held.push((name.to_owned(), start));
+        self.graph.held.len() - 1
+    }
+
+    /// Adds a first-order state with its value at the start and its usual magnitude. Its derivative is given with
+    /// [`drive_state`](Self::drive_state).
+    pub fn add_state(&mut self, name: &str, value: f64, magnitude: f64) -> CoordinateId {
+        self.coordinates.push(Coordinate { name: name.to_owned(), value, quantity: Quantity::State });
+        self.states.push((self.coordinates.len() - 1, magnitude));
+        self.coordinates.len() - 1
+    }
+
+    /// Adds a measurement.
+    pub fn add_measurement<M: Measurement + 'static>(&mut self, measurement: M) -> MeasurementId {
+        self.graph.measurements.push(Box::new(measurement));
+        self.graph.measurements.len() - 1
+    }
+
+    /// Adds a signal, after those that it names.
+    ///
+    /// # Errors
+    /// If it names a later signal, or has too many arguments.
+    pub fn add_signal(&mut self, signal: Signal) -> Result<SignalId, ParameterError> {
+        let next = self.graph.signals.len();
+        let is_there = |argument: &Argument| match *argument {
+            Argument::Held(held) => held < self.graph.held.len(),
+            Argument::Signal(earlier) => earlier < next,
+            Argument::Measured(measurement) => measurement < self.graph.measurements.len(),
+        };
+        if !signal.arguments.iter().all(is_there) {
+            return Err(ParameterError::new(&signal.name, "names what is not there yet"));
+        }
+        if signal.arguments.len() > MOST_ARGUMENTS {
+            let problem = format!("names more than {MOST_ARGUMENTS} quantities");
+            return Err(ParameterError::new(&signal.name, problem));
+        }
+        self.graph.signals.push(signal);
+        Ok(next)
+    }
+
+    /// Makes a signal the derivative of a first-order state.
+    pub fn drive_state(&mut self, state: CoordinateId, signal: SignalId) {
+        self.targets.push((Target::State([state]), signal));
+    }
+
+    /// Adds with `build` a load of size one whose size is a signal.
+    ///
+    /// # Errors
+    /// As `build`.
+    pub fn add_driven<T, E>(
+        &mut self,
+        signal: SignalId,
+        build: impl FnOnce(&mut Self) -> Result<T, E>,
+    ) -> Result<T, E> {
+        self.driver = Some(signal);
+        let built = build(self);
+        self.driver = None;
+        built
+    }
+
     /// What a coordinate measures.
     pub fn coordinate_quantity(&self, coordinate: CoordinateId) -> Quantity {
         self.coordinates[coordinate].quantity
@@ -279,6 +360,9 @@ impl Builder {
         for batch in &mut self.batches {
             batch.connect(&layout);
         }
+        let targets = std::mem::take(&mut self.targets);
+        let mut feedback = Feedback::new(std::mem::take(&mut self.graph), targets, &layout)
+            .map_err(|touches| BuildError::SignalTouchesTooMuch(touches.name))?;
         let joint_rows: Vec<Vec<u32>> = self.joints.iter().map(|joint| rows_of(joint, &layout)).collect();
         let of_drive = |drive: &Drive| {
             let coordinate = layout.row_of_coordinate(drive.prescribed.coordinate);
@@ -288,6 +372,7 @@ impl Builder {
             .batches
             .iter()
             .flat_map(|batch| batch.cliques())
+            .chain(feedback.cliques())
             .chain(joint_rows.iter().map(|rows| free_rows(rows)))
             .chain(
                 self.drives.iter().map(of_drive).map(|(coordinate, multiplier)| vec![coordinate, multiplier]),
@@ -297,6 +382,7 @@ impl Builder {
         for batch in &mut self.batches {
             batch.locate(&pattern);
         }
+        feedback.locate(&pattern);
         let mut joint_places = Places::new();
         for rows in &joint_rows {
             joint_places.push(&pattern, rows, LOCAL);
@@ -310,7 +396,11 @@ impl Builder {
         let structure = Structure::new(pattern, self.groups(&layout))
             .map_err(|error| BuildError::Structure(error.to_string()))?;
         let joint_starts = starts(joint_rows.iter().map(Vec::len));
-        let state = self.initial_state(&layout, time);
+        let state = self.initial_state(&layout, time, &feedback.graph);
+        let feedback = Arc::new(feedback);
+        if !feedback.is_empty() {
+            self.batches.push(Box::new(Arc::clone(&feedback)));
+        }
         let element_count = self.batches.iter().map(|batch| batch.len()).sum();
         let system = System {
             body_count: self.nodes.len() - 1,
@@ -326,6 +416,7 @@ impl Builder {
             inertias,
             gravity: self.gravity,
             element_count,
+            feedback,
         };
         Ok((system, state))
     }
@@ -359,6 +450,7 @@ impl Builder {
         layout.coordinate_count = next as usize;
         layout.multiplier_count = self.multipliers.len();
         layout.multiplier_names = std::mem::take(&mut self.multipliers);
+        layout.states = std::mem::take(&mut self.states);
         layout
     }
 
@@ -397,7 +489,7 @@ impl Builder {
         groups
     }
 
-    fn initial_state(&self, layout: &Layout, time: f64) -> State {
+    fn initial_state(&self, layout: &Layout, time: f64, graph: &Graph) -> State {
         let coordinates = self
             .coordinates
             .iter()
@@ -409,6 +501,7 @@ impl Builder {
                 elapsed: 0.0,
                 nodes: self.nodes.iter().map(|node| node.motion).collect(),
                 coordinates,
+                held: graph.held.iter().map(|&(_, start)| start).collect(),
             },
             multipliers: vec![0.0; layout.multiplier_count],
             violations: vec![0.0; layout.multiplier_count],

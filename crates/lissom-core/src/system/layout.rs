@@ -50,6 +50,8 @@ pub struct Layout {
     pub(crate) multiplier_names: Vec<(String, &'static str)>,
     /// What every coordinate row is, then every constraint.
     pub(crate) quantities: Vec<Quantity>,
+    /// Coordinate and magnitude of every first-order state.
+    pub(crate) states: Vec<(CoordinateId, f64)>,
 }
 
 impl Layout {
@@ -101,6 +103,18 @@ impl Layout {
         self.quantities[self.row_of_coordinate(coordinate)]
     }
 
+    /// Number of first-order states, which are among the algebraic coordinates.
+    pub fn state_count(&self) -> usize {
+        self.states.len()
+    }
+
+    /// Row, coordinate and usual magnitude of every first-order state.
+    pub(crate) fn states(&self) -> impl Iterator<Item = (usize, CoordinateId, f64)> + '_ {
+        self.states
+            .iter()
+            .map(|&(coordinate, magnitude)| (self.row_of_coordinate(coordinate), coordinate, magnitude))
+    }
+
     /// Joint and equation of a multiplier.
     ///
     /// # Panics
@@ -127,7 +141,8 @@ impl Layout {
         }
         for (coordinate, &r) in self.coordinate_rows.iter().enumerate() {
             if r as usize == row {
-                return format!("coordinate `{}`", self.coordinate_names[coordinate]);
+                let what = if self.quantities[row] == Quantity::State { "state" } else { "coordinate" };
+                return format!("{what} `{}`", self.coordinate_names[coordinate]);
             }
         }
         format!("unknown {row}")

@@ -3,6 +3,7 @@
 mod assembly;
 mod batch;
 mod builder;
+mod feedback;
 mod layout;
 mod passage;
 pub(crate) mod places;
@@ -30,7 +31,9 @@ use crate::elements::inertia::Inertia;
 use crate::joints::attached::AttachedJoint;
 use crate::joints::blocks::{Batches, JointStarts};
 use crate::joints::prescribed::Prescribed;
+use crate::signals::Graph;
 use batch::AnyBatch;
+pub(crate) use feedback::Feedback;
 use places::Places;
 
 /// The ground: node 0 of every system, without freedoms.
@@ -67,6 +70,8 @@ pub struct System {
     pub(crate) gravity: Vector3,
     pub(crate) body_count: usize,
     pub(crate) element_count: usize,
+    /// Signals and what they act on.
+    pub(crate) feedback: Arc<Feedback>,
 }
 
 impl System {
@@ -103,6 +108,16 @@ impl System {
     /// Inertia of every node that has mass.
     pub fn inertias(&self) -> &[Inertia] {
         &self.inertias
+    }
+
+    /// The signals, and their inputs.
+    pub fn signals(&self) -> &Graph {
+        &self.feedback.graph
+    }
+
+    /// Whether forces depend on the motion through signals, or there are states.
+    pub fn has_feedback(&self) -> bool {
+        self.feedback.depends_on_motion()
     }
 
     /// Gravity [m/s²].

@@ -47,22 +47,35 @@ impl Places {
     /// left out: it stays zero.
     pub(crate) fn push(&mut self, pattern: &Pattern, rows: &[u32], filled: usize) {
         for (j, &column) in rows.iter().enumerate().filter(|&(_, &column)| column != LOCKED) {
-            let mut last = LOCKED;
             let seen = if j < filled { rows } else { &rows[..filled] };
-            for (i, &row) in seen.iter().enumerate() {
-                if row == LOCKED {
-                    last = LOCKED;
-                    continue;
-                }
-                let position = position_of(pattern, row as usize, column as usize) as u32;
-                match self.runs.last_mut() {
-                    Some(run) if last != LOCKED && position == last + 1 => run.length += 1,
-                    _ => self.runs.push(Run { column: j as u8, row: i as u8, length: 1, position }),
-                }
-                last = position;
-            }
+            self.push_column(pattern, seen, (j, column));
         }
         self.starts.push(self.runs.len() as u32);
+    }
+
+    /// Adds the first `count` rows of the local matrix over `rows`; the others stay zero.
+    pub(crate) fn push_rows(&mut self, pattern: &Pattern, rows: &[u32], count: usize) {
+        for (j, &column) in rows.iter().enumerate().filter(|&(_, &column)| column != LOCKED) {
+            self.push_column(pattern, &rows[..count], (j, column));
+        }
+        self.starts.push(self.runs.len() as u32);
+    }
+
+    /// Adds the entries of local column `j`, which is the unknown `column`, in these rows.
+    fn push_column(&mut self, pattern: &Pattern, rows: &[u32], (j, column): (usize, u32)) {
+        let mut last = LOCKED;
+        for (i, &row) in rows.iter().enumerate() {
+            if row == LOCKED {
+                last = LOCKED;
+                continue;
+            }
+            let position = position_of(pattern, row as usize, column as usize) as u32;
+            match self.runs.last_mut() {
+                Some(run) if last != LOCKED && position == last + 1 => run.length += 1,
+                _ => self.runs.push(Run { column: j as u8, row: i as u8, length: 1, position }),
+            }
+            last = position;
+        }
     }
 
     /// Gives back room that was not needed.

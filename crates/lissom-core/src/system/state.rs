@@ -142,8 +142,10 @@ pub struct Kinematics {
     pub elapsed: f64,
     /// One entry per node; node 0 is the ground.
     pub nodes: Vec<NodeMotion>,
-    /// One entry per algebraic coordinate.
+    /// One entry per algebraic coordinate and first-order state.
     pub coordinates: Vec<CoordinateMotion>,
+    /// Held values, constant within a step: inputs, and signals between two samples.
+    pub held: Vec<f64>,
 }
 
 /// The state between two steps.

@@ -59,7 +59,7 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
             ParameterType::Positive | ParameterType::NotNegative => Value::Number(1.5 + random.number()),
             ParameterType::Vector | ParameterType::Direction => Value::Vector(random.vector()),
             ParameterType::Flag => Value::Flag(flag),
-            ParameterType::Function => {
+            ParameterType::Function | ParameterType::Size => {
                 Value::Function(if flag { Arc::new(Wave) } else { Arc::new(Constant(0.6)) })
             }
             ParameterType::Choice(words) => Value::Text(words[0].to_owned()),

@@ -1,6 +1,7 @@
 //! Every registered element and joint: its tangents are the derivatives of its forces.
 
 mod configuration;
+mod feedback;
 mod joint_lanes;
 
 use configuration::{Configuration, Random, difference, sample_parameters};
@@ -95,7 +96,7 @@ fn two_bodies(random: &mut Random) -> (Builder, [usize; 2]) {
 fn joint_with(wanted: Quantity) -> &'static JointKind {
     let name = match wanted {
         Quantity::Angle => "revolute",
-        Quantity::Length => "prismatic",
+        Quantity::Length | Quantity::State => "prismatic",
     };
     joints::KINDS.iter().find(|kind| kind.name == name).expect("there")
 }

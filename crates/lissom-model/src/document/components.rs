@@ -26,10 +26,11 @@ pub(super) fn read(
     each_of_kind(context, table, registry, |reader, name, word| {
         let entry = kinds.iter().find(|entry| entry.name == word)?;
         let (parameters, parameter_spans) = reader.parameters(entry.parameters);
+        let signal = reader.signal(entry.parameters);
         let attachment = attachment(reader, name, entry.acts_on, registry, places);
         let kind = reader.text("kind")?.map(str::to_owned);
         let name = Located::new(name.to_owned(), reader.name);
-        Some(Component { name, kind, attachment: attachment?, parameters, parameter_spans })
+        Some(Component { name, kind, attachment: attachment?, parameters, parameter_spans, signal })
     })
 }
 

@@ -41,6 +41,28 @@ pub(super) fn check(context: &Context<'_>, document: &Document) {
     functions(context, document);
     unused(context, document);
     complete(context, document);
+    at_rest(context, document);
+}
+
+/// Statics knows no rates and no samples.
+fn at_rest(context: &Context<'_>, document: &Document) {
+    let statics = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
+    if !statics && !document.starts_in_equilibrium() {
+        return;
+    }
+    let what = if statics { "statics" } else { "a start from equilibrium" };
+    for state in &document.states {
+        let message = format!("{what} knows no rates, so the state `{}` has no meaning", state.name.value);
+        context.fail::<()>(state.name.span, message, "remove it, or start a dynamic analysis as it is");
+    }
+    for signal in document.signals.iter().filter(|signal| signal.sampling.is_some()) {
+        let message = format!("{what} knows no samples, so the signal `{}` has no value", signal.name.value);
+        context.fail::<()>(
+            signal.name.span,
+            message,
+            "leave out `sample`, or start a dynamic analysis as it is",
+        );
+    }
 }
 
 /// A part that was dropped without a word would change the model: whatever else is overlooked, this is told.
@@ -56,6 +78,9 @@ fn complete(context: &Context<'_>, document: &Document) {
         ("springs", document.springs.len()),
         ("loads", document.loads.len()),
         ("outputs", document.outputs.len()),
+        ("inputs", document.inputs.len()),
+        ("signals", document.signals.len()),
+        ("states", document.states.len()),
     ];
     for (table, count) in read {
         let names = context.names(table);

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use lissom_motion::Vector3;
 
 use super::tables::{self, Holds, variants};
-use super::{Document, analysis, beams, bodies, components, connections, materials, outputs};
+use super::{Document, analysis, beams, bodies, components, connections, materials, outputs, signals};
 use crate::context::{Context, singular};
 use crate::expression;
 use crate::reader::Reader;
@@ -77,6 +77,10 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let joints = components::read(context, "joints", registry, &places);
     let springs = components::read(context, "springs", registry, &places);
     let loads = components::read(context, "loads", registry, &places);
+    signals::check_names(context);
+    let inputs = signals::inputs(context);
+    let signals = signals::signals(context);
+    let states = signals::states(context);
     let initial = bodies::initial(context);
     let outputs = outputs::outputs(context, registry);
     let analysis = analysis::analysis(context, registry);
@@ -93,6 +97,9 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
         joints,
         springs,
         loads,
+        inputs,
+        signals,
+        states,
         initial,
         outputs,
         analysis: analysis?,

@@ -10,6 +10,7 @@ pub(crate) mod decode;
 mod materials;
 mod outputs;
 mod places;
+mod signals;
 pub(crate) mod tables;
 
 use std::collections::BTreeMap;
@@ -17,13 +18,14 @@ use std::collections::BTreeMap;
 use lissom_core::registry::Parameters;
 use lissom_motion::{Matrix3, Vector3};
 
-use crate::expression::Expression;
+use crate::expression::{Expression, Formula};
 use crate::line::Line;
 use crate::report::{Located, Problem, Report, Sources, Span};
 use crate::sections::{Isotropic, SectionProperties, Shape};
 
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use outputs::{Output, OutputKind, OutputSource};
+pub use signals::{SignalEntry, StateEntry};
 pub use tables::VERSION;
 
 /// A model as it was written, checked.
@@ -74,6 +76,12 @@ pub struct Document {
     pub springs: Vec<Component>,
     /// Loads.
     pub loads: Vec<Component>,
+    /// Numbers set from outside, with their values at the start.
+    pub inputs: Vec<(Located<String>, f64)>,
+    /// Named expressions of time, inputs, states and outputs.
+    pub signals: Vec<SignalEntry>,
+    /// First-order states.
+    pub states: Vec<StateEntry>,
     /// A rigid motion of all parts at the start.
     pub initial: Option<InitialMotion>,
     /// What is recorded.
@@ -89,6 +97,11 @@ impl Document {
     /// A report of problems found later, underlined in the model's text.
     pub fn report(&self, problems: Vec<Problem>) -> Report {
         Report::new(problems, &self.sources)
+    }
+
+    /// Where a part of an expression stands, whose text is within `whole`.
+    pub(crate) fn within(&self, whole: Span, text: &str, range: &std::ops::Range<usize>) -> Span {
+        self.sources.within(whole, text, range)
     }
 
     /// Whether places at the start are those of static equilibrium.
@@ -316,6 +329,8 @@ pub struct Component {
     pub parameters: Parameters,
     /// Where each of them stands.
     pub parameter_spans: Vec<(String, Span)>,
+    /// Its size and the key it is given by, where it is more than a function of time. Its parameter is then 1.
+    pub signal: Option<(&'static str, Located<Formula>)>,
 }
 
 impl Component {

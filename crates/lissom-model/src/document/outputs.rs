@@ -5,8 +5,10 @@ use lissom_motion::Vector3;
 use super::NodeReference;
 use super::decode::each_of_kind;
 use crate::context::Context;
+use crate::reader::Reader;
 use crate::registry::Registry;
 use crate::report::Located;
+use crate::suggest;
 
 /// A recorded quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,13 +35,15 @@ pub enum OutputKind {
     Relative,
     /// Energies of the whole model [J].
     Energy,
+    /// A signal, an input or a state.
+    Signal,
     /// Momentum and angular momentum of the whole model about the origin [N s, N m s], global axes.
     Momentum,
 }
 
 impl OutputKind {
     /// All of them, in the order of the manual.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Position,
         Self::Displacement,
         Self::Rotation,
@@ -52,6 +56,7 @@ impl OutputKind {
         Self::Relative,
         Self::Energy,
         Self::Momentum,
+        Self::Signal,
     ];
 
     /// Word in the model file.
@@ -69,6 +74,7 @@ impl OutputKind {
             Self::Relative => "relative",
             Self::Energy => "energy",
             Self::Momentum => "momentum",
+            Self::Signal => "signal",
         }
     }
 
@@ -86,13 +92,14 @@ impl OutputKind {
             Self::Reaction => "Force and moment of a joint on its tip.",
             Self::Relative => "Relative coordinate of a joint.",
             Self::Energy => "Kinetic, strain, gravity and total energy of the model.",
+            Self::Signal => "Value of a signal, an input or a state.",
             Self::Momentum => "Momentum and angular momentum of the model about the origin, global axes.",
         }
     }
 
     /// Whether it belongs to any node.
     pub(crate) fn is_of_node(self) -> bool {
-        !(self.is_of_beam() || self.is_of_joint() || self.is_of_model())
+        !(self.is_of_beam() || self.is_of_joint() || self.is_of_model() || self == Self::Signal)
     }
 
     /// Whether it belongs to the whole model.
@@ -130,6 +137,8 @@ pub enum OutputSource {
     Joint(Located<String>),
     /// The whole model.
     Model,
+    /// A signal, an input or a state, by name.
+    Signal(Located<String>),
 }
 
 /// One recorded quantity.
@@ -148,6 +157,8 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
         let kind = OutputKind::ALL.into_iter().find(|kind| kind.name() == word)?;
         let source = if kind.is_of_joint() {
             OutputSource::Joint(reader.name_in("of")?)
+        } else if kind == OutputKind::Signal {
+            OutputSource::Signal(signal(reader)?)
         } else if kind.is_of_model() {
             OutputSource::Model
         } else {
@@ -172,4 +183,18 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
         };
         Some(Output { name: Located::new(name.to_owned(), reader.name), kind, source })
     })
+}
+
+/// The name of a signal, an input or a state.
+fn signal(reader: &Reader<'_, '_>) -> Option<Located<String>> {
+    let name = reader.text("of")?;
+    let tables = ["signals", "inputs", "states"];
+    let known = || tables.iter().flat_map(|table| reader.context.names(table)).map(|(name, _)| name);
+    if known().any(|known| known == name.value) {
+        return Some(name.map(str::to_owned));
+    }
+    let message =
+        format!("{} names `{}`, which is no signal, input or state", reader.words("of"), name.value);
+    let help = suggest::help(name.value, known()).unwrap_or_else(|| "add it to [signals]".to_owned());
+    reader.context.fail(name.span, message, help)
 }

@@ -36,7 +36,7 @@ const fn top(name: &'static str, holds: Holds, required: bool, summary: &'static
 pub const VERSION: usize = 1;
 
 /// All the words at the top.
-pub(crate) static TOP: [Top; 15] = [
+pub(crate) static TOP: [Top; 18] = [
     top("lissom", Holds::Value(Shape::Version), true, "Version of the file format."),
     top("title", Holds::Value(Shape::Text), false, "One line about the model."),
     top("gravity", Holds::Value(Shape::Vector), false, "Acceleration of gravity [m/s²]; none when left out."),
@@ -49,7 +49,25 @@ pub(crate) static TOP: [Top; 15] = [
     top("point_masses", Holds::Entries, false, "Masses without extension."),
     top("joints", Holds::Entries, false, "What holds nodes together."),
     top("springs", Holds::Entries, false, "What pulls nodes or joints back."),
-    top("loads", Holds::Entries, false, "Forces and moments from outside."),
+    top("loads", Holds::Entries, false, "Forces and moments from outside, and of actuators."),
+    top(
+        "inputs",
+        Holds::Values(Shape::Number),
+        false,
+        "Numbers that are set from outside while a simulation runs, with their values at the start.",
+    ),
+    top(
+        "signals",
+        Holds::Values(Shape::Signal),
+        false,
+        "Named expressions of time, inputs, states and outputs.",
+    ),
+    top(
+        "states",
+        Holds::Entries,
+        false,
+        "First-order states: numbers whose derivative by time is an expression.",
+    ),
     top(
         "initial",
         Holds::Table,
@@ -104,6 +122,7 @@ pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
         "joints" => (Some("kind"), kinds(&registry.joints)),
         "springs" => (Some("kind"), kinds(&registry.springs)),
         "loads" => (Some("kind"), kinds(&registry.loads)),
+        "states" => (None, vec![single(state())]),
         "initial" => (None, vec![single(initial())]),
         "outputs" => (Some("kind"), outputs()),
         "analysis" => (Some("kind"), analyses(registry)),
@@ -286,11 +305,24 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
         ActsOn::JointCoordinate(quantity) => {
             let words = match quantity {
                 Quantity::Angle => "the joint whose relative rotation it acts on",
-                Quantity::Length => "the joint whose relative displacement it acts on",
+                Quantity::Length | Quantity::State => "the joint whose relative displacement it acts on",
             };
             vec![required("joint", Shape::Name("joints"), "", words)]
         }
     }
+}
+
+fn state() -> Vec<Key> {
+    vec![
+        required("derivative", Shape::Formula, "1/s", "its derivative by time"),
+        optional("start", Shape::Number, "", "value at the start, default 0"),
+        optional(
+            "magnitude",
+            Shape::Positive,
+            "",
+            "how large it usually is: errors are measured by this, or by its value where that is larger; default 1",
+        ),
+    ]
 }
 
 fn initial() -> Vec<Key> {
@@ -317,6 +349,9 @@ fn outputs() -> Vec<Variant> {
         }
         if kind.is_of_joint() {
             keys.push(required("of", Shape::Name("joints"), "", "the joint"));
+        }
+        if *kind == OutputKind::Signal {
+            keys.push(required("of", Shape::Text, "", "the name of a signal, an input or a state"));
         }
         if kind.takes_point() {
             keys.push(optional("point", Shape::Place, "m", "a place at the start, carried by the node"));

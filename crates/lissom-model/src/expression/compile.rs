@@ -3,23 +3,27 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use super::formula::Name;
 use super::token::{Placed, Token, tokens};
-use super::{Expression, ExpressionError, Function, STACK, Step, jet};
+use super::{ExpressionError, Function, Jet, STACK, Step, jet, run};
 use crate::suggest;
 
 /// Nesting that is still read; deeper texts are machine-made.
 const DEPTH: usize = 100;
 
+/// Reads `text`. Names that are neither the variable nor parameters are collected in `arguments`, if it is there, and
+/// unknown otherwise.
 pub(super) fn compile(
     text: &str,
     variable: Option<&str>,
     parameters: &BTreeMap<String, f64>,
+    arguments: Option<&mut Vec<Name>>,
 ) -> Result<Vec<Step>, ExpressionError> {
     let tokens = tokens(text)?;
     if tokens.len() == 1 {
         return error("the expression is empty", 0..text.len());
     }
-    let mut reader = Reader { tokens, at: 0, steps: Vec::new(), variable, parameters, depth: 0 };
+    let mut reader = Reader { tokens, at: 0, steps: Vec::new(), variable, parameters, arguments, depth: 0 };
     reader.sum()?;
     match reader.next() {
         (Token::End, _) => {}
@@ -53,16 +57,17 @@ fn describe(token: &Token<'_>) -> String {
     }
 }
 
-struct Reader<'t, 'p> {
+struct Reader<'t, 'p, 'n> {
     tokens: Vec<Placed<'t>>,
     at: usize,
     steps: Vec<Step>,
     variable: Option<&'p str>,
     parameters: &'p BTreeMap<String, f64>,
+    arguments: Option<&'n mut Vec<Name>>,
     depth: usize,
 }
 
-impl<'t> Reader<'t, '_> {
+impl<'t> Reader<'t, '_, '_> {
     fn peek(&self) -> &Token<'t> {
         &self.tokens[self.at].0
     }
@@ -181,6 +186,14 @@ impl<'t> Reader<'t, '_> {
             let help = suggest::help(name, jet::NAMES.iter().map(|(known, _)| *known));
             return Err(ExpressionError { message: format!("unknown function `{name}`"), help, range });
         }
+        if let Some(arguments) = &mut self.arguments {
+            let index = arguments.iter().position(|known| known.text == name).unwrap_or_else(|| {
+                arguments.push(Name { text: name.to_owned(), range });
+                arguments.len() - 1
+            });
+            self.steps.push(Step::Argument(index));
+            return Ok(());
+        }
         let known = self.variable.into_iter().chain(["pi"]).chain(self.parameters.keys().map(String::as_str));
         let help = suggest::help(name, known);
         Err(ExpressionError { message: format!("unknown name `{name}`"), help, range })
@@ -228,7 +241,7 @@ fn fold(steps: Vec<Step>) -> Vec<Step> {
         let from = folded.len() - 1 - operands.min(folded.len() - 1);
         let constant = |step: &Step| matches!(step, Step::Constant(_));
         if operands > 0 && folded[from..folded.len() - 1].iter().all(constant) {
-            let value = Expression { steps: folded.split_off(from) }.jet(0.0).value;
+            let value = run(&folded.split_off(from), Jet::constant(0.0), |_| Jet::constant(0.0)).value;
             folded.push(Step::Constant(value));
         }
     }

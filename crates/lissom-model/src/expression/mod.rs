@@ -4,12 +4,14 @@
 //! of steps on a small stack, run on second-order jets: no allocation in a call. Knows no files.
 
 mod compile;
+mod formula;
 mod jet;
 mod token;
 
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+pub use formula::{Formula, Name};
 pub(crate) use jet::NAMES as FUNCTION_NAMES;
 pub use jet::{Function, Jet};
 
@@ -32,6 +34,7 @@ pub struct ExpressionError {
 enum Step {
     Constant(f64),
     Variable,
+    Argument(usize),
     Add,
     Subtract,
     Multiply,
@@ -58,7 +61,7 @@ impl Expression {
         variable: Option<&str>,
         parameters: &BTreeMap<String, f64>,
     ) -> Result<Self, ExpressionError> {
-        compile::compile(text, variable, parameters).map(|steps| Self { steps })
+        compile::compile(text, variable, parameters, None).map(|steps| Self { steps })
     }
 
     /// The same number everywhere.
@@ -76,32 +79,38 @@ impl Expression {
 
     /// Value and derivatives at `x`.
     pub fn jet(&self, x: f64) -> Jet {
-        let mut stack = [Jet::constant(0.0); STACK];
-        let mut top = 0;
-        for step in &self.steps {
-            match *step {
-                Step::Constant(value) => stack[top] = Jet::constant(value),
-                Step::Variable => stack[top] = Jet::variable(x),
-                Step::Negate => stack[top - 1] = stack[top - 1].scaled(-1.0),
-                Step::Call(function) => stack[top - 1] = function.of(stack[top - 1]),
-                Step::Add => stack[top - 2] = stack[top - 2].plus(stack[top - 1]),
-                Step::Subtract => stack[top - 2] = stack[top - 2].plus(stack[top - 1].scaled(-1.0)),
-                Step::Multiply => stack[top - 2] = stack[top - 2].times(stack[top - 1]),
-                Step::Divide => stack[top - 2] = stack[top - 2].over(stack[top - 1]),
-                Step::Power => stack[top - 2] = stack[top - 2].to_the(stack[top - 1]),
-                Step::Call2(function) => stack[top - 2] = function.of_two(stack[top - 2], stack[top - 1]),
-            }
-            top = top + 1 - step.operands();
-        }
-        stack[0]
+        run(&self.steps, Jet::variable(x), |_| Jet::constant(0.0))
     }
+}
+
+/// The value that steps leave, for a variable and arguments.
+fn run(steps: &[Step], variable: Jet, argument: impl Fn(usize) -> Jet) -> Jet {
+    let mut stack = [Jet::constant(0.0); STACK];
+    let mut top = 0;
+    for step in steps {
+        match *step {
+            Step::Constant(value) => stack[top] = Jet::constant(value),
+            Step::Variable => stack[top] = variable,
+            Step::Argument(index) => stack[top] = argument(index),
+            Step::Negate => stack[top - 1] = stack[top - 1].scaled(-1.0),
+            Step::Call(function) => stack[top - 1] = function.of(stack[top - 1]),
+            Step::Add => stack[top - 2] = stack[top - 2].plus(stack[top - 1]),
+            Step::Subtract => stack[top - 2] = stack[top - 2].plus(stack[top - 1].scaled(-1.0)),
+            Step::Multiply => stack[top - 2] = stack[top - 2].times(stack[top - 1]),
+            Step::Divide => stack[top - 2] = stack[top - 2].over(stack[top - 1]),
+            Step::Power => stack[top - 2] = stack[top - 2].to_the(stack[top - 1]),
+            Step::Call2(function) => stack[top - 2] = function.of_two(stack[top - 2], stack[top - 1]),
+        }
+        top = top + 1 - step.operands();
+    }
+    stack[0]
 }
 
 impl Step {
     /// Values it takes from the stack; it leaves one.
     fn operands(self) -> usize {
         match self {
-            Step::Constant(_) | Step::Variable => 0,
+            Step::Constant(_) | Step::Variable | Step::Argument(_) => 0,
             Step::Negate | Step::Call(_) => 1,
             _ => 2,
         }

@@ -46,8 +46,17 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Placed<'_>>, ExpressionError> {
     Ok(found)
 }
 
+/// Letters, digits and `_`; a point followed by a letter belongs to the name, as in `tip.u1`.
 fn name_length(text: &str) -> usize {
-    text.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(text.len())
+    let word = |from: usize| {
+        let rest = &text[from..];
+        from + rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len())
+    };
+    let mut end = word(0);
+    while text[end..].starts_with('.') && text[end + 1..].starts_with(|c: char| c.is_ascii_alphabetic()) {
+        end = word(end + 1);
+    }
+    end
 }
 
 /// Digits, one point, digits, and an exponent with its sign.

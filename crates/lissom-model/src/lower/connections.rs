@@ -29,13 +29,18 @@ pub(super) fn add(
             }
         }
     }
+    super::signals::add(document, builder, names, problems);
+    if !problems.is_empty() {
+        // Whatever names a signal that could not be read would be wrong as well.
+        return;
+    }
     for (components, kinds) in [(&document.springs, SPRINGS), (&document.loads, LOADS)] {
         for component in components {
             let Some(kind) = kinds.iter().find(|kind| kind.name == component.kind.value) else {
                 problems.push(unknown_kind(component));
                 continue;
             };
-            if let Err(problem) = element(component, kind, builder, names) {
+            if let Err(problem) = element(document, component, kind, builder, names) {
                 problems.push(problem);
             }
         }
@@ -106,7 +111,7 @@ fn coordinate(
         let message = format!("joint `{}` has no relative {}", joint.value, wanted.relative());
         let kinds = match wanted {
             Quantity::Angle => "a revolute, universal, swing_arm or cylindrical joint",
-            Quantity::Length => "a prismatic or cylindrical joint",
+            Quantity::Length | Quantity::State => "a prismatic or cylindrical joint",
         };
         return Err(Problem::error(joint.span, message)
             .label("nothing to act on")
@@ -126,10 +131,11 @@ fn coordinate(
 }
 
 fn element(
+    document: &Document,
     component: &Component,
     kind: &ElementKind,
     builder: &mut Builder,
-    names: &Names,
+    names: &mut Names,
 ) -> Result<(), Problem> {
     let local = |builder: &Builder, node: NodeId, place: &Vector3| {
         builder.initial_frame(node).inverse_transform_point(place)
@@ -155,6 +161,14 @@ fn element(
             Attached::Coordinate(coordinate(component, joint, wanted, builder, names)?)
         }
     };
-    (kind.build)(builder, attached, &component.parameters)
-        .map_err(|error| parameter_problem(component, &error))
+    let build = |builder: &mut Builder| (kind.build)(builder, attached, &component.parameters);
+    let built = match &component.signal {
+        None => build(builder),
+        Some((key, formula)) => {
+            let name = format!("`{key}` of load `{}`", component.name.value);
+            let signal = super::signals::add_formula(document, builder, names, &name, formula)?;
+            builder.add_driven(signal, build)
+        }
+    };
+    built.map_err(|error| parameter_problem(component, &error))
 }

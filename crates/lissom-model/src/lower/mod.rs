@@ -3,14 +3,17 @@
 
 mod analysis;
 mod connections;
+mod measurements;
 mod parts;
 pub mod registry;
+mod signals;
 
 use std::collections::BTreeMap;
 
 use lissom_core::analysis::Settings;
 use lissom_core::elements::beam::line::BeamLine;
 use lissom_core::registry::ParameterError;
+use lissom_core::signals::{Argument, MeasurementId};
 use lissom_core::system::{Builder, CoordinateId, NodeId, State, System};
 
 use crate::channels::{self, Channel};
@@ -31,11 +34,12 @@ pub struct Lowered {
     pub plan: Plan,
     /// What is recorded.
     pub channels: Vec<Channel>,
-    /// Where the parts of the model are among the nodes and coordinates.
+    /// Where the parts of the model are among the nodes and coordinates, and its signals.
     pub names: Names,
 }
 
-/// Nodes and coordinates by the names of the model.
+/// Nodes, coordinates and signals by the names of the model.
+#[derive(Default)]
 pub struct Names {
     /// Node of each body and point mass.
     pub nodes: BTreeMap<String, NodeId>,
@@ -43,6 +47,10 @@ pub struct Names {
     pub lines: BTreeMap<String, BeamLine>,
     /// Coordinates of each joint; a drive has those of the joint it drives.
     pub coordinates: BTreeMap<String, Vec<CoordinateId>>,
+    /// Signals, inputs and states.
+    pub signals: BTreeMap<String, Argument>,
+    /// Measurements that signals use, by the names they are written with.
+    measured: BTreeMap<String, MeasurementId>,
 }
 
 impl Names {
@@ -91,7 +99,7 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
     let mut problems = Vec::new();
     let mut builder = Builder::new();
     builder.set_gravity(document.gravity);
-    let mut names = Names { nodes: BTreeMap::new(), lines: BTreeMap::new(), coordinates: BTreeMap::new() };
+    let mut names = Names::default();
     parts::add(document, &mut builder, &mut names, &mut problems);
     stop_at(document, &mut problems)?;
     connections::add(document, &mut builder, &mut names, &mut problems);
@@ -111,7 +119,12 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
 
 impl Names {
     fn resolver(&self) -> channels::Resolver<'_> {
-        channels::Resolver { nodes: &self.nodes, lines: &self.lines, coordinates: &self.coordinates }
+        channels::Resolver {
+            nodes: &self.nodes,
+            lines: &self.lines,
+            coordinates: &self.coordinates,
+            signals: &self.signals,
+        }
     }
 }
 

@@ -91,13 +91,15 @@ fn links(document: &Document) -> String {
 }
 
 fn unknowns(lowered: &Lowered, freedom: &Mobility) -> String {
-    format!(
+    let states = lowered.system.layout().state_count();
+    let words = format!(
         "{}: {} coordinates ({} algebraic), {} multipliers",
         lowered.system.layout().size(),
         freedom.coordinates,
-        lowered.state.kinematics.coordinates.len(),
+        lowered.state.kinematics.coordinates.len() - states,
         freedom.constraints
-    )
+    );
+    if states == 0 { words } else { format!("{words}, {}", count(states, "state", "states")) }
 }
 
 fn analysis(document: &Document, lowered: &Lowered) -> String {

@@ -108,6 +108,7 @@ fn holds(holds: ParameterType) -> String {
         ParameterType::Direction => "direction".to_owned(),
         ParameterType::Flag => "true or false".to_owned(),
         ParameterType::Function => "number or expression of t".to_owned(),
+        ParameterType::Size => "number or expression of t, inputs, signals, states and outputs".to_owned(),
         ParameterType::Choice(words) => words.join(" | "),
     }
 }
@@ -127,7 +128,7 @@ fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
         ActsOn::JointCoordinate(Quantity::Angle) => {
             ("joint, the one whose relative rotation it acts on", "joint = \"my_hinge\"")
         }
-        ActsOn::JointCoordinate(Quantity::Length) => {
+        ActsOn::JointCoordinate(Quantity::Length | Quantity::State) => {
             ("joint, the one whose relative displacement it acts on", "joint = \"my_slide\"")
         }
     }

@@ -1,0 +1,138 @@
+//! Held values at the start, and when they change between two steps: inputs that are set, samples that are taken.
+//!
+//! Forces jump with them, and accelerations by M⁻¹ ΔF. What a scheme remembers of accelerations jumps as well, or it
+//! would see the change late by a part of a step: an error of first order in every velocity.
+
+use super::dynamics::{Settings, Simulation};
+use super::initial::{Initial, InitialError};
+use crate::joints::Quantity;
+use crate::signals::SignalError;
+use crate::system::{Kinematics, LOCKED, State, System};
+
+/// An input that cannot be set.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum InputError {
+    /// The model has no such input.
+    #[error("the model has no input `{name}`; its inputs are: {}", list(.known))]
+    Unknown {
+        /// The name that was given.
+        name: String,
+        /// Names of all inputs.
+        known: Vec<String>,
+    },
+    /// The value is not finite.
+    #[error("input `{name}` cannot be {value}: give a finite number")]
+    NotFinite {
+        /// The input.
+        name: String,
+        /// The value that was given.
+        value: f64,
+    },
+    /// A signal is not finite with this value.
+    #[error("with this input {0}")]
+    Signal(SignalError),
+    /// There are no consistent accelerations with it.
+    #[error(transparent)]
+    Initial(#[from] InitialError),
+}
+
+fn list(names: &[String]) -> String {
+    if names.is_empty() { "none".to_owned() } else { names.join(", ") }
+}
+
+/// Takes the first samples, and makes the rates of states, accelerations and multipliers fit places and velocities.
+pub(super) fn settle(
+    system: &System,
+    state: &mut State,
+    initial: &mut Initial,
+    settings: &Settings,
+) -> Result<(), InitialError> {
+    system.signals().begin(&mut state.kinematics).map_err(InitialError::Signal)?;
+    system.feedback.set_rates(&mut state.kinematics);
+    initial.accelerations(system, state)?;
+    Initial::accelerate_states(system, state, settings.step_size);
+    let delay = settings.scheme.memory_delay * settings.step_size;
+    state.algorithmic = initial.delayed_accelerations(system, state, delay)?;
+    Ok(())
+}
+
+impl Simulation {
+    /// Sets an input, from now on [SI]. Before the first step samples and initial accelerations are made to fit.
+    ///
+    /// # Errors
+    /// If there is no such input, if the value is not finite, or if there are no consistent accelerations with it. The
+    /// simulation is then as it was.
+    pub fn set_input(&mut self, name: &str, value: f64) -> Result<(), InputError> {
+        let graph = self.system.signals();
+        let Some(held) = graph.input(name) else {
+            let known = graph.input_names().map(str::to_owned).collect();
+            return Err(InputError::Unknown { name: name.to_owned(), known });
+        };
+        if !value.is_finite() {
+            return Err(InputError::NotFinite { name: name.to_owned(), value });
+        }
+        if self.state.kinematics.held[held] == value {
+            return Ok(());
+        }
+        let mut at = self.state.kinematics.clone();
+        at.held[held] = value;
+        graph.check(&at).map_err(InputError::Signal)?;
+        if self.totals.steps > 0 {
+            return Ok(self.change_held_values(at)?);
+        }
+        let mut state = self.state.clone();
+        state.kinematics = at;
+        if let Some(initial) = &mut self.held_values {
+            settle(&self.system, &mut state, initial, &self.settings)?;
+        }
+        self.previous.clone_from(&state);
+        self.state = state;
+        Ok(())
+    }
+
+    /// Goes over to the held values of `at`, which is the present state otherwise: accelerations, multipliers, and the
+    /// rates of states jump.
+    ///
+    /// # Errors
+    /// If there are no consistent accelerations; the state is then as it was.
+    pub(crate) fn change_held_values(&mut self, at: Kinematics) -> Result<(), InitialError> {
+        let Some(initial) = &mut self.held_values else {
+            self.state.kinematics = at;
+            return Ok(());
+        };
+        let layout = self.system.layout();
+        let before = initial.acceleration_at(&self.system, &self.state)?;
+        let held = std::mem::replace(&mut self.state.kinematics.held, at.held);
+        let mut jump = match initial.acceleration_at(&self.system, &self.state) {
+            Ok(after) => after,
+            Err(error) => {
+                self.state.kinematics.held = held;
+                return Err(error);
+            }
+        };
+        jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
+        let kinematics = &mut self.state.kinematics;
+        for (rows, node) in layout.node_rows.iter().zip(&mut kinematics.nodes) {
+            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+                node.acceleration[k] += jump[row as usize];
+            }
+        }
+        for (&row, own) in layout.coordinate_rows.iter().zip(&mut kinematics.coordinates) {
+            let jump = &mut jump[row as usize];
+            if layout.quantities[row as usize] == Quantity::State {
+                // In the place of an acceleration stands what the rate lacks.
+                own.rate += std::mem::take(jump);
+            } else {
+                own.acceleration += *jump;
+            }
+        }
+        let (motion, constraints) = jump.split_at(layout.coordinate_count());
+        // The one before as well: their difference tells how accelerations change between jumps.
+        for memory in [&mut self.previous.algorithmic, &mut self.state.algorithmic] {
+            memory.iter_mut().zip(motion).for_each(|(value, jump)| *value += jump);
+        }
+        self.state.multipliers.iter_mut().zip(constraints).for_each(|(value, jump)| *value += jump);
+        Ok(())
+    }
+}

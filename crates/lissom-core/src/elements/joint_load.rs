@@ -1,0 +1,82 @@
+//! Torque or force in a joint: acts on a relative coordinate, on the tip and with the opposite sign on the base.
+
+use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
+use crate::joints::Quantity;
+use crate::registry::{COORDINATE, Function, Parameter, ParameterError, ParameterType, Parameters};
+use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
+
+/// Registry entry of the torque on a rotation.
+pub const TORQUE: ElementKind = ElementKind {
+    name: "joint_torque",
+    summary: "Torque of an actuator on a joint's relative rotation, from the base on the tip.",
+    sample: "torque = \"2*sin(t)\"",
+    parameters: &[
+        Parameter::required(
+            "torque",
+            ParameterType::Size,
+            "N m",
+            "Torque about the joint's axis, positive where it increases the rotation.",
+        ),
+        COORDINATE,
+    ],
+    attachment: Attachment::Coordinate(Quantity::Angle),
+    build: |builder, attached, parameters| add(builder, attached, parameters, Quantity::Angle, "torque"),
+};
+
+/// Registry entry of the force on a displacement.
+pub const FORCE: ElementKind = ElementKind {
+    name: "joint_force",
+    summary: "Force of an actuator on a joint's relative displacement, from the base on the tip.",
+    sample: "force = \"2*sin(t)\"",
+    parameters: &[
+        Parameter::required(
+            "force",
+            ParameterType::Size,
+            "N",
+            "Force along the joint's axis, positive where it increases the displacement.",
+        ),
+        COORDINATE,
+    ],
+    attachment: Attachment::Coordinate(Quantity::Length),
+    build: |builder, attached, parameters| add(builder, attached, parameters, Quantity::Length, "force"),
+};
+
+/// Generalised force on an algebraic coordinate.
+#[derive(Clone, Debug)]
+pub struct JointLoad {
+    coordinate: [CoordinateId; 1],
+    size: Function,
+}
+
+fn add(
+    builder: &mut Builder,
+    attached: Attached,
+    parameters: &Parameters,
+    acts_on: Quantity,
+    size: &str,
+) -> Result<(), ParameterError> {
+    let coordinate = attached.coordinate()?;
+    builder.check_quantity(coordinate, acts_on)?;
+    builder.add_element(JointLoad { coordinate: [coordinate], size: parameters.function(size)? });
+    Ok(())
+}
+
+impl Element for JointLoad {
+    fn nodes(&self) -> &[NodeId] {
+        &[]
+    }
+
+    fn coordinates(&self) -> &[CoordinateId] {
+        &self.coordinate
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        out[0] -= self.size.value(at.time);
+    }
+
+    fn linearize(&self, _: &Kinematics, _: &mut Tangents) {}
+
+    fn energy(&self, _: &Kinematics) -> Energy {
+        Energy::default()
+    }
+}

@@ -1,0 +1,50 @@
+//! Value or rate of a relative coordinate of a joint, or the value of a first-order state.
+
+use super::measurement::{Gradient, Measurement};
+use crate::system::{CoordinateId, Kinematics};
+
+/// What of a coordinate is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Of {
+    /// Its value [m, rad].
+    Value,
+    /// Its rate [m/s, rad/s].
+    Rate,
+}
+
+/// A coordinate.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Coordinate {
+    coordinate: [CoordinateId; 1],
+    of: Of,
+}
+
+impl Coordinate {
+    /// Value or rate of a coordinate.
+    pub fn new(coordinate: CoordinateId, of: Of) -> Self {
+        Self { coordinate: [coordinate], of }
+    }
+}
+
+impl Measurement for Coordinate {
+    fn coordinates(&self) -> &[CoordinateId] {
+        &self.coordinate
+    }
+
+    fn value(&self, at: &Kinematics) -> f64 {
+        let coordinate = &at.coordinates[self.coordinate[0]];
+        match self.of {
+            Of::Value => coordinate.value,
+            Of::Rate => coordinate.rate,
+        }
+    }
+
+    fn gradient(&self, _: &Kinematics) -> Gradient {
+        let mut gradient = Gradient::zero();
+        match self.of {
+            Of::Value => gradient.by_place[0] = 1.0,
+            Of::Rate => gradient.by_rate[0] = 1.0,
+        }
+        gradient
+    }
+}

@@ -1,0 +1,302 @@
+//! Signals: numbers computed from time, inputs, first-order states and measurements of the motion, each evaluated once
+//! per stage, with exact derivatives. They are the sizes of loads and the derivatives of states.
+//!
+//! Legend: s signal, m measurement, q places, v velocities.
+//!
+//! ```text
+//! s_i = f_i(t, held, s_j (j < i), m_k),      ∂s_i/∂q = Σ_j ∂f_i/∂s_j ∂s_j/∂q + Σ_k ∂f_i/∂m_k ∂m_k/∂q
+//! ```
+//!
+//! Derivatives are accumulated backwards through the graph. Held values are constant within a step: inputs, and
+//! signals with a sample period between two samples.
+
+pub mod coordinate;
+pub mod measurement;
+pub mod point;
+pub mod rotation;
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::sync::Arc;
+
+use crate::system::Kinematics;
+use measurement::Measurement;
+
+/// Index of a held value: an input, or the last sample of a signal.
+pub type HeldId = usize;
+/// Index of a signal.
+pub type SignalId = usize;
+/// Index of a measurement.
+pub type MeasurementId = usize;
+
+/// Most arguments of one signal.
+pub const MOST_ARGUMENTS: usize = 64;
+
+/// Instants closer to a sample than this part of the period are at the sample.
+const CLOSE: f64 = 1e-9;
+
+/// Numbers that fit on the stack; larger graphs allocate when they are evaluated.
+const ON_STACK: usize = 64;
+
+/// A function of time and of arguments, with exact derivatives by the arguments.
+pub trait SignalFunction: Send + Sync + fmt::Debug {
+    /// Value at `time` [s].
+    fn value(&self, time: f64, arguments: &[f64]) -> f64;
+    /// Derivatives by the arguments at `time` [s], written to `out`, one for each argument.
+    fn gradient(&self, time: f64, arguments: &[f64], out: &mut [f64]);
+}
+
+/// Where an argument of a signal comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Argument {
+    /// A held value.
+    Held(HeldId),
+    /// An earlier signal.
+    Signal(SignalId),
+    /// A measurement.
+    Measured(MeasurementId),
+}
+
+/// A signal that is evaluated at samples only, and held in between.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    /// Where its value is held.
+    pub held: HeldId,
+    /// Time from sample to sample, from the start of the simulation [s].
+    pub period: f64,
+}
+
+/// A signal of a system.
+#[derive(Clone, Debug)]
+pub struct Signal {
+    /// What messages call it.
+    pub name: String,
+    /// Its expression, for messages.
+    pub text: String,
+    /// How it is computed.
+    pub function: Arc<dyn SignalFunction>,
+    /// From what.
+    pub arguments: Vec<Argument>,
+    /// For a sampled signal.
+    pub sampling: Option<Sampling>,
+}
+
+/// A signal that is not finite.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "signal {name} = {text} is {value} at t = {time:.6e} s: an argument is outside of what its functions allow"
+)]
+pub struct SignalError {
+    /// Name of the signal.
+    pub name: String,
+    /// Its expression.
+    pub text: String,
+    /// What it comes to.
+    pub value: f64,
+    /// Time [s].
+    pub time: f64,
+}
+
+/// All signals of a system, each after those it names.
+#[derive(Default)]
+pub struct Graph {
+    pub(crate) signals: Vec<Signal>,
+    pub(crate) measurements: Vec<Box<dyn Measurement>>,
+    /// Names of the held values, and what they are at the start.
+    pub(crate) held: Vec<(String, f64)>,
+}
+
+impl Graph {
+    /// The signals.
+    pub fn signals(&self) -> &[Signal] {
+        &self.signals
+    }
+
+    /// Names of the inputs: held values that are no samples.
+    pub fn input_names(&self) -> impl Iterator<Item = &str> {
+        let is_input = |&held: &HeldId| {
+            !self.signals.iter().any(|signal| signal.sampling.is_some_and(|own| own.held == held))
+        };
+        (0..self.held.len()).filter(is_input).map(|held| self.held[held].0.as_str())
+    }
+
+    /// The input called `name`.
+    pub fn input(&self, name: &str) -> Option<HeldId> {
+        let name = self.input_names().find(|known| *known == name)?;
+        self.held.iter().position(|(known, _)| known == name)
+    }
+
+    /// The signal called `name`.
+    pub fn signal(&self, name: &str) -> Option<SignalId> {
+        self.signals.iter().position(|signal| signal.name == name)
+    }
+
+    /// Whether any signal is sampled.
+    pub fn has_samples(&self) -> bool {
+        self.signals.iter().any(|signal| signal.sampling.is_some())
+    }
+
+    /// Calls `with` with the values of all signals at a configuration.
+    pub fn evaluate<T>(&self, at: &Kinematics, with: impl FnOnce(&[f64]) -> T) -> T {
+        with_room(self.signals.len(), |values| {
+            for index in 0..self.signals.len() {
+                values[index] = match self.signals[index].sampling {
+                    Some(Sampling { held, .. }) => at.held[held],
+                    None => self.compute(index, at, values),
+                };
+            }
+            with(values)
+        })
+    }
+
+    /// Value of one signal.
+    pub fn value(&self, signal: SignalId, at: &Kinematics) -> f64 {
+        self.evaluate(at, |values| values[signal])
+    }
+
+    /// Value of a measurement.
+    pub fn measured(&self, measurement: MeasurementId, at: &Kinematics) -> f64 {
+        self.measurements[measurement].value(at)
+    }
+
+    /// The expression of a signal, evaluated whether it is sampled or not.
+    fn compute(&self, index: SignalId, at: &Kinematics, values: &[f64]) -> f64 {
+        let signal = &self.signals[index];
+        let mut arguments = [0.0; MOST_ARGUMENTS];
+        self.gather(signal, at, values, &mut arguments);
+        signal.function.value(at.time, &arguments[..signal.arguments.len()])
+    }
+
+    fn gather(&self, signal: &Signal, at: &Kinematics, values: &[f64], out: &mut [f64]) {
+        for (value, argument) in out.iter_mut().zip(&signal.arguments) {
+            *value = match *argument {
+                Argument::Held(held) => at.held[held],
+                Argument::Signal(earlier) => values[earlier],
+                Argument::Measured(measurement) => self.measurements[measurement].value(at),
+            };
+        }
+    }
+
+    /// Hands the derivative of a signal by each of its measurements, where it is not zero, to `add`; `values` are those
+    /// of all signals.
+    pub(crate) fn differentiate(
+        &self,
+        root: SignalId,
+        at: &Kinematics,
+        values: &[f64],
+        mut add: impl FnMut(MeasurementId, f64),
+    ) {
+        with_room(root + 1, |adjoints| {
+            adjoints[root] = 1.0;
+            for index in (0..=root).rev() {
+                let (signal, adjoint) = (&self.signals[index], adjoints[index]);
+                if adjoint == 0.0 || signal.sampling.is_some() {
+                    continue;
+                }
+                let (mut arguments, mut gradient) = ([0.0; MOST_ARGUMENTS], [0.0; MOST_ARGUMENTS]);
+                let count = signal.arguments.len();
+                self.gather(signal, at, values, &mut arguments);
+                signal.function.gradient(at.time, &arguments[..count], &mut gradient[..count]);
+                for (argument, derivative) in signal.arguments.iter().zip(&gradient) {
+                    match *argument {
+                        Argument::Held(_) => {}
+                        Argument::Signal(earlier) => adjoints[earlier] += adjoint * derivative,
+                        Argument::Measured(measurement) => add(measurement, adjoint * derivative),
+                    }
+                }
+            }
+        });
+    }
+
+    /// Measurements that a signal depends on between samples.
+    pub(crate) fn measurements_of(&self, root: SignalId) -> BTreeSet<MeasurementId> {
+        let (mut open, mut found, mut seen) = (vec![root], BTreeSet::new(), BTreeSet::new());
+        while let Some(index) = open.pop() {
+            if self.signals[index].sampling.is_some() || !seen.insert(index) {
+                continue;
+            }
+            for argument in &self.signals[index].arguments {
+                match *argument {
+                    Argument::Held(_) => {}
+                    Argument::Signal(earlier) => open.push(earlier),
+                    Argument::Measured(measurement) => {
+                        found.insert(measurement);
+                    }
+                }
+            }
+        }
+        found
+    }
+
+    /// Takes the first samples, at the start, where they are sampled from their values before the first.
+    ///
+    /// # Errors
+    /// If a signal is not finite; all held values are then as they were.
+    pub(crate) fn begin(&self, at: &mut Kinematics) -> Result<(), SignalError> {
+        let before = at.held.clone();
+        for Sampling { held, .. } in self.signals.iter().filter_map(|signal| signal.sampling) {
+            at.held[held] = self.held[held].1;
+        }
+        let begun = self.sample(at, 0.0);
+        if begun.is_err() {
+            at.held = before;
+        }
+        begun
+    }
+
+    /// Takes the samples that are due `elapsed` [s] after the start. Signals are sampled in their order, so that a
+    /// sample sees those taken before it at the same instant.
+    ///
+    /// # Errors
+    /// If a signal is not finite; all held values are then as they were.
+    pub(crate) fn sample(&self, at: &mut Kinematics, elapsed: f64) -> Result<(), SignalError> {
+        let before = at.held.clone();
+        let mut values = vec![0.0; self.signals.len()];
+        for (index, signal) in self.signals.iter().enumerate() {
+            values[index] = match signal.sampling {
+                Some(Sampling { held, period }) if !is_due(elapsed / period) => at.held[held],
+                _ => self.compute(index, at, &values),
+            };
+            if let Some(Sampling { held, .. }) = signal.sampling {
+                at.held[held] = values[index];
+            }
+        }
+        let checked = self.check(at);
+        if checked.is_err() {
+            at.held = before;
+        }
+        checked
+    }
+
+    /// Whether all signals are finite.
+    ///
+    /// # Errors
+    /// The first that is not.
+    pub(crate) fn check(&self, at: &Kinematics) -> Result<(), SignalError> {
+        self.evaluate(at, |values| match values.iter().position(|value| !value.is_finite()) {
+            None => Ok(()),
+            Some(index) => {
+                let Signal { name, text, .. } = &self.signals[index];
+                let (name, text) = (name.clone(), text.clone());
+                Err(SignalError { name, text, value: values[index], time: at.time })
+            }
+        })
+    }
+
+    /// The first instant after `time` [s] at which a sample is due, where the first samples are taken at `origin` [s].
+    pub(crate) fn next_sample(&self, origin: f64, time: f64) -> Option<f64> {
+        let next = |period: f64| origin + (((time - origin) / period + CLOSE).floor() + 1.0) * period;
+        let periods = self.signals.iter().filter_map(|signal| signal.sampling.map(|own| own.period));
+        periods.map(next).min_by(f64::total_cmp)
+    }
+}
+
+/// Whether so many periods after the start a sample is due.
+fn is_due(periods: f64) -> bool {
+    (periods - periods.round()).abs() <= CLOSE
+}
+
+/// Calls `with` with so many zeros.
+fn with_room<T>(count: usize, with: impl FnOnce(&mut [f64]) -> T) -> T {
+    if count <= ON_STACK { with(&mut [0.0; ON_STACK][..count]) } else { with(&mut vec![0.0; count]) }
+}

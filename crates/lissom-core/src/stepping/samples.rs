@@ -1,0 +1,64 @@
+//! Steps that end at samples of signals: a planned step across a sample is taken in pieces that end there.
+
+use crate::analysis::{Simulation, StepError, StepReport, Stopwatch};
+
+/// A sample this close to the end of a step, relative to the step, is at its end.
+const CLOSE: f64 = 1e-9;
+
+impl Simulation {
+    /// Time of the state [s], with what rounding has cut off.
+    fn now(&self) -> f64 {
+        self.state.kinematics.time + self.state.time_remainder
+    }
+
+    /// The next instant at which a signal is sampled [s], if one is.
+    pub(super) fn next_sample(&self) -> Option<f64> {
+        self.system.signals().next_sample(self.origin.time, self.now())
+    }
+
+    /// Takes a step of planned size, in pieces that end at the samples within it.
+    pub(super) fn sampled_step(
+        &mut self,
+        watch: &mut dyn Stopwatch,
+        report: &mut StepReport,
+    ) -> Result<(), StepError> {
+        let whole = self.settings.step_size;
+        if !self.system.signals().has_samples() {
+            return self.planned_step(whole, watch, report);
+        }
+        let start = self.state.clone();
+        let end = self.now() + whole;
+        // Of the first piece the size is known to the last bit.
+        let mut rest = whole;
+        let outcome = loop {
+            let next = self.next_sample().map_or(f64::INFINITY, |next| next - self.now());
+            let is_last = next >= rest * (1.0 - CLOSE);
+            let result = self.planned_step(if is_last { rest } else { next }, watch, report);
+            let result = result.and_then(|()| self.take_samples());
+            if result.is_err() || is_last {
+                break result;
+            }
+            rest = end - self.now();
+        };
+        if outcome.is_err() {
+            self.state = start;
+        }
+        outcome
+    }
+
+    /// Samples what is due now.
+    pub(super) fn take_samples(&mut self) -> Result<(), StepError> {
+        let elapsed = self.now() - self.origin.time;
+        let graph = self.system.signals();
+        if !graph.has_samples() {
+            return Ok(());
+        }
+        let mut at = self.state.kinematics.clone();
+        graph.sample(&mut at, elapsed).map_err(StepError::Signal)?;
+        if at.held == self.state.kinematics.held {
+            return Ok(());
+        }
+        let time = at.time;
+        self.change_held_values(at).map_err(|error| StepError::Velocities { time, error })
+    }
+}

@@ -1,0 +1,331 @@
+//! What signals act on: loads whose size is a signal, and first-order states whose derivative is one. Laid beside the
+//! batches of elements, so that a system without signals pays nothing.
+//!
+//! Legend: e forces of the load of size one, s its signal, x a state.
+//!
+//! ```text
+//! load:   f = s e,      ∂f/∂q = s ∂e/∂q + e ∂s/∂q            state:   x' - s = 0
+//! ```
+
+use std::any::Any;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use lissom_solver::Pattern;
+
+use super::batch::{AnyBatch, Chart, scatter, through};
+use super::layout::Layout;
+use super::places::{Places, free_rows};
+use super::receiver::{Place, Receiver};
+use super::state::{CoordinateId, Kinematics, NodeId};
+use super::threads::Threads;
+use crate::elements::passage::{Passage, STAGES, Variation};
+use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
+use crate::signals::measurement::Measurement;
+use crate::signals::{Graph, SignalId};
+
+/// Most local unknowns of a load or state with all that its signal touches.
+const MOST_LOCAL: usize = 255;
+
+/// What a signal acts on.
+pub(crate) enum Target {
+    /// A load of size one.
+    Load(Box<dyn Element>),
+    /// A first-order state.
+    State([CoordinateId; 1]),
+}
+
+impl Target {
+    fn nodes(&self) -> &[NodeId] {
+        match self {
+            Self::Load(element) => element.nodes(),
+            Self::State(_) => &[],
+        }
+    }
+
+    fn coordinates(&self) -> &[CoordinateId] {
+        match self {
+            Self::Load(element) => element.coordinates(),
+            Self::State(coordinate) => coordinate,
+        }
+    }
+}
+
+/// A load or state, and the unknowns it and its signal touch: its own first, as its element counts them, then others.
+struct Driven {
+    target: Target,
+    signal: SignalId,
+    /// Number of its own unknowns.
+    own: usize,
+    /// First local unknown of each node and coordinate.
+    nodes: Vec<(NodeId, usize)>,
+    coordinates: Vec<(CoordinateId, usize)>,
+    rows: Vec<u32>,
+}
+
+impl Driven {
+    fn new(target: Target, signal: SignalId, graph: &Graph, layout: &Layout) -> Option<Self> {
+        let (mut nodes, mut coordinates, mut rows) = (Vec::new(), Vec::new(), Vec::new());
+        for &node in target.nodes() {
+            nodes.push((node, rows.len()));
+            rows.extend_from_slice(layout.rows_of_node(node));
+        }
+        for &coordinate in target.coordinates() {
+            coordinates.push((coordinate, rows.len()));
+            rows.push(layout.row_of_coordinate(coordinate) as u32);
+        }
+        let own = rows.len();
+        let measured: BTreeSet<usize> = graph.measurements_of(signal);
+        for measurement in measured.into_iter().map(|index| &graph.measurements[index]) {
+            for &node in measurement.nodes() {
+                if !nodes.iter().any(|&(known, _)| known == node) {
+                    nodes.push((node, rows.len()));
+                    rows.extend_from_slice(layout.rows_of_node(node));
+                }
+            }
+            for &coordinate in measurement.coordinates() {
+                if !coordinates.iter().any(|&(known, _)| known == coordinate) {
+                    coordinates.push((coordinate, rows.len()));
+                    rows.push(layout.row_of_coordinate(coordinate) as u32);
+                }
+            }
+        }
+        (rows.len() <= MOST_LOCAL).then_some(Self { target, signal, own, nodes, coordinates, rows })
+    }
+
+    /// Adds `factor` times a measurement's gradient to row `row` of the local matrices.
+    fn add_gradient(
+        &self,
+        measurement: &dyn Measurement,
+        at: &Kinematics,
+        factors: &[f64],
+        out: &mut Tangents,
+    ) {
+        let gradient = measurement.gradient(at);
+        let size = out.size();
+        let mut from = 0;
+        let mut add = |column: usize, count: usize| {
+            for (row, factor) in factors.iter().enumerate().filter(|&(_, &factor)| factor != 0.0) {
+                for k in 0..count {
+                    let entry = row * size + column + k;
+                    out.stiffness[entry] += factor * gradient.by_place[from + k];
+                    out.damping[entry] += factor * gradient.by_rate[from + k];
+                }
+            }
+            from += count;
+        };
+        for node in measurement.nodes() {
+            if let Some(&(_, column)) = self.nodes.iter().find(|(known, _)| known == node) {
+                add(column, 6);
+            }
+        }
+        for coordinate in measurement.coordinates() {
+            if let Some(&(_, column)) = self.coordinates.iter().find(|(known, _)| known == coordinate) {
+                add(column, 1);
+            }
+        }
+    }
+
+    /// Adds its derivatives; `values` are those of all signals.
+    fn linearize(&self, graph: &Graph, at: &Kinematics, values: &[f64], out: &mut Tangents) {
+        let mut factors = [0.0; MOST_UNKNOWNS];
+        match &self.target {
+            Target::Load(element) => {
+                out.clear(self.own);
+                element.linearize(at, out);
+                out.multiply(values[self.signal]);
+                out.widen(self.rows.len());
+                element.forces(at, &mut factors[..self.own]);
+            }
+            Target::State(_) => {
+                out.clear(self.rows.len());
+                out.damping[0] = 1.0;
+                factors[0] = -1.0;
+            }
+        }
+        graph.differentiate(self.signal, at, values, |measurement, derivative| {
+            let scaled = factors.map(|factor| derivative * factor);
+            self.add_gradient(&*graph.measurements[measurement], at, &scaled[..self.own], out);
+        });
+    }
+}
+
+/// The graph of signals and what they act on.
+#[derive(Default)]
+pub(crate) struct Feedback {
+    pub(crate) graph: Graph,
+    driven: Vec<Driven>,
+    places: Places,
+}
+
+/// Too many unknowns are touched by one signal, of this name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct TouchesTooMuch {
+    pub(crate) name: String,
+}
+
+impl Feedback {
+    pub(crate) fn new(
+        graph: Graph,
+        targets: Vec<(Target, SignalId)>,
+        layout: &Layout,
+    ) -> Result<Self, TouchesTooMuch> {
+        let driven = targets.into_iter().map(|(target, signal)| {
+            let touches = || TouchesTooMuch { name: graph.signals[signal].name.clone() };
+            Driven::new(target, signal, &graph, layout).ok_or_else(touches)
+        });
+        let driven = driven.collect::<Result<_, _>>()?;
+        Ok(Self { graph, driven, places: Places::new() })
+    }
+
+    pub(crate) fn is_empty(&self) -> bool {
+        self.driven.is_empty()
+    }
+
+    /// Whether any signal that acts on something depends on the motion or a state, between samples or at them, or
+    /// there is a state.
+    pub(crate) fn depends_on_motion(&self) -> bool {
+        !self.is_empty() && !self.graph.measurements.is_empty()
+    }
+
+    /// Own rows of each load or state with those of each node and coordinate it is touched by: what its tangent fills.
+    pub(crate) fn cliques(&self) -> Vec<Vec<usize>> {
+        let mut cliques = Vec::new();
+        for driven in &self.driven {
+            let own = free_rows(&driven.rows[..driven.own]);
+            cliques.push(own.clone());
+            let nodes = driven.nodes.iter().map(|&(_, column)| (column, 6));
+            for (column, count) in nodes.chain(driven.coordinates.iter().map(|&(_, column)| (column, 1))) {
+                let mut clique = own.clone();
+                clique.extend(free_rows(&driven.rows[column..column + count]));
+                clique.sort_unstable();
+                clique.dedup();
+                cliques.push(clique);
+            }
+        }
+        cliques
+    }
+
+    pub(crate) fn locate(&mut self, pattern: &Pattern) {
+        self.places = Places::new();
+        for driven in &self.driven {
+            self.places.push_rows(pattern, &driven.rows, driven.own);
+        }
+        self.places.shrink();
+    }
+
+    /// Sets the rates of all states to what their signals are.
+    pub(crate) fn set_rates(&self, at: &mut Kinematics) {
+        let rates: Vec<f64> = self.graph.evaluate(at, <[f64]>::to_vec);
+        for driven in &self.driven {
+            if let Target::State([coordinate]) = driven.target {
+                at.coordinates[coordinate].rate = rates[driven.signal];
+            }
+        }
+    }
+
+    fn add_forces(&self, at: &Kinematics, out: &mut [f64]) {
+        self.graph.evaluate(at, |values| {
+            for driven in &self.driven {
+                let mut local = [0.0; MOST_UNKNOWNS];
+                match &driven.target {
+                    Target::Load(element) => {
+                        element.forces(at, &mut local[..driven.own]);
+                        local = local.map(|force| values[driven.signal] * force);
+                    }
+                    Target::State([coordinate]) => {
+                        local[0] = at.coordinates[*coordinate].rate - values[driven.signal];
+                    }
+                }
+                scatter(&driven.rows[..driven.own], &local, out);
+            }
+        });
+    }
+
+    fn hand_derivatives(
+        &self,
+        at: &Kinematics,
+        chart: Chart<'_>,
+        scratch: &mut Tangents,
+        out: &mut Receiver<'_>,
+    ) {
+        self.graph.evaluate(at, |values| {
+            for (index, driven) in self.driven.iter().enumerate() {
+                driven.linearize(&self.graph, at, values, scratch);
+                through(chart, driven.nodes.iter().copied(), scratch);
+                out.add_element(Place { rows: &driven.rows, runs: self.places.of(index) }, scratch);
+            }
+        });
+    }
+}
+
+/// The same among the batches of elements.
+impl AnyBatch for Arc<Feedback> {
+    fn len(&self) -> usize {
+        0
+    }
+
+    fn connect(&mut self, _: &Layout) {}
+
+    fn locate(&mut self, _: &Pattern) {}
+
+    fn cliques(&self) -> Vec<Vec<usize>> {
+        Feedback::cliques(self)
+    }
+
+    fn starts(&self) -> &[usize] {
+        &[0]
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        self.add_forces(at, out);
+    }
+
+    fn forces_side_by_side(&self, at: &Kinematics, _: &mut Threads, out: &mut [f64]) {
+        self.add_forces(at, out);
+    }
+
+    fn linearize(
+        &self,
+        (at, _): (&Kinematics, &Kinematics),
+        chart: Chart<'_>,
+        scratch: &mut Tangents,
+        out: &mut Receiver<'_>,
+    ) {
+        self.hand_derivatives(at, chart, scratch, out);
+    }
+
+    fn passage_forces(&self, passage: &Passage<'_>, out: &mut [Vec<f64>]) {
+        for (at, out) in passage.stages.iter().zip(out) {
+            self.add_forces(at, out);
+        }
+    }
+
+    fn linearize_stage(
+        &self,
+        passage: &Passage<'_>,
+        stage: usize,
+        _: Option<&Kinematics>,
+        scratch: &mut Tangents,
+        out: &mut Receiver<'_>,
+    ) {
+        self.hand_derivatives(passage.stages[stage], Chart::Body, scratch, out);
+    }
+
+    fn linearize_integrated(
+        &self,
+        _: &Passage<'_>,
+        _: &[[Variation; STAGES]],
+        _: &mut [[Vec<f64>; STAGES]; STAGES],
+        _: &mut dyn FnMut(usize, usize, usize, f64),
+    ) {
+    }
+
+    fn energy(&self, _: &Kinematics) -> Energy {
+        Energy::default()
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+}

@@ -1,0 +1,147 @@
+//! Loads whose size is a signal, and states: tangents are derivatives through the whole graph of signals.
+
+use std::sync::Arc;
+
+use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
+use lissom_core::registry::{Constant, ParameterType, Value};
+use lissom_core::signals::coordinate::{self, Coordinate};
+use lissom_core::signals::point::{self, Point};
+use lissom_core::signals::rotation::{self, Turn};
+use lissom_core::signals::{Argument, Sampling, Signal, SignalFunction};
+use lissom_core::system::{Builder, CoordinateId, NodeId};
+use lissom_motion::Vector3;
+
+use super::configuration::{Configuration, Random, sample_parameters};
+use super::{check, joint_with, two_bodies};
+use lissom_core::joints::Quantity;
+use lissom_core::system::Placement;
+
+/// Σ sin(k + argument k), times the cosine of time.
+#[derive(Debug)]
+struct Waves;
+
+impl SignalFunction for Waves {
+    fn value(&self, time: f64, arguments: &[f64]) -> f64 {
+        let sum: f64 = arguments.iter().enumerate().map(|(k, value)| (k as f64 + value).sin()).sum();
+        (1.5 + sum) * time.cos()
+    }
+
+    fn gradient(&self, time: f64, arguments: &[f64], out: &mut [f64]) {
+        for (k, (out, value)) in out.iter_mut().zip(arguments).enumerate() {
+            *out = (k as f64 + value).cos() * time.cos();
+        }
+    }
+}
+
+fn signal(arguments: Vec<Argument>, sampling: Option<Sampling>) -> Signal {
+    Signal {
+        name: "waves".to_owned(),
+        text: "waves".to_owned(),
+        function: Arc::new(Waves),
+        arguments,
+        sampling,
+    }
+}
+
+fn joint(builder: &mut Builder, nodes: [NodeId; 2], wanted: Quantity, random: &mut Random) -> CoordinateId {
+    let placement = Placement {
+        nodes,
+        at: random.vector(),
+        at_tip: None,
+        axis: Some(random.vector()),
+        second_axis: None,
+    };
+    let parameters = sample_parameters(&[], false, random);
+    builder.add_joint("joint", joint_with(wanted), &placement, &parameters).expect("valid")[0]
+}
+
+/// Signals of everything that can be measured, one upon the other; the last one.
+fn graph(builder: &mut Builder, nodes: [NodeId; 2], own: CoordinateId, random: &mut Random) -> usize {
+    let held = builder.add_held("input", 0.3);
+    let sample = builder.add_held("sample", -0.2);
+    let state = builder.add_state("state", 0.4, 1.0);
+    let axis = random.vector().normalize();
+    let frame = builder.initial_frame(nodes[1]);
+    let point = |of| Point::new(nodes[0], Vector3::new(0.3, -0.2, 0.5), axis, of);
+    let measured = [
+        builder.add_measurement(Coordinate::new(own, coordinate::Of::Value)),
+        builder.add_measurement(Coordinate::new(own, coordinate::Of::Rate)),
+        builder.add_measurement(Coordinate::new(state, coordinate::Of::Value)),
+        builder.add_measurement(point(point::Of::PositionFrom(Vector3::x()))),
+        builder.add_measurement(point(point::Of::Velocity)),
+        builder.add_measurement(Turn::new(nodes[1], axis, rotation::Of::RotationFrom(frame.rotation))),
+        builder.add_measurement(Turn::new(nodes[1], axis, rotation::Of::AngularVelocity)),
+    ]
+    .map(Argument::Measured);
+    let mut add = |arguments, sampling| builder.add_signal(signal(arguments, sampling)).expect("valid");
+    let sampled = add(vec![measured[3]], Some(Sampling { held: sample, period: 0.1 }));
+    let first = add(vec![measured[0], measured[4], Argument::Held(held)], None);
+    let second = add([&[Argument::Signal(first), Argument::Signal(sampled)], &measured[..]].concat(), None);
+    let last = add(vec![Argument::Signal(second), Argument::Signal(first), measured[5]], None);
+    builder.drive_state(state, last);
+    last
+}
+
+#[test]
+fn sizes_that_are_signals() {
+    for (seed, kind) in SPRINGS.iter().chain(LOADS).enumerate() {
+        let Some(size) = kind.parameters.iter().find(|own| own.holds == ParameterType::Size) else {
+            continue;
+        };
+        for flag in [false, true] {
+            let mut random = Random::new(seed as u64 + 70);
+            let (mut builder, nodes) = two_bodies(&mut random);
+            let wanted = match kind.attachment {
+                Attachment::Coordinate(wanted) => wanted,
+                _ => Quantity::Angle,
+            };
+            let own = joint(&mut builder, nodes, wanted, &mut random);
+            let attached = match kind.attachment {
+                Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),
+                Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
+                Attachment::Coordinate(_) => Attached::Coordinate(own),
+            };
+            let last = graph(&mut builder, nodes, own, &mut random);
+            let parameters = sample_parameters(kind.parameters, flag, &mut random)
+                .with(size.name, Value::Function(Arc::new(Constant(1.0))));
+            builder.add_driven(last, |builder| (kind.build)(builder, attached, &parameters)).expect("valid");
+            let (system, state) = builder.build(0.0).expect("valid");
+            check(kind.name, &system, &state, 0.4, &mut random);
+        }
+    }
+}
+
+/// What a signal multiplies must be in proportion to the size: a load of size 2 is twice that of size 1.
+#[test]
+fn loads_are_in_proportion_to_their_size() {
+    for (seed, kind) in SPRINGS.iter().chain(LOADS).enumerate() {
+        let Some(size) = kind.parameters.iter().find(|own| own.holds == ParameterType::Size) else {
+            continue;
+        };
+        let forces = |factor: f64| {
+            let mut random = Random::new(seed as u64 + 90);
+            let (mut builder, nodes) = two_bodies(&mut random);
+            let attached = match kind.attachment {
+                Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),
+                Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
+                Attachment::Coordinate(wanted) => {
+                    Attached::Coordinate(joint(&mut builder, nodes, wanted, &mut random))
+                }
+            };
+            let parameters =
+                sample_parameters(kind.parameters, false, &mut random).with(size.name, Value::Number(factor));
+            (kind.build)(&mut builder, attached, &parameters).expect("valid");
+            let (system, state) = builder.build(0.0).expect("valid");
+            let mut here = Configuration::random(&system, &state, 0.4, &mut random);
+            here.multipliers.fill(0.0);
+            here.residual(&system, 0.0)
+        };
+        let count = 12;
+        let [none, once, twice] = [0.0, 1.0, 2.0].map(forces);
+        for row in 0..count {
+            let (one, two) = (once[row] - none[row], twice[row] - none[row]);
+            assert!((two - 2.0 * one).abs() < 1e-13 * (1.0 + two.abs()), "{}: {one} {two}", kind.name);
+            assert!(none[row].abs() < 1e-14, "{}: without size there is no force", kind.name);
+        }
+    }
+}

@@ -1,0 +1,104 @@
+//! Inputs, signals and first-order states of a model file.
+
+use std::collections::BTreeMap;
+
+use super::decode::each;
+use crate::context::{Context, singular};
+use crate::expression::{self, Formula};
+use crate::keys::Shape;
+use crate::reader::Reader;
+use crate::report::{Located, Problem, Span};
+use crate::text::Value;
+
+/// A named expression.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SignalEntry {
+    /// Name.
+    pub name: Located<String>,
+    /// Its expression.
+    pub value: Located<Formula>,
+    /// Time from sample to sample [s] and value before the first, for a sampled one.
+    pub sampling: Option<(f64, f64)>,
+}
+
+/// A first-order state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StateEntry {
+    /// Name.
+    pub name: Located<String>,
+    /// Its derivative by time.
+    pub derivative: Located<Formula>,
+    /// Value at the start.
+    pub start: f64,
+    /// Usual magnitude, by which errors are measured.
+    pub magnitude: f64,
+}
+
+/// Inputs, signals and states have names that expressions can write, and share them with parameters.
+pub(super) fn check_names(context: &Context<'_>) {
+    let mut known: BTreeMap<&str, (Span, &str)> =
+        context.names("parameters").into_iter().map(|(name, span)| (name, (span, "parameter"))).collect();
+    for table in ["inputs", "signals", "states"] {
+        for (name, span) in context.names(table) {
+            let what = singular(table);
+            let mut letters = name.chars();
+            let is_word = letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
+                && letters.all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
+            if !is_word {
+                let message =
+                    format!("`{name}` cannot be the name of a {what}: expressions could not write it");
+                context.fail::<()>(span, message, "use letters, digits and `_`, a letter first");
+            } else if expression::is_reserved(name) {
+                let message = format!("a {what} cannot be called `{name}`");
+                context.fail::<()>(span, message, "expressions give this word another meaning");
+            } else if let Some((first, other)) = known.insert(name, (span, what)) {
+                let message = format!("the {what} `{name}` has the name of a {other}");
+                let problem = Problem::error(span, message).label("again").also(first, "first here");
+                context.tell(problem.help("parameters, inputs, signals and states need different names"));
+            }
+        }
+    }
+}
+
+pub(super) fn inputs(context: &Context<'_>) -> Vec<(Located<String>, f64)> {
+    let read = |(name, span, node): (&str, Span, _)| {
+        let value = context.number(node, &format!("input `{name}`"))?;
+        Some((Located::new(name.to_owned(), span), value))
+    };
+    context.entries("inputs").into_iter().filter_map(read).collect()
+}
+
+pub(super) fn signals(context: &Context<'_>) -> Vec<SignalEntry> {
+    let mut signals = Vec::new();
+    for (name, span, node) in context.entries("signals") {
+        let what = format!("signal `{name}`");
+        let entry = if let Value::Table(_) = node.value {
+            Reader::open(context, node, (what, span), Shape::signal_keys()).and_then(|reader| {
+                let period = reader.number("sample");
+                let value = reader.formula("value")?;
+                let start = reader.number("start").map_or(0.0, |start| start.value);
+                let sampling = Some((period?.value, start));
+                Some(SignalEntry { name: Located::new(name.to_owned(), span), value, sampling })
+            })
+        } else {
+            context.formula(node, &what).map(|formula| SignalEntry {
+                name: Located::new(name.to_owned(), span),
+                value: Located::new(formula, node.span),
+                sampling: None,
+            })
+        };
+        signals.extend(entry);
+    }
+    signals
+}
+
+pub(super) fn states(context: &Context<'_>) -> Vec<StateEntry> {
+    each(context, "states", |reader, name| {
+        Some(StateEntry {
+            name: Located::new(name.to_owned(), reader.name),
+            derivative: reader.formula("derivative")?,
+            start: reader.number("start").map_or(0.0, |start| start.value),
+            magnitude: reader.number("magnitude").map_or(1.0, |magnitude| magnitude.value),
+        })
+    })
+}

@@ -1,0 +1,101 @@
+//! Expressions of time and of named quantities, with exact derivatives by each of them.
+
+use std::collections::BTreeMap;
+use std::ops::Range;
+
+use lissom_core::signals::SignalFunction;
+
+use super::compile::compile;
+use super::{ExpressionError, Jet, Step, run};
+
+/// A name in an expression that is no parameter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Name {
+    /// The name, as `tip.u1`.
+    pub text: String,
+    /// Where it stands first in the expression.
+    pub range: Range<usize>,
+}
+
+/// A compiled expression of the time `t` and of named quantities.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Formula {
+    steps: Vec<Step>,
+    arguments: Vec<Name>,
+    text: String,
+}
+
+impl Formula {
+    /// Reads `text`, in which `parameters` are numbers and all other names are arguments.
+    ///
+    /// # Errors
+    /// If the text is no expression; with the offending bytes.
+    pub fn parse(text: &str, parameters: &BTreeMap<String, f64>) -> Result<Self, ExpressionError> {
+        let mut arguments = Vec::new();
+        let steps = compile(text, Some("t"), parameters, Some(&mut arguments))?;
+        Ok(Self { steps, arguments, text: text.to_owned() })
+    }
+
+    /// The same number at all times.
+    pub fn of_constant(value: f64) -> Self {
+        Self { steps: vec![Step::Constant(value)], arguments: Vec::new(), text: value.to_string() }
+    }
+
+    /// The names it depends on, each once, in the order of the arguments.
+    pub fn arguments(&self) -> &[Name] {
+        &self.arguments
+    }
+
+    /// The expression as it was written.
+    pub fn text(&self) -> &str {
+        &self.text
+    }
+}
+
+impl SignalFunction for Formula {
+    fn value(&self, time: f64, arguments: &[f64]) -> f64 {
+        run(&self.steps, Jet::constant(time), |index| Jet::constant(arguments[index])).value
+    }
+
+    fn gradient(&self, time: f64, arguments: &[f64], out: &mut [f64]) {
+        for (wanted, derivative) in out.iter_mut().enumerate() {
+            let of = |index: usize| {
+                let value = arguments[index];
+                if index == wanted { Jet::variable(value) } else { Jet::constant(value) }
+            };
+            *derivative = run(&self.steps, Jet::constant(time), of).first;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(text: &str) -> Result<Formula, ExpressionError> {
+        Formula::parse(text, &BTreeMap::from([("k".to_owned(), 200.0)]))
+    }
+
+    #[test]
+    fn names_are_arguments_and_derivatives_are_theirs() {
+        let formula = parse("-k*(arm.rotation - 0.5*sin(t)) - 10*arm.rate^2 + arm.rotation*command").unwrap();
+        let names: Vec<&str> = formula.arguments().iter().map(|name| name.text.as_str()).collect();
+        assert_eq!(names, ["arm.rotation", "arm.rate", "command"]);
+        let arguments = [0.3, -0.2, 1.5];
+        let value = formula.value(0.7, &arguments);
+        let wanted = -200.0 * (0.3 - 0.5 * 0.7_f64.sin()) - 10.0 * 0.04 + 0.3 * 1.5;
+        assert!((value - wanted).abs() < 1e-13);
+        let mut gradient = [0.0; 3];
+        formula.gradient(0.7, &arguments, &mut gradient);
+        for (found, wanted) in gradient.iter().zip([-198.5, 4.0, 0.3]) {
+            assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
+        }
+    }
+
+    #[test]
+    fn a_name_is_not_a_function() {
+        assert!(parse("tip.u1(3)").unwrap_err().message.contains("unknown function"));
+        assert!(parse("a.").is_err());
+        assert_eq!(parse("2*k").unwrap().arguments(), []);
+    }
+}

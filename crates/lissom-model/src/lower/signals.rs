@@ -1,0 +1,219 @@
+//! Inputs, signals and states: names in expressions become held values, earlier signals and measurements.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use lissom_core::joints::Quantity;
+use lissom_core::signals::coordinate::{Coordinate, Of};
+use lissom_core::signals::{Argument, HeldId, Sampling, Signal, SignalId};
+use lissom_core::system::{Builder, CoordinateId};
+
+use super::Names;
+use super::measurements::measure;
+use crate::document::{Document, SignalEntry};
+use crate::expression::{Formula, Name};
+use crate::report::{Located, Problem};
+use crate::suggest;
+
+/// Adds all inputs, signals and states.
+pub(super) fn add(
+    document: &Document,
+    builder: &mut Builder,
+    names: &mut Names,
+    problems: &mut Vec<Problem>,
+) {
+    for (name, value) in &document.inputs {
+        let held = builder.add_held(&name.value, *value);
+        names.signals.insert(name.value.clone(), Argument::Held(held));
+    }
+    let mut states = Vec::new();
+    for state in &document.states {
+        let coordinate = builder.add_state(&state.name.value, state.start, state.magnitude);
+        let measured = builder.add_measurement(Coordinate::new(coordinate, Of::Value));
+        names.signals.insert(state.name.value.clone(), Argument::Measured(measured));
+        states.push(coordinate);
+    }
+    let mut order = Order { document, marks: BTreeMap::new(), path: Vec::new(), sorted: Vec::new() };
+    for entry in &document.signals {
+        if let Err(problem) = order.visit(entry) {
+            problems.push(problem);
+            // Whatever names a signal of a loop would be wrong as well.
+            return;
+        }
+    }
+    for entry in order.sorted {
+        if let Err(problem) = add_signal(document, builder, names, entry) {
+            problems.push(problem);
+            // Later expressions that name it are not to be told about.
+            let instead = builder.add_held(&entry.name.value, 0.0);
+            names.signals.insert(entry.name.value.clone(), Argument::Held(instead));
+        }
+    }
+    if !problems.is_empty() {
+        return;
+    }
+    for (state, coordinate) in document.states.iter().zip(states) {
+        let name = format!("`derivative` of state `{}`", state.name.value);
+        match add_formula(document, builder, names, &name, &state.derivative) {
+            Ok(signal) => builder.drive_state(coordinate, signal),
+            Err(problem) => problems.push(problem),
+        }
+    }
+}
+
+/// Sorts signals so that each comes after those it names.
+struct Order<'d> {
+    document: &'d Document,
+    /// Whether a signal that was met is done.
+    marks: BTreeMap<&'d str, bool>,
+    path: Vec<&'d str>,
+    sorted: Vec<&'d SignalEntry>,
+}
+
+impl<'d> Order<'d> {
+    fn visit(&mut self, entry: &'d SignalEntry) -> Result<(), Problem> {
+        let name = entry.name.value.as_str();
+        match self.marks.get(name) {
+            Some(true) => return Ok(()),
+            Some(false) => return Err(self.a_loop(entry)),
+            None => {}
+        }
+        self.marks.insert(name, false);
+        self.path.push(name);
+        for argument in entry.value.value.arguments() {
+            // A sampled signal that names itself means its last sample.
+            let is_last_sample = entry.sampling.is_some() && argument.text == name;
+            let named = self.document.signals.iter().find(|other| other.name.value == argument.text);
+            if let Some(named) = named.filter(|_| !is_last_sample) {
+                self.visit(named)?;
+            }
+        }
+        self.path.pop();
+        self.marks.insert(name, true);
+        self.sorted.push(entry);
+        Ok(())
+    }
+
+    fn a_loop(&self, entry: &SignalEntry) -> Problem {
+        let name = entry.name.value.as_str();
+        let from = self.path.iter().position(|known| *known == name).unwrap_or(0);
+        let names: Vec<String> =
+            self.path[from..].iter().chain([&name]).map(|name| format!("`{name}`")).collect();
+        let message = format!("signals form an algebraic loop: {}", names.join(" names "));
+        Problem::error(entry.name.span, message).label("needs its own value").help(
+            "let one of them be a state, or sampled and name only itself: a sampled signal then means its last sample",
+        )
+    }
+}
+
+fn add_signal(
+    document: &Document,
+    builder: &mut Builder,
+    names: &mut Names,
+    entry: &SignalEntry,
+) -> Result<(), Problem> {
+    let name = &entry.name.value;
+    let own = entry.sampling.map(|(period, start)| Sampling { held: builder.add_held(name, start), period });
+    let signal =
+        formula(document, builder, names, (name, &entry.value), own.map(|own| (name.as_str(), own.held)))?;
+    let signal = builder
+        .add_signal(Signal { sampling: own, ..signal })
+        .map_err(|error| Problem::error(entry.value.span, error.to_string()))?;
+    names.signals.insert(name.clone(), Argument::Signal(signal));
+    Ok(())
+}
+
+/// Adds an expression that has no name in the model file as a signal; messages call it `name`.
+pub(super) fn add_formula(
+    document: &Document,
+    builder: &mut Builder,
+    names: &mut Names,
+    name: &str,
+    expression: &Located<Formula>,
+) -> Result<SignalId, Problem> {
+    let signal = formula(document, builder, names, (name, expression), None)?;
+    builder.add_signal(signal).map_err(|error| Problem::error(expression.span, error.to_string()))
+}
+
+/// An expression as a signal; `own` is a sampled signal with its last sample.
+fn formula(
+    document: &Document,
+    builder: &mut Builder,
+    names: &mut Names,
+    (name, expression): (&str, &Located<Formula>),
+    own: Option<(&str, HeldId)>,
+) -> Result<Signal, Problem> {
+    let mut arguments = Vec::new();
+    for argument in expression.value.arguments() {
+        arguments.push(match own {
+            Some((name, held)) if name == argument.text => Argument::Held(held),
+            _ => resolve(document, builder, names, (name, expression), argument)?,
+        });
+    }
+    Ok(Signal {
+        name: name.to_owned(),
+        text: expression.value.text().to_owned(),
+        function: Arc::new(expression.value.clone()),
+        arguments,
+        sampling: None,
+    })
+}
+
+/// What a name in an expression means.
+fn resolve(
+    document: &Document,
+    builder: &mut Builder,
+    names: &mut Names,
+    (what, expression): (&str, &Located<Formula>),
+    name: &Name,
+) -> Result<Argument, Problem> {
+    if let Some(&known) = names.signals.get(&name.text) {
+        return Ok(known);
+    }
+    if let Some(&known) = names.measured.get(&name.text) {
+        return Ok(Argument::Measured(known));
+    }
+    let problem = |message: String| {
+        let place = document.within(expression.span, expression.value.text(), &name.range);
+        Problem::error(place, format!("{what} cannot be read: {message}")).label("here")
+    };
+    let Some((owner, component)) = name.text.split_once('.') else {
+        let owners = document.outputs.iter().map(|output| output.name.value.as_str());
+        let known = names.signals.keys().map(String::as_str).chain(["t", "pi"]);
+        let known = known.chain(document.parameters.keys().map(String::as_str));
+        let message = format!("unknown name `{}`", name.text);
+        let is_owner =
+            owners.chain(names.coordinates.keys().map(String::as_str)).any(|owner| owner == name.text);
+        let help = if is_owner {
+            Some(format!("name a component, as in `{}.rate` or `{}.u1`", name.text, name.text))
+        } else {
+            suggest::help(&name.text, known)
+        };
+        return Err(problem(message).maybe_help(help));
+    };
+    let measured = measure(document, builder, names, owner, component)
+        .map_err(|fault| problem(fault.message).maybe_help(fault.help))?;
+    names.measured.insert(name.text.clone(), measured);
+    Ok(Argument::Measured(measured))
+}
+
+/// Components of a joint's relative coordinates, as outputs call them, numbered where there are several of a kind.
+pub(super) fn relative_components(
+    coordinates: &[CoordinateId],
+    builder: &Builder,
+) -> Vec<(String, CoordinateId, Of)> {
+    let kind = |&coordinate: &CoordinateId| builder.coordinate_quantity(coordinate);
+    let mut components = Vec::new();
+    for (index, coordinate) in coordinates.iter().enumerate() {
+        let alike =
+            |others: &[CoordinateId]| others.iter().filter(|other| kind(other) == kind(coordinate)).count();
+        let number =
+            if alike(coordinates) > 1 { alike(&coordinates[..=index]).to_string() } else { String::new() };
+        let words: &[(&str, Of)] = match kind(coordinate) {
+            Quantity::Angle => &[("angle", Of::Value), ("rotation", Of::Value), ("rate", Of::Rate)],
+            Quantity::Length | Quantity::State => &[("displacement", Of::Value), ("velocity", Of::Rate)],
+        };
+        components.extend(words.iter().map(|(word, of)| (format!("{word}{number}"), *coordinate, *of)));
+    }
+    components
+}

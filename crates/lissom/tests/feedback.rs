@@ -1,0 +1,383 @@
+//! Feedback: sizes of loads that depend on the motion, first-order states, samples, inputs. Solutions are compared
+//! with closed forms and with recursions.
+
+use lissom::{Model, Session, SessionError};
+
+/// Moment of inertia of the arm about its hinge: 0.1 + 2 · 0.5² [kg m²].
+const INERTIA: f64 = 0.6;
+
+const ARM: &str = r#"
+lissom = 1
+[bodies.bar]
+mass = 2
+inertia = [0.1, 0.1, 0.1]
+position = [0.5, 0, 0]
+[joints.arm]
+kind = "revolute"
+base = "ground"
+tip = "bar"
+at = [0, 0, 0]
+axis = [0, 0, 1]
+[outputs.tip]
+kind = "position"
+of = "bar"
+point = [1, 0, 0]
+[outputs.speed]
+kind = "velocity"
+of = "bar"
+point = [1, 0, 0]
+[outputs.arm]
+kind = "relative"
+of = "arm"
+[analysis]
+kind = "dynamics"
+"#;
+
+/// The arm with more tables, and keys of its analysis.
+fn arm(tables: &str, analysis: &str) -> String {
+    format!(
+        "{}\n{tables}",
+        ARM.replace("kind = \"dynamics\"\n", &format!("kind = \"dynamics\"\n{analysis}\n"))
+    )
+}
+
+fn session(text: &str) -> Session {
+    match Model::from_text("arm.toml", text).session(&[]) {
+        Ok(session) => session,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+fn finished(text: &str) -> Session {
+    let mut session = session(text);
+    let (_, report) = session.record();
+    assert!(report.is_complete(), "{report:?}");
+    session
+}
+
+/// Why a model is refused.
+fn refused(text: &str) -> String {
+    match Model::from_text("arm.toml", text).session(&[]) {
+        Ok(_) => panic!("{text} is no good model"),
+        Err(SessionError::Model(report)) => report.render(false),
+        Err(error) => error.to_string(),
+    }
+}
+
+const CONTROL: &str = r#"
+[loads.motor]
+kind = "joint_torque"
+joint = "arm"
+torque = "-200*(arm.rotation - 0.5*sin(t)) - 10*arm.rate"
+"#;
+
+/// θ'' + 2 δ θ' + ω² θ = ω² a sin t from rest: the forced solution and a decaying one that makes the start.
+fn controlled(time: f64) -> f64 {
+    let (a, delta, square) = (0.5, 0.5 * 10.0 / INERTIA, 200.0 / INERTIA);
+    let (p, q) = (square - 1.0, 2.0 * delta);
+    let n = p * p + q * q;
+    // Forced: b sin t + c cos t.
+    let (b, c) = (square * a * p / n, -square * a * q / n);
+    let frequency = (square - delta * delta).sqrt();
+    let (u, v) = (-c, (-b - delta * c) / frequency);
+    let decay = (-delta * time).exp();
+    b * time.sin() + c * time.cos() + decay * (u * (frequency * time).cos() + v * (frequency * time).sin())
+}
+
+#[test]
+fn a_controlled_arm_moves_as_its_linear_equation_says() {
+    let end = 0.4;
+    for (scheme, step, most) in [
+        ("radau-iia", 2.5e-4, 1e-8),
+        ("energy-decaying", 2.5e-4, 1e-8),
+        ("generalized-alpha", 2e-5, 1e-8),
+        ("hht", 2e-5, 1e-8),
+    ] {
+        let analysis = format!("scheme = \"{scheme}\"\nend = {end}\nstep = {step}\ntolerance = 1e-10");
+        let session = finished(&arm(CONTROL, &analysis));
+        let error = (session.value("arm.angle").unwrap() - controlled(end)).abs();
+        assert!(error < most, "{scheme}: {error:e}");
+    }
+}
+
+/// The same through signals, a moment on the body and the motion of a point gives the same motion.
+#[test]
+fn components_of_points_are_fed_back_as_well() {
+    let tables = r#"
+[parameters]
+k = 200
+[inputs]
+amplitude = 0.5
+[signals]
+error = "atan2(tip.y, tip.x) - amplitude*sin(t)"
+damping = "10*(tip.x*speed.v2 - tip.y*speed.v1)"
+[loads.motor]
+kind = "moment"
+on = "bar"
+vector = [0, 0, 1]
+scale = "-k*error - damping"
+[outputs.error]
+kind = "signal"
+of = "error"
+"#;
+    let session =
+        finished(&arm(tables, "scheme = \"radau-iia\"\nend = 0.4\nstep = 2.5e-4\ntolerance = 1e-10"));
+    let error = (session.value("arm.angle").unwrap() - controlled(0.4)).abs();
+    assert!(error < 1e-8, "{error:e}");
+    let signal = session.value("error").unwrap();
+    assert!((signal - (controlled(0.4) - 0.5 * 0.4_f64.sin())).abs() < 1e-8, "{signal}");
+    assert_eq!(session.value("error.value"), Some(signal));
+    assert_eq!(session.value("amplitude"), Some(0.5));
+    assert_eq!(session.value("nothing"), None);
+}
+
+/// x' = -2 x + sin 3t, and a stiff feedback through a state.
+#[test]
+fn states_are_integrated_with_the_order_of_the_scheme() {
+    let tables = r#"
+[states]
+filtered = { derivative = "-2*filtered + sin(3*t)", start = 0.7 }
+[outputs.filtered]
+kind = "signal"
+of = "filtered"
+"#;
+    let exact = |t: f64| {
+        let forced = |t: f64| (2.0 * (3.0 * t).sin() - 3.0 * (3.0 * t).cos()) / 13.0;
+        forced(t) + (0.7 - forced(0.0)) * (-2.0 * t).exp()
+    };
+    for (scheme, order) in [
+        ("generalized-alpha", 2.0),
+        ("generalized-alpha\"\nspectral_radius = 0\n#\"", 2.0),
+        ("generalized-alpha\"\nspectral_radius = 1\n#\"", 2.0),
+        ("hht", 2.0),
+        ("hht\"\nalpha = -0.3\n#\"", 2.0),
+        ("radau-iia", 3.0),
+        ("energy-decaying", 3.0),
+    ] {
+        let error = |step: f64| {
+            let analysis = format!("end = 2\nstep = {step}\ntolerance = 1e-12\nscheme = \"{scheme}\"");
+            (finished(&arm(tables, &analysis)).value("filtered").unwrap() - exact(2.0)).abs()
+        };
+        let (coarse, fine) = (error(0.02), error(0.01));
+        let found = (coarse / fine).log2();
+        assert!((found - order).abs() < 0.2, "{scheme}: {coarse:e} {fine:e}, order {found}");
+    }
+}
+
+/// An integrator in the loop: the orders hold for the motion it drives.
+#[test]
+fn a_state_in_the_loop_keeps_the_order() {
+    let tables = r#"
+[states.integral]
+derivative = "arm.rotation - 0.3"
+[loads.motor]
+kind = "joint_torque"
+joint = "arm"
+torque = "-60*(arm.rotation - 0.3) - 8*arm.rate - 90*integral - 2*integral^3"
+"#;
+    for (scheme, order) in
+        [("generalized-alpha", 2.0), ("hht", 2.0), ("radau-iia", 3.0), ("energy-decaying", 3.0)]
+    {
+        let value = |step: f64| {
+            let analysis = format!("scheme = \"{scheme}\"\nend = 0.5\nstep = {step}\ntolerance = 1e-12");
+            let session = finished(&arm(tables, &analysis));
+            [session.value("arm.angle").unwrap(), session.value("integral").unwrap()]
+        };
+        let [coarse, middle, fine] = [0.01, 0.005, 0.0025].map(value);
+        for k in 0..2 {
+            let found = ((coarse[k] - middle[k]) / (middle[k] - fine[k])).abs().log2();
+            assert!((found - order).abs() < 0.35, "{scheme} {k}: order {found}");
+        }
+    }
+}
+
+/// With chosen steps a state of its own decides about them where nothing moves.
+#[test]
+fn chosen_steps_resolve_states() {
+    let tables = "[states]\nspike = { derivative = \"-spike + 50*exp(-2000*(t - 0.5)^2)\", start = 1 }\n";
+    // A fine run of fixed steps is the reference.
+    let fixed = finished(&arm(tables, "scheme = \"radau-iia\"\nend = 1\nstep = 2e-4\ntolerance = 1e-12"));
+    let wanted = fixed.value("spike").unwrap();
+    for (tolerance, most) in [(1e-4, 2e-3), (1e-6, 2e-5)] {
+        let analysis = format!("scheme = \"radau-iia\"\nend = 1\nrelative_tolerance = {tolerance}");
+        let error = (finished(&arm(tables, &analysis)).value("spike").unwrap() - wanted).abs();
+        assert!(error < most, "{tolerance}: {error:e}");
+    }
+}
+
+const SAMPLED: &str = r#"
+[signals]
+measured = { value = "arm.rotation", sample = 0.01 }
+sum = { value = "sum + 0.01*(0.2 - measured)", sample = 0.01 }
+torque = "4*(0.2 - measured) + 3*sum"
+[loads.motor]
+kind = "joint_torque"
+joint = "arm"
+torque = "torque"
+"#;
+
+/// Between samples the torque is constant, so that the motion is a parabola: θ, ω by recursion.
+fn sampled(samples: usize) -> [f64; 3] {
+    let (mut angle, mut rate, mut sum, period) = (0.0, 0.0, 0.0, 0.01);
+    for _ in 0..samples {
+        sum += 0.01 * (0.2 - angle);
+        let acceleration = (4.0 * (0.2 - angle) + 3.0 * sum) / INERTIA;
+        angle += period * rate + 0.5 * period * period * acceleration;
+        rate += period * acceleration;
+    }
+    [angle, rate, sum]
+}
+
+#[test]
+fn samples_are_held_and_steps_land_on_them() {
+    // Steps that divide the period, do not fit it, and are longer; and chosen ones.
+    for step in ["step = 2.5e-3", "step = 7e-3", "step = 0.035", "relative_tolerance = 1e-6"] {
+        for scheme in ["radau-iia", "energy-decaying", "generalized-alpha", "hht"] {
+            let analysis = format!("scheme = \"{scheme}\"\nend = 0.6\n{step}\ntolerance = 1e-11");
+            let session = finished(&arm(SAMPLED, &analysis));
+            let [angle, rate, _] = sampled(60);
+            for (name, wanted) in [("arm.angle", angle), ("arm.rate", rate)] {
+                let found = session.value(name).unwrap();
+                assert!((found - wanted).abs() < 1e-9, "{scheme}, {step}: {name} {found} {wanted}");
+            }
+            // At the end the sample of the end is taken.
+            let sum = sampled(60)[2] + 0.01 * (0.2 - angle);
+            assert!((session.value("sum").unwrap() - sum).abs() < 1e-9, "{step}");
+        }
+    }
+}
+
+#[test]
+fn a_session_restored_in_the_middle_goes_on_to_the_last_bit() {
+    let tables = format!("{SAMPLED_STATE}\n{SAMPLED}");
+    for scheme in ["generalized-alpha", "radau-iia", "energy-decaying"] {
+        let text = arm(&tables, &format!("scheme = \"{scheme}\"\nend = 0.5\nstep = 4e-3"));
+        let mut whole = session(&text);
+        whole.step_to(0.2).unwrap();
+        whole.set_input("push", 1.5).unwrap();
+        whole.step_to(0.25).unwrap();
+        let kept = whole.snapshot().to_bytes();
+        whole.step_to(0.5).unwrap();
+        let mut other = session(&text);
+        other.restore(&lissom::SessionSnapshot::from_bytes(&kept).unwrap()).unwrap();
+        assert_eq!(other.value("push"), Some(1.5));
+        other.step_to(0.5).unwrap();
+        assert_eq!(whole.simulation().state(), other.simulation().state(), "{scheme}");
+        assert_ne!(whole.value("lag"), Some(0.0));
+    }
+}
+
+const SAMPLED_STATE: &str = r#"
+[inputs]
+push = 0
+[states.lag]
+derivative = "20*(push - lag)"
+[loads.push]
+kind = "force"
+on = "bar"
+vector = [0, 0.1, 0]
+scale = "lag"
+"#;
+
+#[test]
+fn inputs_act_from_when_they_are_set() {
+    let tables = "[inputs]\ntorque = 0.3\n[loads.motor]\nkind = \"joint_torque\"\njoint = \"arm\"\ntorque = \"torque\"\n";
+    for scheme in ["generalized-alpha", "radau-iia"] {
+        let mut session =
+            session(&arm(tables, &format!("scheme = \"{scheme}\"\nend = 1\nstep = 1e-2\ntolerance = 1e-11")));
+        session.set_input("torque", 0.6).unwrap();
+        session.step_to(0.5).unwrap();
+        // From the first step on: θ = τ t²/(2 J).
+        let wanted = 0.6 * 0.125 / INERTIA;
+        assert!((session.value("arm.angle").unwrap() - wanted).abs() < 1e-9, "{scheme}");
+        session.set_input("torque", -0.6).unwrap();
+        assert_eq!(session.value("torque"), Some(-0.6));
+        session.step_to(1.0).unwrap();
+        let rate = session.value("arm.rate").unwrap();
+        assert!(rate.abs() < 1e-9, "{scheme}: {rate:e}");
+        let unknown = session.set_input("torqe", 0.0).unwrap_err().to_string();
+        assert!(unknown.contains("`torqe`") && unknown.contains("torque"), "{unknown}");
+        assert!(session.set_input("torque", f64::NAN).is_err());
+    }
+}
+
+#[test]
+fn mistakes_are_told_with_their_place() {
+    let load = |torque: &str| {
+        format!("[loads.motor]\nkind = \"joint_torque\"\njoint = \"arm\"\ntorque = \"{torque}\"\n")
+    };
+    let analysis = "end = 1\nstep = 1e-2";
+    for (tables, words) in [
+        (load("2*arm.rotaton"), &["`arm` has no component `rotaton`", "did you mean `rotation`"][..]),
+        (load("2*amr.rate"), &["no output or joint called `amr`", "did you mean `arm`"]),
+        (
+            load("2*comand") + "[signals]\ncommand = \"t\"\n",
+            &["unknown name `comand`", "did you mean `command`"],
+        ),
+        (load("arm"), &["unknown name `arm`", "name a component"]),
+        (load("sin(t"), &["closing parenthesis"]),
+        (
+            "[signals]\na = \"2*b\"\nb = \"c + 1\"\nc = \"a*t\"\n".to_owned(),
+            &["algebraic loop: `a` names `b` names `c` names `a`"],
+        ),
+        ("[signals]\na = \"a + 1\"\n".to_owned(), &["algebraic loop: `a` names `a`"]),
+        ("[signals]\na = 1\n[inputs]\na = 2\n".to_owned(), &["has the name of"]),
+        ("[signals]\nt = 1\n".to_owned(), &["cannot be called `t`"]),
+        ("[signals]\na = { value = \"t\" }\n".to_owned(), &["lacks `sample`"]),
+        ("[states]\na = { start = 1 }\n".to_owned(), &["lacks `derivative`"]),
+        (
+            "[outputs.e]\nkind = \"signal\"\nof = \"erorr\"\n[signals]\nerror = 1\n".to_owned(),
+            &["did you mean `error`"],
+        ),
+        (
+            load("bend.total") + "[outputs.bend]\nkind = \"energy\"\n",
+            &["is a energy, which signals cannot depend on"],
+        ),
+        (
+            "[joints.drive]\nkind = \"prescribed_rotation\"\njoint = \"arm\"\nrotation = \"tip.x\"\n"
+                .to_owned(),
+            &["unknown name `tip.x`"],
+        ),
+    ] {
+        let told = refused(&arm(&tables, analysis));
+        for words in words {
+            assert!(told.contains(words), "{tables}\n{told}");
+        }
+    }
+    let statics = arm("[states]\na = { derivative = \"1\" }\n", "").replace("\"dynamics\"", "\"statics\"");
+    assert!(refused(&statics).contains("knows no rates"));
+}
+
+#[test]
+fn a_signal_that_is_not_finite_ends_the_run_with_its_name() {
+    let load = "[loads.motor]\nkind = \"joint_torque\"\njoint = \"arm\"\ntorque = \"-5 + 0*sqrt(0.1 + arm.rotation)\"\n";
+    let alone = "[signals]\nlost = \"sqrt(0.3 - t)\"\n";
+    for (tables, name) in [(load, "`torque` of load `motor`"), (alone, "lost")] {
+        let mut session = session(&arm(tables, "end = 1\nstep = 1e-2"));
+        let (_, report) = session.record();
+        let lissom::Stopped::Failed(error) = &report.stopped else { panic!("{report:?}") };
+        let told = error.to_string();
+        assert!(told.contains(name) && told.contains("sqrt") && told.contains("t = "), "{told}");
+        assert!(!report.is_complete());
+    }
+    let at_start = refused(&arm("[signals]\nlost = \"ln(t)\"\n", "end = 1\nstep = 1e-2"));
+    assert!(at_start.contains("lost = ln(t)"), "{at_start}");
+}
+
+/// A state of its own does not change the motion, whatever its size and unit.
+#[test]
+fn states_beside_a_motion_do_not_disturb_it() {
+    let analysis = "scheme = \"radau-iia\"\nend = 0.4\nstep = 1e-2\ntolerance = 1e-10";
+    let plain = finished(&arm(CONTROL, analysis)).value("arm.angle").unwrap();
+    for scale in [1e-9, 1.0, 1e9] {
+        let state = format!(
+            "[states]\nx = {{ derivative = \"{scale}*cos(20*t) - x^3/{scale}^2\", start = {scale}, magnitude = {scale} }}\n"
+        );
+        let session = finished(&arm(&(CONTROL.to_owned() + &state), analysis));
+        assert!((session.value("arm.angle").unwrap() - plain).abs() < 1e-12, "{scale}");
+        let x = session.value("x").unwrap() / scale;
+        let reference =
+            finished(&arm("[states]\nx = { derivative = \"cos(20*t) - x^3\", start = 1 }\n", analysis));
+        assert!((x - reference.value("x").unwrap()).abs() < 1e-9, "{scale}: {x}");
+    }
+}
