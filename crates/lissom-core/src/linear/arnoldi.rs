@@ -172,7 +172,7 @@ fn inverse<'m, 's, 'a>(
     let units = layout.quantities()[..layout.coordinate_count()]
         .iter()
         .map(|quantity| match quantity {
-            Quantity::Length => 1.0,
+            Quantity::Length | Quantity::State => 1.0,
             Quantity::Angle => model.representative.length,
         })
         .collect();
