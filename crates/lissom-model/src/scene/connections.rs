@@ -89,6 +89,10 @@ pub(super) fn loads(document: &Document, places: &Places<'_>) -> Vec<Load> {
     let (start, end) = (document.analysis.start, document.analysis.end);
     let drawn = |component: &Component| {
         let Attachment::OneNode { on, at } = &component.attachment else { return None };
+        // How large it is depends on the motion: no arrow rather than a wrong one.
+        if component.signal.is_some() {
+            return None;
+        }
         let anchor = places.anchor(on, at)?;
         let parameters = &component.parameters;
         let follower = parameters.flag_or("follower", false).unwrap_or(false);
