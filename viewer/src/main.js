@@ -1,4 +1,5 @@
 import { connect } from "./controls.js";
+import { Live } from "./live.js";
 import { Viewer } from "./viewer.js";
 
 const viewer = new Viewer();
@@ -7,6 +8,7 @@ viewer.setTheme(viewer.themeName);
 window.lissom = viewer;
 const text = document.getElementById("result").textContent.trim();
 viewer.ready = text ? viewer.load(JSON.parse(text)) : Promise.resolve();
+if (!text) viewer.live = new Live(viewer);
 viewer.ready
   .then(() => {
     document.documentElement.dataset.ready = "true";

@@ -1,9 +1,13 @@
 //! The program, as scripts see it: exit codes, files, columns and facts.
 
+#[path = "command_line/live.rs"]
+mod live;
 #[path = "command_line/modes.rs"]
 mod modes;
 #[path = "command_line/motion.rs"]
 mod motion;
+#[path = "command_line/new.rs"]
+mod new;
 #[path = "command_line/study.rs"]
 mod study;
 mod support;

@@ -1,8 +1,11 @@
 //! The subcommands. A new one is a file here, a variant of [`Command`] and a line in [`Line::run`].
 
 mod check;
+mod completions;
 mod kinds;
+mod live;
 mod modes;
+mod new;
 mod plot;
 mod run;
 mod schema;
@@ -109,6 +112,10 @@ enum Command {
     Study(study::Study),
     View(view::View),
     Sweep(sweep::SweepCommand),
+    Live(live::Live),
+    New(new::New),
+    Completions(completions::Completions),
+    Man(completions::Man),
 }
 
 impl Line {
@@ -124,6 +131,10 @@ impl Line {
             Command::Study(command) => command.run(),
             Command::View(command) => command.run(),
             Command::Sweep(command) => command.run(),
+            Command::Live(command) => command.run(),
+            Command::New(command) => command.run(),
+            Command::Completions(command) => Ok(command.run()),
+            Command::Man(command) => command.run(),
         };
         let exit = outcome.unwrap_or_else(|failure| {
             terminal::complain(&failure.words);

@@ -157,6 +157,11 @@ impl Results {
     }
 }
 
+/// A page without results that asks the server it came from for them.
+pub fn empty_page(title: &str) -> String {
+    fill(title, "'self'", "")
+}
+
 fn fill(title: &str, connect: &str, result: &str) -> String {
     let escaped = title.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
     let (head, rest) = PAGE.split_once("{{connect}}").unwrap_or((PAGE, ""));

@@ -1,0 +1,70 @@
+//! `lissom live`: a page on this machine that shows a model and simulates it again whenever its file is saved.
+
+mod server;
+mod simulation;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Duration;
+
+use clap::Args;
+use lissom::{Model, Override};
+
+use super::view::open;
+use super::{Exit, Failure};
+use crate::terminal::{self, Interrupt};
+use simulation::Shared;
+
+/// How often Ctrl-C is looked for.
+const PATIENCE: Duration = Duration::from_millis(100);
+
+/// Show a model in the browser and simulate it again whenever its file is saved.
+///
+/// The page has a slider for every number in `[parameters]`. While the model is wrong the page says why, and the last
+/// picture stays. Only this machine can reach the page, and only by the address that is printed: it holds a random word.
+/// No file is written.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  lissom live examples/tip-crank.toml --open
+  lissom live press.toml --port 8123 --set analysis.end=1
+
+Ctrl-C ends it.")]
+pub(super) struct Live {
+    /// The model file.
+    #[arg(value_name = "MODEL.toml")]
+    model: PathBuf,
+
+    /// Put another value into the model, as `analysis.step=1e-4`; may be repeated.
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
+    set: Vec<Override>,
+
+    /// Port of the page [default: any that is free].
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    port: u16,
+
+    /// Open it in the browser.
+    #[arg(long)]
+    open: bool,
+}
+
+impl Live {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let interrupt = Interrupt::listen();
+        // A model that is not there is a slip; one that is wrong may be mended while the page is open.
+        Model::read(&self.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let shared = Arc::new(Shared::default());
+        let address = server::start(self.port, &self.model, &shared).map_err(|error| {
+            Failure::new(Exit::Failed, format!("port {} cannot be used: {error}", self.port))
+        })?;
+        simulation::start(self.model, self.set, &shared);
+        terminal::print(&format!("{address}\n"));
+        if self.open && !open(&address) {
+            terminal::complain("warning: no browser could be started: open the address in one\n");
+        }
+        while !interrupt.is_noted() {
+            std::thread::sleep(PATIENCE);
+        }
+        Ok(Exit::Done)
+    }
+}

@@ -1,0 +1,240 @@
+//! The model behind a live page: read again when its file or a slider has changed, simulated, and handed to whoever waits.
+
+use std::collections::BTreeMap;
+use std::fs::Metadata;
+use std::io::{self, Write};
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant, SystemTime};
+
+use lissom::motion::MotionRecorder;
+use lissom::view::{Notice, Results};
+use lissom::{Model, Override, Record, Session, Writer, summary};
+use lissom_model::lower::lower;
+use lissom_model::scene::Scene;
+use serde_json::{Value, json};
+
+/// How often the file is looked at.
+const LOOK: Duration = Duration::from_millis(30);
+/// A file that was changed so shortly before may still be being written.
+const SETTLED: Duration = Duration::from_millis(15);
+/// A mistake in a file is told if the file has stayed as it is for so long: half of it may not have been written yet.
+const SURE: Duration = Duration::from_millis(200);
+
+/// What pages are told, and what they ask for.
+#[derive(Default)]
+pub(super) struct Shared {
+    state: Mutex<State>,
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct State {
+    /// Counts what is told; zero before there is anything.
+    version: u64,
+    /// As JSON.
+    told: Arc<str>,
+    /// Values of sliders.
+    parameters: BTreeMap<String, f64>,
+    /// Counts changes of the sliders.
+    asked: u64,
+}
+
+impl Shared {
+    fn lock(&self) -> MutexGuard<'_, State> {
+        // A thread that panicked cannot have left half a change: each is one assignment.
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// What is told after `version`, as soon as there is something; nothing after `patience`.
+    pub(super) fn wait_after(&self, version: u64, patience: Duration) -> Option<Arc<str>> {
+        let is_old = |state: &mut State| state.version == version || state.version == 0;
+        let waited = self.changed.wait_timeout_while(self.lock(), patience, is_old);
+        let (state, timeout) = waited.unwrap_or_else(PoisonError::into_inner);
+        (!timeout.timed_out()).then(|| Arc::clone(&state.told))
+    }
+
+    /// Takes values of sliders; those that are left out go back to the file's.
+    pub(super) fn ask(&self, parameters: BTreeMap<String, f64>) {
+        let mut state = self.lock();
+        state.parameters = parameters;
+        state.asked += 1;
+        self.changed.notify_all();
+    }
+
+    fn tell(&self, mut message: Value) {
+        let mut state = self.lock();
+        state.version += 1;
+        message["version"] = json!(state.version);
+        state.told = message.to_string().into();
+        self.changed.notify_all();
+    }
+}
+
+/// Simulates in a thread of its own for as long as the program runs.
+pub(super) fn start(model: PathBuf, set: Vec<Override>, shared: &Arc<Shared>) {
+    let shared = Arc::clone(shared);
+    std::thread::spawn(move || {
+        let mut last = None;
+        let mut bases = BTreeMap::new();
+        loop {
+            let now = Seen::of(&model, &shared);
+            if last.as_ref() == Some(&now) || now.is_younger_than(SETTLED) {
+                std::thread::sleep(LOOK);
+                continue;
+            }
+            let is_current = || Seen::of(&model, &shared) == now;
+            let message = simulate(&model, &set, &now.parameters, &mut bases, &is_current);
+            let is_mistake = message.as_ref().is_some_and(|message| message["result"].is_null());
+            while is_mistake && now.is_younger_than(SURE) && is_current() {
+                std::thread::sleep(LOOK);
+            }
+            // What was overtaken by a change is told to nobody.
+            if let Some(message) = message.filter(|_| is_current()) {
+                shared.tell(message);
+            }
+            last = Some(now);
+        }
+    });
+}
+
+/// What a simulation depends on.
+#[derive(Clone, Debug, PartialEq)]
+struct Seen {
+    length: u64,
+    modified: Option<SystemTime>,
+    asked: u64,
+    parameters: BTreeMap<String, f64>,
+}
+
+impl Seen {
+    fn of(model: &Path, shared: &Shared) -> Self {
+        let file = std::fs::metadata(model).ok();
+        let state = shared.lock();
+        Self {
+            length: file.as_ref().map_or(0, Metadata::len),
+            modified: file.and_then(|file| file.modified().ok()),
+            asked: state.asked,
+            parameters: state.parameters.clone(),
+        }
+    }
+
+    /// Whether the file was changed so shortly before.
+    fn is_younger_than(&self, limit: Duration) -> bool {
+        let age = self.modified.and_then(|modified| modified.elapsed().ok());
+        age.is_some_and(|age| age < limit)
+    }
+}
+
+/// Simulates the model once; nothing if it has changed meanwhile. `bases` are the file's own values of the parameters.
+fn simulate(
+    path: &Path,
+    set: &[Override],
+    sliders: &BTreeMap<String, f64>,
+    bases: &mut BTreeMap<String, f64>,
+    is_current: &dyn Fn() -> bool,
+) -> Option<Value> {
+    let began = Instant::now();
+    let failed = |text: String, is_code: bool| {
+        let notice = if is_code { Notice::error(text).with_code() } else { Notice::error(text) };
+        Some(json!({ "notice": notice, "result": null, "parameters": null }))
+    };
+    let model = match Model::read(path) {
+        Ok(model) => model,
+        Err(error) => return failed(error.to_string(), false),
+    };
+    match model.document(set) {
+        Ok(document) => *bases = document.parameters,
+        Err(report) => return failed(report.render(false), true),
+    }
+    let mut overrides = set.to_vec();
+    for (name, value) in sliders.iter().filter(|(name, _)| bases.contains_key(*name)) {
+        overrides.push((format!("parameters.{name}"), format!("{value:?}")));
+    }
+    let parameters: Vec<Value> = bases
+        .iter()
+        .map(|(name, base)| json!({ "name": name, "base": base, "value": sliders.get(name).unwrap_or(base) }))
+        .collect();
+    match results(&model, &overrides, is_current) {
+        Ok(None) => None,
+        Ok(Some(results)) => Some(json!({
+            "notice": null,
+            "result": serde_json::from_str::<Value>(&results.to_json()).unwrap_or_default(),
+            "parameters": parameters,
+            "seconds": began.elapsed().as_secs_f64(),
+        })),
+        Err(Fault { text, is_code }) => failed(text, is_code),
+    }
+}
+
+/// Why there are no results.
+struct Fault {
+    text: String,
+    is_code: bool,
+}
+
+impl Fault {
+    fn plain(error: impl std::fmt::Display) -> Self {
+        Self { text: error.to_string(), is_code: false }
+    }
+}
+
+/// A run in memory. Nothing if the model has changed meanwhile.
+fn results(
+    model: &Model,
+    overrides: &[Override],
+    is_current: &dyn Fn() -> bool,
+) -> Result<Option<Results>, Fault> {
+    let wrong = |report: lissom::Report| Fault { text: report.render(false), is_code: true };
+    let document = model.document(overrides).map_err(wrong)?;
+    let lowered = lower(&document).map_err(wrong)?;
+    let scene = Scene::of(&document, &lowered);
+    let mut summary = summary::of_model(model.name(), overrides, &document, &lowered);
+    let motion = Buffer::default();
+    let recorder = MotionRecorder::new(&lowered, document.analysis.frames_per_second, motion.clone());
+    let mut session = Session::start(lowered).map_err(Fault::plain)?;
+    session.write_states_to(Box::new(recorder));
+    let mut record = Record::default();
+    let mut looked = Instant::now();
+    let mut watch = |_: &lissom::Progress| {
+        if looked.elapsed() < LOOK {
+            return ControlFlow::Continue(());
+        }
+        looked = Instant::now();
+        if is_current() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+    };
+    let report = session.run(&mut [&mut record as &mut dyn Writer], &mut watch);
+    if !report.is_complete() && report.error().is_none() {
+        return Ok(None);
+    }
+    summary::of_run(&mut summary, &session, &report);
+    let facts: Value = serde_json::from_str(&summary.to_json()).unwrap_or_default();
+    let mut results = Results::new(model.name()).with_summary(&facts).with_record(&record);
+    if !document.warnings.is_empty() {
+        results = results.with_notice(Notice::warning(document.warnings.render(false)).with_code());
+    }
+    let bytes = motion.take();
+    results.with_scene(&scene, &bytes).map(Some).map_err(Fault::plain)
+}
+
+/// Bytes in memory that two may hold.
+#[derive(Clone, Default)]
+struct Buffer(Arc<Mutex<Vec<u8>>>);
+
+impl Buffer {
+    fn take(&self) -> Vec<u8> {
+        std::mem::take(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+impl Write for Buffer {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).extend_from_slice(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}

@@ -1,0 +1,61 @@
+//! `lissom new`: a model to start from.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use lissom_model::files;
+
+use super::{Exit, Failure};
+use crate::terminal;
+
+/// The model, complete but for its title.
+const TEMPLATE: &str = include_str!("new_model.toml");
+
+/// Write a commented model to start from: a slider crank with a flexible rod.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  lissom new press                             writes press.toml
+  lissom view press.toml --open                simulates it and shows it
+  lissom live press.toml --open                the same again whenever the file is saved")]
+pub(super) struct New {
+    /// Name of the model; the file is NAME.toml.
+    #[arg(value_name = "NAME")]
+    name: PathBuf,
+}
+
+impl New {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let mut path = self.name.clone();
+        if path.extension().is_none_or(|extension| extension != "toml") {
+            path.as_mut_os_string().push(".toml");
+        }
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        if stem.is_empty() || stem == ".toml" {
+            return Err(Failure::new(
+                Exit::BadModel,
+                format!("`{}` is no name of a model", self.name.display()),
+            ));
+        }
+        if path.exists() {
+            let message =
+                format!("`{}` is there already, and is left as it is: choose another name", path.display());
+            return Err(Failure::new(Exit::BadModel, message));
+        }
+        // As a TOML text, whatever letters it has.
+        let title = stem.replace('\\', "\\\\").replace('"', "\\\"");
+        let text = TEMPLATE.replace("@title@", &title);
+        files::write(&path, text.as_bytes()).map_err(|error| Failure::file(Exit::Failed, &error))?;
+        terminal::print(&told(&path));
+        Ok(Exit::Done)
+    }
+}
+
+fn told(path: &Path) -> String {
+    let path = path.display();
+    format!(
+        "{path} is written. Next:\n  lissom view {path} --open    simulate it and watch it move\n  \
+         lissom live {path} --open    the same again whenever you save the file\n  \
+         lissom kinds                 what a model can be made of\n"
+    )
+}

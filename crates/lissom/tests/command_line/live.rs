@@ -1,0 +1,252 @@
+//! `lissom live` as a page and as strangers see it.
+
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::TcpStream;
+use std::path::Path;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+use crate::support::{CANTILEVER, Folder};
+
+/// The program while it serves a model.
+struct Live {
+    program: Child,
+    port: u16,
+    word: String,
+}
+
+impl Drop for Live {
+    fn drop(&mut self) {
+        let _ = self.program.kill();
+        let _ = self.program.wait();
+    }
+}
+
+impl Live {
+    fn start(model: &str, folder: &Path) -> Self {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_lissom"));
+        command.args(["live", model]).current_dir(folder).stdout(Stdio::piped());
+        let mut program = command.spawn().unwrap();
+        let mut line = String::new();
+        BufReader::new(program.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        let address = line.trim().strip_prefix("http://127.0.0.1:").unwrap().to_owned();
+        let (port, word) = address.trim_end_matches('/').split_once('/').unwrap();
+        Self { program, port: port.parse().unwrap(), word: word.to_owned() }
+    }
+
+    /// Sends a request as it is. Status and body.
+    fn send(&self, request: &str) -> (u16, String) {
+        let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
+        stream.set_read_timeout(Some(Duration::from_secs(60))).unwrap();
+        stream.write_all(request.as_bytes()).unwrap();
+        let mut answer = Vec::new();
+        stream.read_to_end(&mut answer).unwrap();
+        let answer = String::from_utf8_lossy(&answer).into_owned();
+        let (head, body) = answer.split_once("\r\n\r\n").unwrap();
+        let body = if head.to_ascii_lowercase().contains("transfer-encoding: chunked") {
+            whole(body)
+        } else {
+            body.to_owned()
+        };
+        (head.split_whitespace().nth(1).unwrap().parse().unwrap(), body)
+    }
+
+    /// A request with other lines in its head.
+    fn ask(&self, method: &str, path: &str, host: &str, more: &str, body: &str) -> (u16, String) {
+        let length = body.len();
+        self.send(&format!(
+            "{method} {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\nContent-Length: {length}\r\n{more}\r\n{body}"
+        ))
+    }
+
+    fn host(&self) -> String {
+        format!("127.0.0.1:{}", self.port)
+    }
+
+    /// What is told after `version`.
+    fn after(&self, version: u64) -> Value {
+        let began = Instant::now();
+        loop {
+            let path = format!("/{}/result?after={version}", self.word);
+            let (status, body) = self.ask("GET", &path, &self.host(), "", "");
+            if status == 200 {
+                return serde_json::from_str(&body).unwrap();
+            }
+            assert_eq!(status, 204);
+            assert!(began.elapsed() < Duration::from_secs(60), "nothing is told after {version}");
+        }
+    }
+
+    fn set(&self, body: &str) -> u16 {
+        self.ask("POST", &format!("/{}/parameters", self.word), &self.host(), "", body).0
+    }
+}
+
+/// Puts the pieces of a body together: a length in hexadecimal digits, the piece, and so on to a length of zero.
+fn whole(body: &str) -> String {
+    let (mut rest, mut text) = (body, String::new());
+    while let Some((length, after)) = rest.split_once("\r\n") {
+        let length = usize::from_str_radix(length.trim(), 16).unwrap();
+        if length == 0 {
+            break;
+        }
+        text.push_str(&after[..length]);
+        rest = after[length..].trim_start_matches("\r\n");
+    }
+    text
+}
+
+fn version(told: &Value) -> u64 {
+    told["version"].as_u64().unwrap()
+}
+
+const WITH_PARAMETER: &str = "lissom = 1\n\n[parameters]\nload = 3\n";
+
+fn model() -> String {
+    CANTILEVER.replace("lissom = 1", WITH_PARAMETER).replace("3*t", "load*t")
+}
+
+#[test]
+fn a_model_is_simulated_again_when_it_is_saved_and_mistakes_are_told_meanwhile() {
+    let folder = Folder::new("live-save");
+    folder.write("bar.toml", &model());
+    let live = Live::start("bar.toml", folder.path());
+    let first = live.after(0);
+    assert_eq!(first["notice"], Value::Null, "{first}");
+    assert_eq!(first["result"]["motion"]["frames"], 5);
+    // A mistake: it is underlined, and there are no results that could replace those on the page.
+    folder.write("bar.toml", &model().replace("elements = 4", "elements = -4"));
+    let wrong = live.after(version(&first));
+    let text = wrong["notice"]["text"].as_str().unwrap();
+    assert!(wrong["result"].is_null() && wrong["notice"]["is_code"] == true);
+    assert!(text.contains("elements") && text.contains("bar.toml:"), "{text}");
+    // Half a file, as an editor may leave it for a moment, and then a right one.
+    folder.write("bar.toml", "lissom = ");
+    let half = live.after(version(&wrong));
+    assert!(half["result"].is_null());
+    folder.write("bar.toml", &model().replace("steps = 4", "steps = 7"));
+    let right = live.after(version(&half));
+    assert_eq!((&right["notice"], &right["result"]["motion"]["frames"]), (&Value::Null, &Value::from(8)));
+    // A model that has no solution shows how far it came.
+    folder.write(
+        "bar.toml",
+        &model().replace("load*t", "1e9*t").replace("steps = 4", "steps = 2\nmax_iterations = 3"),
+    );
+    let failed = live.after(version(&right));
+    assert_eq!(failed["result"]["notices"][0]["kind"], "error", "{}", failed["result"]["notices"]);
+    fs::remove_file(folder.path().join("bar.toml")).unwrap();
+    let gone = live.after(version(&failed));
+    assert!(gone["notice"]["text"].as_str().unwrap().contains("no such file"), "{gone}");
+    assert!(!folder.path().join("out").exists(), "no file is written");
+}
+
+#[test]
+fn sliders_simulate_again() {
+    let folder = Folder::new("live-slider");
+    folder.write("bar.toml", &model());
+    let live = Live::start("bar.toml", folder.path());
+    let first = live.after(0);
+    assert_eq!(first["parameters"][0], serde_json::json!({ "name": "load", "base": 3.0, "value": 3.0 }));
+    assert_eq!(live.set("{\"load\": 4.5, \"unknown\": 1}"), 204);
+    let second = live.after(version(&first));
+    assert_eq!(second["parameters"][0]["value"], 4.5);
+    let scale = &second["result"]["scene"]["loads"][0]["scale"];
+    assert_eq!(scale.as_array().unwrap().last().unwrap(), 4.5);
+    for wrong in ["", "[1]", "{\"load\": \"high\"}", "{\"load\": 1e999}"] {
+        assert_eq!(live.set(wrong), 400, "{wrong}");
+    }
+    assert_eq!(live.set("{}"), 204);
+    assert_eq!(live.after(version(&second))["parameters"][0]["value"], 3.0);
+}
+
+#[test]
+fn strangers_are_refused() {
+    let folder = Folder::new("live-strangers");
+    folder.write("bar.toml", &model());
+    folder.write("secret.toml", "secret");
+    let live = Live::start("bar.toml", folder.path());
+    let own = format!("/{}/", live.word);
+    let host = live.host();
+    let get = |path: &str, host: &str, more: &str| live.ask("GET", path, host, more, "");
+    let (status, page) = get(&own, &host, "");
+    assert!(status == 200 && page.contains("connect-src 'self'") && !page.contains("{{"));
+    assert_eq!(get(&own, &format!("localhost:{}", live.port), "").0, 200);
+    assert_eq!(get(&own, &host, &format!("Origin: http://{host}\r\n")).0, 200);
+    // Pages of others, also those whose name was made to lead here.
+    for origin in
+        ["http://example.org", "null", "https://127.0.0.1", &format!("http://127.0.0.1:{}", live.port ^ 1)]
+    {
+        assert_eq!(get(&own, &host, &format!("Origin: {origin}\r\n")).0, 403, "{origin}");
+        let path = format!("/{}/parameters", live.word);
+        let sent = live.ask("POST", &path, &host, &format!("Origin: {origin}\r\n"), "{}");
+        assert_eq!(sent.0, 403, "{origin}");
+    }
+    for other in ["example.org", &format!("example.org:{}", live.port), "127.0.0.1", "127.0.0.1:1"] {
+        assert_eq!(get(&own, other, "").0, 403, "{other}");
+    }
+    assert_eq!(get(&own, &host, "Sec-Fetch-Site: cross-site\r\n").0, 403);
+    assert_eq!(get(&own, &host, "Host: example.org\r\n").0, 403);
+    assert_eq!(live.send(&format!("GET {own} HTTP/1.0\r\n\r\n")).0, 403, "without a host");
+    // Other words, other paths: no file has a name here.
+    let other = "0".repeat(32);
+    let paths = [
+        "/".to_owned(),
+        format!("/{other}/"),
+        format!("/{}", live.word),
+        format!("{own}secret.toml"),
+        format!("{own}../secret.toml"),
+        format!("{own}%2e%2e/secret.toml"),
+        format!("{own}bar.toml"),
+        "/etc/passwd".to_owned(),
+    ];
+    for path in paths {
+        let (status, body) = get(&path, &host, "");
+        assert!(status == 404 && !body.contains("secret"), "{path}: {status} {body}");
+    }
+    assert_eq!(live.ask("PUT", &own, &host, "", "").0, 404);
+    // Only this machine is listened to.
+    let words = fs::read_to_string("/proc/net/tcp").unwrap_or_default();
+    let port = format!(":{:04X}", live.port);
+    let listening = words.lines().filter(|line| line.contains(&port) && line.contains(" 0A "));
+    for line in listening {
+        assert!(line.contains(&format!("0100007F{port}")), "{line}");
+    }
+}
+
+/// Memory of a process [kB], where the system tells it.
+fn memory(process: u32) -> Option<u64> {
+    let told = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
+    let line = told.lines().find(|line| line.starts_with("VmRSS"))?;
+    line.split_whitespace().nth(1)?.parse().ok()
+}
+
+#[test]
+fn many_saves_leave_nothing_behind() {
+    let folder = Folder::new("live-many");
+    folder.write("bar.toml", &model());
+    let live = Live::start("bar.toml", folder.path());
+    let mut told = live.after(0);
+    let mut sizes = Vec::new();
+    for save in 0..120 {
+        folder.write("bar.toml", &format!("{}\n# {}", model(), "x".repeat(1 + save % 7)));
+        told = live.after(version(&told));
+        assert_eq!(told["notice"], Value::Null);
+        if save == 39 || save == 119 {
+            sizes.extend(memory(live.program.id()));
+        }
+    }
+    if let [before, after] = sizes[..] {
+        assert!(after < before + 3000, "{before} kB after 40 saves, {after} kB after 120");
+    }
+}
+
+#[test]
+fn a_model_that_is_not_there_is_told() {
+    let folder = Folder::new("live-missing");
+    let ended = crate::support::lissom(&["live", "nothing.toml"], folder.path());
+    assert_eq!(ended.code, 2);
+    assert!(ended.errors.contains("no such file"), "{}", ended.errors);
+}

@@ -1,0 +1,66 @@
+//! `lissom new`, `completions` and `man`: what they write can be used.
+
+use std::fs;
+
+use lissom_motion::Vector3;
+
+use crate::support::{Folder, lissom, summary};
+
+#[test]
+fn a_new_model_runs_as_it_is() {
+    let folder = Folder::new("new");
+    let made = lissom(&["new", "press"], folder.path());
+    assert_eq!((made.code, made.errors.as_str()), (0, ""));
+    assert!(made.output.contains("lissom view press.toml --open"), "{}", made.output);
+    let check = lissom(&["check", "press.toml"], folder.path());
+    assert_eq!((check.code, check.errors.as_str()), (0, ""), "{}", check.output);
+    let run = lissom(&["run", "press.toml", "--no-plots", "--quiet"], folder.path());
+    assert_eq!((run.code, run.errors.as_str()), (0, ""));
+    let facts = summary(&folder.path().join("out/press"));
+    assert_eq!((facts["title"].as_str(), facts["stopped"].as_str()), (Some("press"), Some("end")));
+    // The slider goes to and fro by twice the radius of the crank.
+    let table = fs::read_to_string(folder.path().join("out/press/history.csv")).unwrap();
+    let record = lissom::Record::from_csv(&table).unwrap();
+    let x = record.column("slider", "x").unwrap();
+    let ends =
+        x.iter().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], x| [low.min(*x), high.max(*x)]);
+    assert!((ends[1] - ends[0] - 0.2).abs() < 1e-3, "{ends:?}");
+    let across = ["y", "z"].map(|letter| record.column("slider", letter).unwrap());
+    assert!(across.iter().all(|values| values.iter().all(|value| value.abs() < 1e-9)));
+    assert!(Vector3::new(ends[0], 0.0, 0.0).norm() > 0.2);
+}
+
+#[test]
+fn what_is_there_is_not_overwritten() {
+    let folder = Folder::new("new-there");
+    folder.write("press.toml", "mine");
+    let made = lissom(&["new", "press.toml"], folder.path());
+    assert_eq!(made.code, 2);
+    assert!(made.errors.contains("there already"), "{}", made.errors);
+    assert_eq!(fs::read_to_string(folder.path().join("press.toml")).unwrap(), "mine");
+    assert_eq!(lissom(&["new", "a\"b"], folder.path()).code, 0);
+    assert_eq!(lissom(&["check", "a\"b.toml"], folder.path()).code, 0);
+    assert_eq!(lissom(&["new", "nowhere/press"], folder.path()).code, 3);
+}
+
+#[test]
+fn shells_and_the_manual_know_all_commands() {
+    let folder = Folder::new("completions");
+    for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
+        let made = lissom(&["completions", shell], folder.path());
+        assert_eq!(made.code, 0, "{}", made.errors);
+        for command in ["run", "view", "live", "study", "completions"] {
+            assert!(made.output.contains(command), "{shell}: {command}");
+        }
+    }
+    assert_eq!(lissom(&["completions", "cmd"], folder.path()).code, 2);
+    let page = lissom(&["man"], folder.path());
+    assert!(
+        page.code == 0 && page.output.contains(".TH lissom 1") && page.output.contains("lissom\\-view"),
+        "{}",
+        page.output
+    );
+    let page = lissom(&["man", "view"], folder.path());
+    assert!(page.code == 0 && page.output.contains("\\-\\-html"), "{}", page.output);
+    assert_eq!(lissom(&["man", "nothing"], folder.path()).code, 2);
+}

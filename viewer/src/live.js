@@ -1,0 +1,106 @@
+// Talks to the program that has opened this page: takes new results, sends the values of sliders.
+
+const $ = (id) => document.getElementById(id);
+
+/** Time after which a lost program is asked for again [ms]. */
+const AGAIN = 1000;
+
+export class Live {
+  constructor(viewer) {
+    this.viewer = viewer;
+    this.version = 0;
+    this.values = {};
+    this.listen();
+  }
+
+  async listen() {
+    for (;;) {
+      try {
+        const answer = await fetch(`result?after=${this.version}`, { cache: "no-store" });
+        if (answer.status === 200) await this.take(await answer.json());
+        else if (answer.status !== 204) throw new Error(`answer ${answer.status}`);
+        document.documentElement.classList.remove("lost");
+      } catch (error) {
+        // An answer that cannot be shown is told; a program that has ended may come back.
+        if (!(error instanceof TypeError)) this.tell({ kind: "error", text: `The answer cannot be shown: ${error.message}` });
+        document.documentElement.classList.add("lost");
+        $("facts").textContent = "the program has ended: start `lissom live` again";
+        await new Promise((resolve) => setTimeout(resolve, AGAIN));
+      }
+    }
+  }
+
+  tell(notice) {
+    this.viewer.notices(notice ? [notice] : this.viewer.result?.notices ?? []);
+  }
+
+  async take({ version, notice, result, parameters, seconds }) {
+    this.version = version;
+    if (parameters) this.offer(parameters);
+    if (!result) return this.tell(notice);
+    const isFirst = !this.viewer.result;
+    result.facts += ` · simulated in ${seconds.toFixed(seconds < 0.1 ? 3 : 2)} s`;
+    await this.viewer.load(result, !isFirst);
+    if (isFirst && this.viewer.player.canPlay) this.viewer.player.play(true);
+    document.documentElement.dataset.version = version;
+  }
+
+  /** A slider for every parameter; those that are there already stay, so that one can go on being dragged. */
+  offer(parameters) {
+    const names = parameters.map(({ name, base }) => `${name}=${base}`).join();
+    if (names === this.offered) return;
+    this.offered = names;
+    const bases = Object.fromEntries(parameters.map(({ name, base }) => [name, base]));
+    // A value that was changed in the file counts from now on.
+    for (const name of Object.keys(this.values)) if (this.bases?.[name] !== bases[name]) delete this.values[name];
+    this.bases = bases;
+    const heading = Object.assign(document.createElement("h2"), { textContent: "Parameters" });
+    $("live").replaceChildren(heading, ...parameters.map((parameter) => this.slider(parameter)), this.reset());
+    $("live").hidden = parameters.length === 0;
+  }
+
+  slider({ name, base }) {
+    const label = Object.assign(document.createElement("label"), { className: "slider" });
+    const row = Object.assign(document.createElement("span"), { className: "row" });
+    const value = document.createElement("output");
+    row.append(Object.assign(document.createElement("span"), { textContent: name }), value);
+    const input = Object.assign(document.createElement("input"), { type: "range", step: "any" });
+    [input.min, input.max] = base > 0 ? [0, 2 * base] : base < 0 ? [2 * base, 0] : [-1, 1];
+    input.dataset.parameter = name;
+    const show = (number) => (value.textContent = String(Number(number.toPrecision(4))));
+    input.value = this.values[name] ?? base;
+    show(Number(input.value));
+    input.addEventListener("input", () => {
+      this.values[name] = Number(Number(input.value).toPrecision(4));
+      show(this.values[name]);
+      this.send();
+    });
+    label.append(row, input);
+    return label;
+  }
+
+  reset() {
+    const button = Object.assign(document.createElement("button"), { textContent: "as in the file" });
+    button.addEventListener("click", () => {
+      this.values = {};
+      for (const input of $("live").querySelectorAll("input")) {
+        input.value = this.bases[input.dataset.parameter];
+        input.previousSibling.lastChild.textContent = String(this.bases[input.dataset.parameter]);
+      }
+      this.send();
+    });
+    return button;
+  }
+
+  /** Sends the values; while an answer is awaited the last ones wait. */
+  async send() {
+    this.isChanged = true;
+    if (this.isSending) return;
+    this.isSending = true;
+    while (this.isChanged) {
+      this.isChanged = false;
+      await fetch("parameters", { method: "POST", body: JSON.stringify(this.values) }).catch(() => {});
+    }
+    this.isSending = false;
+  }
+}
