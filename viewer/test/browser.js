@@ -1,25 +1,23 @@
 // Pages as a browser shows them: `node test/browser.js PROGRAM`, with the program lissom. Needs chromium.
 
 import assert from "node:assert/strict";
-import { execFileSync, spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { execFileSync, spawn, spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 
-import { chromium } from "playwright-core";
+import { launch, open as openPage } from "../browser.js";
 
 const root = resolve(dirname(fileURLToPath(import.meta.url)), "../..");
 const program = resolve(process.argv[2] ?? join(root, "target/release/lissom"));
 const folder = mkdtempSync(join(tmpdir(), "lissom-viewer-"));
-const found = ["/usr/bin/chromium", "/usr/bin/chromium-browser", "/usr/bin/google-chrome"].find((path) => existsSync(path));
-const executablePath = process.env.CHROMIUM ?? found;
 
 /** Makes the page of a model, with changes to it. */
 const view = (model, ...set) => {
   const out = join(folder, `page${view.count++}`);
   const changes = set.flatMap((change) => ["--set", change]);
-  execFileSync(program, ["view", join(root, model), "--out", out, "--quiet", ...changes]);
+  execFileSync(program, ["view", resolve(root, model), "--out", out, "--quiet", ...changes]);
   return out;
 };
 view.count = 0;
@@ -31,8 +29,7 @@ const open = async (browser, file, size = { width: 1200, height: 800 }) => {
   page.on("console", (message) => ["error", "warning"].includes(message.type()) && complaints.push(message.text()));
   page.on("pageerror", (error) => complaints.push(error.message));
   page.on("request", (request) => /^(file|data|blob):/.test(request.url()) || complaints.push(`asks ${request.url()}`));
-  await page.goto(`file://${file}#still`);
-  await page.waitForFunction(() => document.documentElement.dataset.ready === "true", null, { timeout: 60000 });
+  await openPage(page, file);
   // What the driver of the graphics says about its speed is no complaint of the page.
   const real = () => complaints.filter((text) => !/GPU stall|swiftshader|GL Driver/i.test(text));
   return { page, complaints: real };
@@ -136,7 +133,10 @@ const tests = {
     assert.deepEqual(complaints(), []);
   },
   "bodies, springs and all kinds of joints": async (browser) => {
-    const out = view("crates/lissom-model/tests/every_kind.toml", "outputs.end.kind=position", "outputs.end.of=f", "outputs.place.kind=position", "outputs.place.of=two.end");
+    const text = readFileSync(join(root, "crates/lissom-model/tests/every_kind.toml"), "utf8");
+    const outputs = ["f", "two.end"].map((node, k) => `[outputs.place${k}]\nkind = "position"\nof = "${node}"\n`);
+    writeFileSync(join(folder, "every.toml"), text.replace("[analysis]", `${outputs.join("")}[analysis]`));
+    const out = view(join(folder, "every.toml"));
     const { page, complaints } = await open(browser, join(out, "view.html"));
     assert.equal(await comparePlaces(page, out), 8);
     await selects(page, "h");
@@ -181,12 +181,45 @@ const tests = {
     assert.match(await second.page.locator("#notices .error").textContent(), /failed/);
     assert.deepEqual(second.complaints(), []);
   },
+  "a model that is saved and dragged": async (browser) => {
+    const model = join(folder, "live.toml");
+    const text = readFileSync(join(root, "examples/tip-crank.toml"), "utf8").replace("end = 0.4", "end = 0.05");
+    writeFileSync(model, text);
+    const live = spawn(program, ["live", model], { stdio: ["ignore", "pipe", "inherit"] });
+    try {
+      const address = await new Promise((found) => live.stdout.once("data", (data) => found(String(data).trim())));
+      const page = await browser.newPage();
+      const complaints = [];
+      page.on("pageerror", (error) => complaints.push(error.message));
+      page.on("request", (request) => request.url().startsWith(address) || complaints.push(`asks ${request.url()}`));
+      await page.goto(address);
+      const shown = (value) => page.waitForFunction((value) => lissom.result?.scene.beams[0].stations[0].outline.height === value, value, { timeout: 20000 });
+      await shown(0.1);
+      writeFileSync(model, text.replace("height = 0.1", "height = 0.12"));
+      await shown(0.12);
+      // A mistake is told beside the last picture, and is gone when it is mended.
+      writeFileSync(model, text.replace("order = 3", "order = 9"));
+      await page.waitForFunction(() => document.querySelector("#notices .error")?.textContent.includes("order"), null, { timeout: 20000 });
+      assert.ok(await page.evaluate(() => lissom.model !== null));
+      writeFileSync(model, text);
+      await shown(0.1);
+      assert.equal(await page.locator("#notices p").count(), 0);
+      const before = await page.evaluate(() => lissom.live.version);
+      await page.locator("[data-parameter=T]").fill("2");
+      await page.waitForFunction((before) => lissom.live.version > before, before, { timeout: 20000 });
+      assert.deepEqual(complaints, []);
+      // Another page cannot read the results.
+      const stranger = await browser.newPage();
+      await stranger.goto("data:text/html,<title>stranger</title>");
+      const seen = await stranger.evaluate((address) => fetch(`${address}result?after=0`).then((answer) => answer.text(), () => "refused"), address);
+      assert.equal(seen, "refused");
+    } finally {
+      live.kill("SIGKILL");
+    }
+  },
 };
 
-const browser = await chromium.launch({
-  executablePath,
-  args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"],
-});
+const browser = await launch();
 let failures = 0;
 for (const [name, test] of Object.entries(tests)) {
   const began = Date.now();

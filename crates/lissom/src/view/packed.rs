@@ -2,7 +2,8 @@
 //!
 //! A number of a motion is a whole multiple of a quantum of its own, kept as a second difference in as few bytes as it
 //! needs. Quanta are a part of what the number ranges over during the run: 2⁻¹⁷ for displacements, 2⁻¹⁵ for rotations,
-//! 2⁻¹² for section forces; and never less than a part of what the largest number of its kind ranges over.
+//! 2⁻¹² for section forces; and never less than a part of what the largest number of its kind ranges over. Motions of more
+//! than ten million numbers have quanta eight times as large.
 
 use std::fmt::Write as _;
 use std::io::Write;
@@ -18,6 +19,9 @@ use crate::motion::{ForcePoints, Motion as Recorded};
 const DISPLACEMENT: [f64; 2] = [1.0 / 131_072.0, 1.5e-8];
 const ROTATION: [f64; 2] = [1.0 / 32_768.0, 1.5e-8];
 const FORCE: [f64; 2] = [1.0 / 4096.0, 1e-6];
+/// A motion of more numbers is a large one, with quanta so many times as large.
+const LARGE: usize = 10_000_000;
+const COARSER: f64 = 8.0;
 
 /// A motion as the page reads it.
 #[derive(Clone, Debug, Serialize)]
@@ -38,12 +42,14 @@ impl Motion {
         }
         let nodes = 3 * header.nodes.len();
         let points = 6 * header.point_count();
+        let is_large = times.len() * (2 * nodes + points) > LARGE;
+        let of = |quanta: [f64; 2]| if is_large { quanta.map(|quantum| COARSER * quantum) } else { quanta };
         let mut first = 0;
         for (count, quanta) in [(nodes, DISPLACEMENT), (nodes, ROTATION)] {
-            channels(motion, first, count, 1, quanta, &mut bytes);
+            channels(motion, first, count, 1, of(quanta), &mut bytes);
             first += count;
         }
-        channels(motion, first, points, 6, FORCE, &mut bytes);
+        channels(motion, first, points, 6, of(FORCE), &mut bytes);
         Self {
             nodes: header.nodes.clone(),
             force_points: header.force_points.clone(),
