@@ -29,6 +29,7 @@ mod folder;
 mod model;
 pub mod modes;
 pub mod motion;
+pub mod path;
 mod report;
 mod schedule;
 mod session;

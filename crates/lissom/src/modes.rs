@@ -222,9 +222,9 @@ fn in_equilibrium(document: &Document, count: usize, shift: Option<f64>) -> Resu
 fn after(document: &Document, time: f64, count: usize, shift: Option<f64>) -> Result<ModeReport, ModesError> {
     let (start, end) = (document.analysis.start, document.analysis.end);
     let wrong = |reason: String| Err(ModesError::Time { time, reason });
-    if matches!(document.analysis.kind, AnalysisKind::Modes { .. }) {
+    if matches!(document.analysis.kind, AnalysisKind::Modes { .. } | AnalysisKind::Path { .. }) {
         return wrong(
-            "an analysis of kind `modes` has no course in time; take `static` or `undeformed`".to_owned(),
+            "an analysis of this kind has no course in time; take `static` or `undeformed`".to_owned(),
         );
     }
     if !(time >= start && time <= end) {

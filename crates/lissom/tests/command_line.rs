@@ -8,6 +8,8 @@ mod modes;
 mod motion;
 #[path = "command_line/new.rs"]
 mod new;
+#[path = "command_line/path.rs"]
+mod path;
 #[path = "command_line/study.rs"]
 mod study;
 mod support;

@@ -14,6 +14,7 @@ mod guess;
 mod held_values;
 pub mod initial;
 pub mod mobility;
+pub mod path;
 pub mod phase;
 mod secants;
 pub(crate) mod snapshot_parts;

@@ -4,6 +4,7 @@
 //! A step of planned size that has no solution is taken in parts. With step-size control every step is as long as its
 //! estimated error allows. What the scheme and Newton's method remember goes over to the new size.
 
+mod arc;
 mod controller;
 mod dense;
 mod error_estimate;
@@ -12,6 +13,7 @@ mod parts;
 mod samples;
 mod snapshot;
 
+pub(crate) use arc::ArcControl;
 pub(crate) use controller::Controller;
 pub use controller::StepControl;
 pub(crate) use method_memory::MethodMemory;

@@ -24,6 +24,15 @@ pub enum AnalysisKind {
         /// Number of load steps.
         steps: usize,
     },
+    /// Equilibria under loads times a load factor.
+    Path {
+        /// First step of the load factor, greater than zero.
+        first: f64,
+        /// Load factor at which the path ends, not zero.
+        end: f64,
+        /// Most steps.
+        most_steps: usize,
+    },
     /// Natural modes about a state at rest.
     Modes {
         /// How many.
@@ -41,6 +50,7 @@ impl AnalysisKind {
         match self {
             Self::Dynamics { .. } => "dynamics",
             Self::Statics { .. } => "statics",
+            Self::Path { .. } => "path",
             Self::Modes { .. } => "modes",
         }
     }
@@ -48,6 +58,10 @@ impl AnalysisKind {
 
 /// Modes that are sought where no number is given.
 pub const DEFAULT_MODE_COUNT: usize = 20;
+
+/// First step of a path as part of its end, and most steps, where they are not given.
+const FIRST_OF_PATH: f64 = 0.02;
+const MOST_STEPS_OF_PATH: usize = 1000;
 
 /// How steps are chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -143,6 +157,8 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         stepping(&reader, end.as_ref()?.value - start.as_ref()?.value)
     } else if word == "modes" {
         modes(&reader)
+    } else if word == "path" {
+        path(&reader)
     } else {
         Some(AnalysisKind::Statics { steps: reader.count("steps").map_or(10, |steps| steps.value) })
     };
@@ -186,6 +202,21 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     check_times(context, &analysis, end?.span);
     check_frames(&reader, &analysis);
     Some(analysis)
+}
+
+fn path(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
+    let end = if reader.has("end") { reader.number("end")? } else { Located::new(1.0, reader.name) };
+    if end.value == 0.0 {
+        return reader.context.fail(
+            end.span,
+            "the path ends at load factor 0, where it starts".to_owned(),
+            "choose an `end` that is not zero",
+        );
+    }
+    let first =
+        if reader.has("step") { reader.number("step")?.value } else { FIRST_OF_PATH * end.value.abs() };
+    let most_steps = reader.count("steps").map_or(MOST_STEPS_OF_PATH, |steps| steps.value);
+    Some(AnalysisKind::Path { first, end: end.value, most_steps })
 }
 
 fn modes(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {

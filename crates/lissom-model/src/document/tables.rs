@@ -365,7 +365,7 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
     let words = |table: &[ChoiceEntry]| Shape::Choice(table.iter().map(|entry| entry.name).collect());
     let common = || {
         vec![
-            required("kind", choice(&["dynamics", "statics", "modes"]), "", "what is computed"),
+            required("kind", choice(&["dynamics", "statics", "modes", "path"]), "", "what is computed"),
             optional("start", Shape::Number, "s", "first time, default 0"),
             optional(
                 "scaling",
@@ -433,6 +433,12 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
     let mut statics = common();
     statics.push(optional("end", Shape::Number, "s", "last time, default 1"));
     statics.push(optional("steps", Shape::Count(1, 1_000_000), "", "load steps, default 10"));
+    let mut path = common();
+    path.extend([
+        optional("end", Shape::Number, "", "load factor at which the path ends, default 1"),
+        optional("step", Shape::Positive, "", "first step of the load factor, default a fiftieth of `end`"),
+        optional("steps", Shape::Count(1, 1_000_000), "", "most steps, default 1000"),
+    ]);
     let mut modes = common();
     modes.retain(|key| !matches!(key.name, "output_every" | "frames_per_second"));
     modes.extend([
@@ -449,6 +455,11 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
     vec![
         Variant { word: "dynamics", summary: "Motion in time.", keys: dynamics },
         Variant { word: "statics", summary: "Equilibrium in load steps.", keys: statics },
+        Variant {
+            word: "path",
+            summary: "Equilibria under loads times a load factor, through limit points, by arc length.",
+            keys: path,
+        },
         Variant { word: "modes", summary: "Natural modes about a state at rest.", keys: modes },
     ]
 }

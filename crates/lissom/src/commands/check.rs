@@ -107,6 +107,9 @@ fn analysis(document: &Document, lowered: &Lowered) -> String {
         let state = if undeformed { "the undeformed state" } else { "static equilibrium" };
         return format!("{count} natural modes about {state}");
     }
+    if let AnalysisKind::Path { end, .. } = document.analysis.kind {
+        return format!("equilibrium path to load factor {end}");
+    }
     let (plan, settings) = (&lowered.plan, &lowered.settings);
     let kind = if plan.is_static { "load steps" } else { "steps" };
     if let Some(control) = &settings.control {

@@ -6,6 +6,7 @@ mod kinds;
 mod live;
 mod modes;
 mod new;
+mod path;
 mod plot;
 mod run;
 mod schema;

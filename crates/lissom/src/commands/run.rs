@@ -108,6 +108,11 @@ impl Run {
         if !self.quiet {
             show_warnings(&document);
         }
+        if matches!(document.analysis.kind, AnalysisKind::Path { .. }) {
+            let asked = (&task.model, &task.overrides[..], &document);
+            let wanted = super::path::Wanted { folder: &task.folder, plots: task.plots, quiet: self.quiet };
+            return super::path::run(asked, &wanted, &interrupt);
+        }
         let mut lowered = lower(&document)?;
         let processors = || std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
         lowered.settings.threads = self.threads.unwrap_or_else(processors).get();

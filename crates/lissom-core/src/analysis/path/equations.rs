@@ -1,0 +1,442 @@
+//! The equations of a step along an equilibrium path as Newton's method sees them: equilibrium, constraints, and one equation
+//! for the load factor. The bordered matrix is solved with the factors of the stiffness and two right-hand sides.
+
+use lissom_motion::{Motion, Vector6};
+use lissom_solver::{FactorError, FactorReport, LinearSolver};
+
+use super::super::StepError;
+use super::super::compliance::Compliance;
+use super::super::step_error::pivot_hint;
+use super::super::workspace::sizes;
+use super::{PathSettings, Solution, Tangent};
+use crate::equilibration::Equilibration;
+use crate::joints::attached::Increments;
+use crate::newton::{Correction, Equations, Failure};
+use crate::scaling::{Representative, Scaled};
+use crate::schemes::Weights;
+use crate::system::{
+    Chart, Kinematics, LOCKED, Linearization, MotionChange, Point, Receiver, Scratch, State, Sum, System,
+};
+
+/// Corrections larger than this are cut short [-, rad].
+const LARGEST_CORRECTION: f64 = 0.5;
+/// Iterates whose last correction is larger are far from equilibrium, and their stresses no guide [-].
+const FAR: f64 = 1e-3;
+
+/// The equation for the load factor.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Condition {
+    /// The distance from the start of the step.
+    Arc(f64),
+    /// The load factor itself.
+    Load(f64),
+}
+
+/// Displacements and multipliers in units of the scaled equations, by row, and the load factor.
+#[derive(Clone, Debug)]
+struct Change {
+    rows: Vec<f64>,
+    load: f64,
+}
+
+/// What a step works with, allocated once.
+pub(super) struct PathWork {
+    scaled: Scaled,
+    solver: Box<dyn LinearSolver<f64>>,
+    equilibration: Equilibration,
+    compliance: Option<Compliance>,
+    values: Vec<f64>,
+    other_values: Vec<f64>,
+    scratch: Scratch,
+    report: Option<FactorReport>,
+    at: Kinematics,
+    changes: Vec<MotionChange>,
+    coordinate_changes: Vec<f64>,
+    multipliers: Vec<f64>,
+    load_factor: f64,
+    /// Sum of all changes since the start of the step.
+    total: Vec<f64>,
+    /// Displacements per unit of the load factor, at the last tangent.
+    response: Vec<f64>,
+    load: Vec<f64>,
+    residual: Vec<f64>,
+    unloaded: Vec<f64>,
+    last: Change,
+    before: Change,
+    correction: f64,
+    /// Root of the weight of each row in the distance along the path.
+    weights: Vec<f64>,
+    /// Scaled size of a unit of each row.
+    sizes: Vec<f64>,
+    /// A right-hand side in no particular direction.
+    probe: Vec<f64>,
+}
+
+impl PathWork {
+    pub(super) fn new(unloaded: &System, loaded: &System, state: &State, settings: &PathSettings) -> Self {
+        let layout = loaded.layout();
+        let (size, count) = (layout.size(), layout.coordinate_count());
+        let entries = loaded.structure().pattern.entries();
+        let linearization = Linearization::of_state(unloaded, &state.kinematics);
+        let representative = Representative::of(unloaded, &state.kinematics, &linearization);
+        let sizes = sizes(layout, &representative);
+        let mut noise = 1.0_f64;
+        let zeros = vec![0.0; size];
+        let nothing = Change { rows: zeros.clone(), load: 0.0 };
+        Self {
+            scaled: Scaled::new(&settings.scaling, &representative, 1.0),
+            solver: (settings.solver.real)(loaded.structure()),
+            equilibration: Equilibration::new(size, count),
+            compliance: None,
+            values: vec![0.0; entries],
+            other_values: vec![0.0; entries],
+            scratch: Scratch::default(),
+            report: None,
+            at: state.kinematics.clone(),
+            changes: vec![MotionChange::none(); state.kinematics.nodes.len()],
+            coordinate_changes: vec![0.0; state.kinematics.coordinates.len()],
+            multipliers: state.multipliers.clone(),
+            load_factor: 0.0,
+            total: vec![0.0; size],
+            response: zeros.clone(),
+            load: zeros.clone(),
+            residual: zeros.clone(),
+            unloaded: zeros,
+            last: nothing.clone(),
+            before: nothing,
+            correction: 0.0,
+            weights: sizes.iter().map(|size| size / (count as f64).sqrt()).collect(),
+            probe: (0..count)
+                .map(|_| {
+                    // Numbers without a pattern [logistic map].
+                    noise = (3.9 * 0.5 * noise * (1.0 - 0.5 * noise)).abs().max(1e-3) * 2.0;
+                    noise - 1.0
+                })
+                .collect(),
+            sizes,
+        }
+    }
+
+    /// Product of two displacements in the metric of the path.
+    pub(super) fn inner(&self, a: &[f64], b: &[f64]) -> f64 {
+        self.weights.iter().zip(a).zip(b).map(|((weight, a), b)| (weight * a) * (weight * b)).sum()
+    }
+
+    /// Distance from the start of the last solution.
+    pub(super) fn length_of_last(&self) -> f64 {
+        self.inner(&self.total, &self.total).sqrt()
+    }
+
+    /// Whether the load moves nothing.
+    pub(super) fn load_is_zero(&self) -> bool {
+        self.response.iter().all(|&value| value == 0.0)
+    }
+
+    fn largest(&self, values: &[f64]) -> f64 {
+        self.sizes.iter().zip(values).fold(0.0_f64, |most, (size, value)| {
+            let scaled = (size * value).abs();
+            if scaled <= most { most } else { scaled }
+        })
+    }
+}
+
+/// One step from `start`.
+pub(super) struct PathEquations<'a> {
+    pub(super) systems: [&'a System; 2],
+    pub(super) settings: &'a PathSettings,
+    pub(super) start: &'a State,
+    pub(super) start_factor: f64,
+    /// The direction at the start; none for the first equilibrium.
+    pub(super) tangent: Option<&'a Tangent>,
+    pub(super) condition: Condition,
+    pub(super) work: &'a mut PathWork,
+}
+
+impl PathEquations<'_> {
+    /// Goes to the first guess.
+    pub(super) fn begin(&mut self) {
+        let work = &mut *self.work;
+        work.at.nodes.copy_from_slice(&self.start.kinematics.nodes);
+        work.at.coordinates.copy_from_slice(&self.start.kinematics.coordinates);
+        (work.at.time, work.at.elapsed) = (self.start.kinematics.time, 0.0);
+        work.changes.fill(MotionChange::none());
+        work.coordinate_changes.fill(0.0);
+        work.multipliers.copy_from_slice(&self.start.multipliers);
+        work.load_factor = self.start_factor;
+        work.total.fill(0.0);
+        work.correction = 0.0;
+        let Some(tangent) = self.tangent else { return };
+        let length = match self.condition {
+            Condition::Arc(length) => length,
+            Condition::Load(load) => (load - self.start_factor) / tangent.load_rate,
+        };
+        let guess = Change {
+            rows: tangent.direction.iter().map(|value| length * value).collect(),
+            load: length * tangent.load_rate,
+        };
+        self.apply(&guess, 1.0);
+        self.work.correction = self.work.largest(&guess.rows);
+    }
+
+    fn apply(&mut self, change: &Change, share: f64) {
+        let layout = self.systems[1].layout();
+        let work = &mut *self.work;
+        for (node, rows) in layout.node_rows.iter().enumerate() {
+            let mut psi = Vector6::zeros();
+            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+                psi[k] = share * change.rows[row as usize];
+            }
+            if psi == Vector6::zeros() {
+                continue;
+            }
+            let motion = Motion::exponential(&psi);
+            work.changes[node] = work.changes[node].then(&MotionChange::of(&motion));
+            work.at.nodes[node].frame = work.at.nodes[node].frame * motion;
+        }
+        for (coordinate, &row) in layout.coordinate_rows.iter().enumerate() {
+            let value = share * change.rows[row as usize];
+            work.coordinate_changes[coordinate] += value;
+            work.at.coordinates[coordinate].value += value;
+        }
+        let factor = share * work.scaled.multiplier_factor();
+        let count = layout.coordinate_count();
+        for (multiplier, value) in work.multipliers.iter_mut().zip(&change.rows[count..]) {
+            *multiplier += factor * value;
+        }
+        for (sum, value) in work.total.iter_mut().zip(&change.rows) {
+            *sum += share * value;
+        }
+        work.load_factor += share * change.load;
+    }
+
+    fn point(&self, stressed_at_start: bool) -> Point<'_> {
+        let work = &*self.work;
+        Point {
+            at: &work.at,
+            stressed: if stressed_at_start { &self.start.kinematics } else { &work.at },
+            increments: Increments {
+                start: &self.start.kinematics,
+                nodes: &work.changes,
+                coordinates: &work.coordinate_changes,
+                joints: None,
+            },
+            multipliers: &work.multipliers,
+            violations: &self.start.violations,
+            augmentation: work.scaled.augmentation(),
+        }
+    }
+
+    /// The residual, and its derivative by the load factor.
+    fn evaluate(&mut self) {
+        let mut unloaded = std::mem::take(&mut self.work.unloaded);
+        let mut residual = std::mem::take(&mut self.work.residual);
+        let point = self.point(false);
+        self.systems[0].residual(&point, &mut unloaded);
+        self.systems[1].residual(&point, &mut residual);
+        let work = &mut *self.work;
+        for ((load, residual), unloaded) in work.load.iter_mut().zip(&mut residual).zip(&unloaded) {
+            *load = *residual - unloaded;
+            *residual = unloaded + work.load_factor * *load;
+        }
+        (work.unloaded, work.residual) = (unloaded, residual);
+    }
+
+    /// Linearises at the iterate and factors; then solves for the response to the load.
+    fn factor(&mut self, stressed_at_start: bool) -> Result<(), FactorError> {
+        self.evaluate();
+        let mut values = std::mem::take(&mut self.work.values);
+        let mut other = std::mem::take(&mut self.work.other_values);
+        let mut scratch = std::mem::take(&mut self.work.scratch);
+        let blend = self.work.scaled.blend(Weights { rate: 0.0, curvature: 0.0 });
+        let point = self.point(stressed_at_start);
+        for (system, values) in self.systems.iter().zip([&mut other, &mut values]) {
+            let mut receiver = Receiver::Real(Sum { blend, values, stiffness: &mut [] });
+            system.hand_derivatives(&point, Chart::Body, &mut scratch, &mut receiver);
+        }
+        let system = self.systems[1];
+        let count = system.layout().coordinate_count();
+        let work = &mut *self.work;
+        for (value, unloaded) in values.iter_mut().zip(&other) {
+            *value = unloaded + work.load_factor * (*value - unloaded);
+        }
+        (work.values, work.other_values, work.scratch) = (values, other, scratch);
+        let pattern = &system.structure().pattern;
+        work.equilibration.apply(pattern, &mut work.values);
+        if let Some(compliance) = &mut work.compliance {
+            compliance.enter(work.scaled.scale(), Some(&work.equilibration), &mut work.values);
+        }
+        let mut result = work.solver.factor(&work.values);
+        if let Err(FactorError::ZeroPivot { unknown, .. }) = result
+            && unknown >= count
+            && work.compliance.is_none()
+        {
+            let mut compliance = Compliance::new(pattern, count);
+            compliance.enter(work.scaled.scale(), Some(&work.equilibration), &mut work.values);
+            work.compliance = Some(compliance);
+            result = work.solver.factor(&work.values);
+        }
+        work.report = Some(result?);
+        let mut response = std::mem::take(&mut work.response);
+        for (value, load) in response.iter_mut().zip(&work.load) {
+            *value = -load;
+        }
+        self.solve(&mut response);
+        self.work.response = response;
+        Ok(())
+    }
+
+    /// Solves with the factored tangent, for a residual in SI.
+    fn solve(&mut self, right: &mut [f64]) {
+        let work = &mut *self.work;
+        work.scaled.scale_residual(self.systems[1].layout(), right);
+        work.equilibration.scale(right);
+        work.solver.solve(right);
+        work.equilibration.scale(right);
+    }
+
+    /// The state reached, and the direction of the path there.
+    pub(super) fn finish(&mut self, iterations: usize) -> Result<Solution, StepError> {
+        self.factor(false).map_err(|error| self.describe(&Failure::Factor(error)))?;
+        let count = self.systems[1].layout().coordinate_count();
+        let multiplier_count = self.work.multipliers.len();
+        let mut probe = vec![0.0; count + multiplier_count];
+        probe[..count].copy_from_slice(&self.work.probe);
+        // Forces in units of the scaled equations: a length of the model counts like an angle.
+        for (value, size) in probe.iter_mut().zip(&self.work.sizes) {
+            *value *= size;
+        }
+        let right = probe.clone();
+        self.solve(&mut probe);
+        let flexibility: f64 = probe[..count].iter().zip(&right).map(|(a, b)| a * b).sum();
+        let work = &*self.work;
+        let norm = work.inner(&work.response, &work.response).sqrt();
+        let mut tangent = Tangent {
+            direction: work.response.iter().map(|value| value / norm).collect(),
+            load_rate: norm.recip(),
+            turn: 0.0,
+            unstable: 0,
+            signature: flexibility.recip(),
+        };
+        tangent.turn = work.largest(&tangent.direction[..count]);
+        let negative = work.report.and_then(|report| report.negative_pivots).unwrap_or(multiplier_count);
+        tangent.unstable = negative.saturating_sub(multiplier_count);
+        if let Some(before) = self.tangent
+            && work.inner(&before.direction, &tangent.direction) < 0.0
+        {
+            tangent.reverse();
+        }
+        let mut state = self.start.clone();
+        state.kinematics = work.at.clone();
+        state.kinematics.elapsed = 0.0;
+        for node in &mut state.kinematics.nodes {
+            node.frame.rotation = node.frame.rotation.normalized();
+        }
+        state.multipliers.copy_from_slice(&work.multipliers);
+        let mut violations = vec![0.0; multiplier_count];
+        self.systems[1].stage_violations(&self.point(false), &mut violations);
+        state.violations = violations;
+        Ok(Solution { state, load_factor: self.work.load_factor, tangent, iterations })
+    }
+
+    /// A failure with names.
+    pub(super) fn describe(&self, failure: &Failure) -> StepError {
+        let layout = self.systems[1].layout();
+        let time = self.start.kinematics.time;
+        let work = &*self.work;
+        let scaled = |row: usize| (work.sizes[row] * work.last.rows[row]).abs();
+        let worst = || {
+            let largest = (0..work.sizes.len()).max_by(|&a, &b| scaled(a).total_cmp(&scaled(b)));
+            layout.name_of(largest.unwrap_or(0))
+        };
+        match *failure {
+            Failure::NotConverged { iterations, correction } => {
+                StepError::NotConverged { time, iterations, correction, worst: worst() }
+            }
+            Failure::NotFinite { iterations } => StepError::NotFinite { time, iterations, worst: worst() },
+            Failure::Factor(FactorError::ZeroPivot { unknown, pivot, .. }) => StepError::ZeroPivot {
+                time,
+                pivot,
+                unknown: layout.name_of(unknown),
+                hint: pivot_hint(unknown >= layout.coordinate_count(), self.settings.scaling.augmented),
+            },
+            Failure::Factor(FactorError::NotFinite { unknown }) => {
+                StepError::NotFinite { time, iterations: 0, worst: layout.name_of(unknown) }
+            }
+        }
+    }
+}
+
+impl Equations for PathEquations<'_> {
+    fn correct(&mut self) -> Correction {
+        self.evaluate();
+        let mut rows = std::mem::take(&mut self.work.before.rows);
+        rows.copy_from_slice(&self.work.residual);
+        let count = self.systems[1].layout().coordinate_count();
+        let work = &mut *self.work;
+        if let Some(compliance) = &work.compliance {
+            let factor = work.scaled.multiplier_factor() * work.scaled.scale();
+            compliance.relax(factor, &work.multipliers, &mut rows[count..]);
+        }
+        self.solve(&mut rows);
+        for value in &mut rows {
+            *value = -*value;
+        }
+        let work = &mut *self.work;
+        let load = match self.condition {
+            Condition::Load(load) => load - work.load_factor,
+            Condition::Arc(length) => {
+                let excess = 0.5 * (work.inner(&work.total, &work.total) - length * length);
+                -(excess + work.inner(&work.total, &rows)) / work.inner(&work.total, &work.response)
+            }
+        };
+        for (value, response) in rows.iter_mut().zip(&work.response) {
+            *value += load * response;
+        }
+        let size = work.largest(&rows[..count]);
+        let mut change = Change { rows, load };
+        if !(size.is_finite() && load.is_finite()) {
+            work.before.rows = change.rows;
+            return Correction { size: f64::NAN, reference: 0.0 };
+        }
+        if size > LARGEST_CORRECTION {
+            let cut = LARGEST_CORRECTION / size;
+            for value in &mut change.rows {
+                *value *= cut;
+            }
+            change.load *= cut;
+        }
+        self.apply(&change, 1.0);
+        let work = &mut *self.work;
+        work.correction = size;
+        work.before = std::mem::replace(&mut work.last, change);
+        let reference = work.largest(&work.total[..count]);
+        // The load factor counts like a displacement, relative to its size.
+        let of_load = work.load_factor.abs().max((work.load_factor - self.start_factor).abs());
+        let load = if of_load > 0.0 { work.last.load.abs() / of_load * reference } else { 0.0 };
+        Correction { size: size.max(load), reference }
+    }
+
+    fn renew_tangent(&mut self) -> Result<(), FactorError> {
+        let is_far = self.work.correction > FAR;
+        self.factor(is_far)
+    }
+
+    fn restart(&mut self) {
+        self.begin();
+    }
+
+    fn back_off(&mut self) {
+        let last = self.work.last.clone();
+        let mut before = self.work.before.clone();
+        if last.rows.iter().all(|value| value.is_finite()) {
+            self.apply(&last, -1.0);
+        }
+        self.apply(&before, -0.5);
+        for value in &mut before.rows {
+            *value *= 0.5;
+        }
+        before.load *= 0.5;
+        // Half of it stands, and is what may be halved again.
+        self.work.last = before;
+    }
+}

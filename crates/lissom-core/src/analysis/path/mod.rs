@@ -1,0 +1,351 @@
+//! Equilibrium paths under loads multiplied by a load factor, through limit points and snap-back, by arc length
+//! [Riks 1979; Crisfield 1981].
+//!
+//! The residual at load factor Λ is (1 - Λ) r₀ + Λ r₁, with r₀ that of the system without gravity and loads and r₁ that of the
+//! whole one: no load knows of the factor. Distances along the path are root mean squares of rotations and of displacements over
+//! the model's length; multipliers have no part in them.
+
+mod critical;
+mod equations;
+
+use std::sync::Arc;
+
+use lissom_solver::SolverKind;
+
+use super::StepError;
+use crate::newton::{self, Limits, Memory};
+use crate::scaling::ScalingChoice;
+use crate::stepping::ArcControl;
+use crate::system::{Kinematics, State, System};
+pub use critical::{CriticalKind, CriticalPoint};
+use equations::{Condition, PathEquations, PathWork};
+
+/// Newton's tolerance is at most this: positions of limit points follow from differences along the path.
+const TOLERANCE: f64 = 1e-10;
+
+/// The last equilibrium is at most so much farther away than the step that passed it.
+const FARTHER: f64 = 1.1;
+
+/// What a path is told besides its systems and its start.
+#[derive(Clone, Copy)]
+pub struct PathSettings {
+    /// First step of the load factor; its sign is the direction in which the path begins.
+    pub first: f64,
+    /// Load factor at which the path ends.
+    pub end: f64,
+    /// Most steps.
+    pub most_steps: usize,
+    /// Scaling and augmented term.
+    pub scaling: ScalingChoice,
+    /// When Newton's iterations stop.
+    pub limits: Limits,
+    /// Linear solver.
+    pub solver: &'static SolverKind,
+}
+
+/// A path that cannot be followed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PathError {
+    /// The two systems are not one with and without loads.
+    #[error("the model without its loads has other unknowns than with them")]
+    NotAlike,
+    /// No load acts.
+    #[error(
+        "no load and no gravity acts at the time `start`, so that a load factor changes nothing; give loads a size there"
+    )]
+    NoLoad,
+    /// There is no equilibrium without loads.
+    #[error("no equilibrium without loads at the start of the path: {0}")]
+    Start(StepError),
+    /// A step was not found however short.
+    #[error(
+        "the path ends at load factor {load_factor:.6e}, {arc:.3e} along it: no equilibrium is found nearby ({error})"
+    )]
+    Lost {
+        /// Load factor of the last equilibrium.
+        load_factor: f64,
+        /// Length of the path up to there.
+        arc: f64,
+        /// Why the last attempt failed.
+        error: StepError,
+    },
+    /// The number of steps is used up.
+    #[error(
+        "after {steps} steps the load factor is {load_factor:.6e} and has not come to {end}: give more `steps`, or an `end` \
+         that the path reaches"
+    )]
+    TooManySteps {
+        /// Steps taken.
+        steps: usize,
+        /// Load factor reached.
+        load_factor: f64,
+        /// Load factor at which it should end.
+        end: f64,
+    },
+}
+
+/// What the path does at an equilibrium.
+#[derive(Clone, Debug)]
+struct Tangent {
+    /// Displacements by row, multipliers included, per unit of the path.
+    direction: Vec<f64>,
+    /// dΛ/ds.
+    load_rate: f64,
+    /// Largest displacement over the model's length, or rotation, per unit of the path.
+    turn: f64,
+    /// Directions in which the equilibrium is not stable, by negative pivots.
+    unstable: usize,
+    /// Changes its sign where the stiffness is singular.
+    signature: f64,
+}
+
+/// What a step came to.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PathStep {
+    /// Newton iterations, those of attempts given up and of the search for critical points included.
+    pub iterations: usize,
+    /// Attempts given up.
+    pub rejected: usize,
+    /// Limit points and bifurcations passed.
+    pub critical: Vec<CriticalPoint>,
+}
+
+/// An equilibrium path as far as it has been followed.
+pub struct EquilibriumPath {
+    systems: [Arc<System>; 2],
+    settings: PathSettings,
+    state: State,
+    load_factor: f64,
+    arc: f64,
+    tangent: Tangent,
+    control: ArcControl,
+    work: PathWork,
+    steps: usize,
+    is_finished: bool,
+}
+
+/// A solution: state and load factor with the path's direction there.
+struct Solution {
+    state: State,
+    load_factor: f64,
+    tangent: Tangent,
+    iterations: usize,
+}
+
+impl EquilibriumPath {
+    /// The start of a path: equilibrium at load factor zero near `state`. `unloaded` is `loaded` without gravity and loads.
+    ///
+    /// # Errors
+    /// If there is no such equilibrium, or no load.
+    pub fn new(
+        unloaded: Arc<System>,
+        loaded: Arc<System>,
+        state: State,
+        mut settings: PathSettings,
+    ) -> Result<Self, PathError> {
+        let layouts = [&unloaded, &loaded].map(|system| system.layout());
+        if layouts[0].coordinate_count() != layouts[1].coordinate_count()
+            || layouts[0].size() != layouts[1].size()
+            || unloaded.pattern() != loaded.pattern()
+        {
+            return Err(PathError::NotAlike);
+        }
+        settings.limits.tolerance = settings.limits.tolerance.min(TOLERANCE);
+        let mut state = state;
+        at_rest(&mut state.kinematics);
+        state.multipliers.fill(0.0);
+        let mut violations = vec![0.0; state.multipliers.len()];
+        loaded.violations(&state.kinematics, &mut violations);
+        state.violations = violations;
+        let work = PathWork::new(&unloaded, &loaded, &state, &settings);
+        let empty = Tangent { direction: Vec::new(), load_rate: 1.0, turn: 0.0, unstable: 0, signature: 0.0 };
+        let mut path = Self {
+            systems: [unloaded, loaded],
+            settings,
+            state,
+            load_factor: 0.0,
+            arc: 0.0,
+            tangent: empty,
+            control: ArcControl::new(1.0),
+            work,
+            steps: 0,
+            is_finished: false,
+        };
+        let start = path.state.clone();
+        let found = path.solve(&start, 0.0, None, Condition::Load(0.0)).map_err(PathError::Start)?;
+        path.take(found, 0.0);
+        let rate = path.tangent.load_rate.abs();
+        if !rate.is_finite() || path.work.load_is_zero() {
+            return Err(PathError::NoLoad);
+        }
+        if (path.tangent.load_rate > 0.0) != (path.settings.first > 0.0) {
+            path.tangent.reverse();
+        }
+        path.control = ArcControl::new(path.settings.first.abs() / rate);
+        Ok(path)
+    }
+
+    /// The system with its loads.
+    pub fn system(&self) -> &System {
+        &self.systems[1]
+    }
+
+    /// The system without gravity and loads.
+    pub fn unloaded(&self) -> &System {
+        &self.systems[0]
+    }
+
+    /// The last equilibrium.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Its load factor.
+    pub fn load_factor(&self) -> f64 {
+        self.load_factor
+    }
+
+    /// Length of the path up to it.
+    pub fn arc(&self) -> f64 {
+        self.arc
+    }
+
+    /// Number of directions in which it is not stable, by negative pivots; with follower loads only whether that is odd
+    /// means something.
+    pub fn unstable(&self) -> usize {
+        self.tangent.unstable
+    }
+
+    /// Steps taken.
+    pub fn steps(&self) -> usize {
+        self.steps
+    }
+
+    /// Whether the end is reached.
+    pub fn is_finished(&self) -> bool {
+        self.is_finished
+    }
+
+    /// Goes on to the next equilibrium. On failure the path stays where it was.
+    ///
+    /// # Errors
+    /// If no equilibrium is found nearby, or the number of steps is used up.
+    pub fn advance(&mut self) -> Result<PathStep, PathError> {
+        let mut report = PathStep::default();
+        if self.is_finished {
+            return Ok(report);
+        }
+        if self.steps >= self.settings.most_steps {
+            let (steps, load_factor, end) = (self.steps, self.load_factor, self.settings.end);
+            return Err(PathError::TooManySteps { steps, load_factor, end });
+        }
+        loop {
+            let size = self.control.propose(self.tangent.turn);
+            let error = match self.attempt(size, &mut report) {
+                Ok(true) => return Ok(report),
+                Ok(false) => None,
+                Err(error) => Some(error),
+            };
+            report.rejected += 1;
+            if !self.control.reject(size) {
+                let (load_factor, arc) = (self.load_factor, self.arc);
+                let bent = StepError::NotConverged {
+                    time: self.state.kinematics.time,
+                    iterations: 0,
+                    correction: 0.0,
+                    worst: "the path turns at once".to_owned(),
+                };
+                return Err(PathError::Lost { load_factor, arc, error: error.unwrap_or(bent) });
+            }
+        }
+    }
+
+    /// Tries a step; false if it may have left the path.
+    fn attempt(&mut self, size: f64, report: &mut PathStep) -> Result<bool, StepError> {
+        let start = self.state.clone();
+        let (from, end) = (self.load_factor, self.settings.end);
+        let mut found = self.solve_along(&start, Condition::Arc(size))?;
+        report.iterations += found.iterations;
+        let is_last = (from - end) * (found.load_factor - end) <= 0.0;
+        if is_last {
+            found = self.solve_along(&start, Condition::Load(end))?;
+            report.iterations += found.iterations;
+            // There may be several equilibria at this load factor.
+            if self.work.length_of_last() > FARTHER * size {
+                return Ok(false);
+            }
+        }
+        let cosine = self.work.inner(&self.tangent.direction, &found.tangent.direction);
+        let changes = found.tangent.unstable.abs_diff(self.tangent.unstable);
+        let turns = found.tangent.load_rate * self.tangent.load_rate < 0.0;
+        if ArcControl::is_too_bent(cosine) || (changes > 2 && self.control.is_long(size)) {
+            return Ok(false);
+        }
+        let length = self.work.length_of_last();
+        let mut critical = Vec::new();
+        if turns || changes > 0 {
+            critical = self.critical_points(&start, length, &found, &mut report.iterations);
+        }
+        report.critical = critical;
+        self.control.accept(size, found.iterations, cosine);
+        self.take(found, length);
+        self.steps += 1;
+        self.is_finished = is_last;
+        Ok(true)
+    }
+
+    fn take(&mut self, found: Solution, length: f64) {
+        let Solution { state, load_factor, tangent, .. } = found;
+        (self.state, self.load_factor, self.tangent) = (state, load_factor, tangent);
+        self.arc += length;
+    }
+
+    /// Solves from the present equilibrium along its tangent.
+    fn solve_along(&mut self, start: &State, condition: Condition) -> Result<Solution, StepError> {
+        let tangent = self.tangent.clone();
+        self.solve(start, self.load_factor, Some(&tangent), condition)
+    }
+
+    fn solve(
+        &mut self,
+        start: &State,
+        load_factor: f64,
+        tangent: Option<&Tangent>,
+        condition: Condition,
+    ) -> Result<Solution, StepError> {
+        let mut equations = PathEquations {
+            systems: [&self.systems[0], &self.systems[1]],
+            settings: &self.settings,
+            start,
+            start_factor: load_factor,
+            tangent,
+            condition,
+            work: &mut self.work,
+        };
+        equations.begin();
+        let mut memory = Memory::default();
+        let outcome = newton::solve(&mut equations, &self.settings.limits, &mut memory)
+            .map_err(|failure| equations.describe(&failure))?;
+        equations.finish(outcome.iterations)
+    }
+}
+
+impl Tangent {
+    fn reverse(&mut self) {
+        self.load_rate = -self.load_rate;
+        for value in &mut self.direction {
+            *value = -*value;
+        }
+    }
+}
+
+fn at_rest(at: &mut Kinematics) {
+    for node in &mut at.nodes {
+        node.twist.fill(0.0);
+        node.acceleration.fill(0.0);
+    }
+    for coordinate in &mut at.coordinates {
+        (coordinate.rate, coordinate.acceleration) = (0.0, 0.0);
+    }
+}

@@ -1,0 +1,58 @@
+//! How long the next step along an equilibrium path is: as long as Newton's method finds it with ease, no node turns too far,
+//! and the path does not bend too much.
+
+/// Iterations that a step of the right length takes.
+const EASY: f64 = 7.0;
+/// Least and largest change from step to step.
+const CHANGE: (f64, f64) = (0.5, 1.7);
+/// Longest step: largest displacement over the model's length, and rotation, of any node [-, rad].
+const LARGEST_TURN: f64 = 0.2;
+/// Cosine of the angle by which the direction may turn in a step; below the second number the step is given up.
+const BENT: (f64, f64) = (0.96, 0.8);
+/// Steps longer than this part of the longest one so far are refined where much happens in them.
+const WORTH_REFINING: f64 = 1e-3;
+/// Steps shorter than this part of the longest one so far are not tried.
+const SHORTEST: f64 = 1e-9;
+
+/// The length of the next step [-].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct ArcControl {
+    size: f64,
+    longest: f64,
+}
+
+impl ArcControl {
+    /// With the length of the first step.
+    pub(crate) fn new(size: f64) -> Self {
+        Self { size, longest: size }
+    }
+
+    /// The next step; `turn` is the largest displacement or rotation on a unit of the path.
+    pub(crate) fn propose(&self, turn: f64) -> f64 {
+        self.size.min(LARGEST_TURN / turn)
+    }
+
+    /// Whether the path has turned so far in a step, by the cosine of the angle, that it may have gone over to another one.
+    pub(crate) fn is_too_bent(cosine: f64) -> bool {
+        cosine < BENT.1
+    }
+
+    /// Whether a step is long enough to be worth refining where it passes several critical points.
+    pub(crate) fn is_long(&self, size: f64) -> bool {
+        size > WORTH_REFINING * self.longest
+    }
+
+    /// A step of that length was found in so many iterations.
+    pub(crate) fn accept(&mut self, size: f64, iterations: usize, cosine: f64) {
+        let ease = (EASY / iterations.max(1) as f64).sqrt();
+        let factor = if cosine < BENT.0 { ease.min(CHANGE.0) } else { ease };
+        self.size = size * factor.clamp(CHANGE.0, CHANGE.1);
+        self.longest = self.longest.max(self.size);
+    }
+
+    /// A step of that length was not found: whether a shorter one may be tried.
+    pub(crate) fn reject(&mut self, size: f64) -> bool {
+        self.size = 0.5 * size;
+        self.size > SHORTEST * self.longest
+    }
+}

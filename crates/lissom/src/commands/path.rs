@@ -1,0 +1,98 @@
+//! Analyses of kind `path` for `lissom run`.
+
+use std::fmt::Write;
+use std::ops::ControlFlow;
+use std::path::Path;
+
+use lissom::path::{PathEnd, PathReport, PathSession, PathSessionError, of_request};
+use lissom::{Document, FolderError, Model, Override, Record, ResultFolder, Writer};
+use serde_json::json;
+
+use super::{Exit, Failure};
+use crate::terminal::{self, Interrupt};
+
+/// What is done with the results.
+pub(super) struct Wanted<'a> {
+    pub(super) folder: &'a Path,
+    pub(super) plots: bool,
+    pub(super) quiet: bool,
+}
+
+/// Follows an equilibrium path and leaves its results in a folder.
+pub(super) fn run(
+    (model, overrides, document): (&Model, &[Override], &Document),
+    wanted: &Wanted<'_>,
+    interrupt: &Interrupt,
+) -> Result<Exit, Failure> {
+    let unwritable = |error: FolderError| Failure::folder(Exit::Failed, &error);
+    let mut summary = of_request(model.name(), overrides, document);
+    let started = match PathSession::new(document) {
+        Err(PathSessionError::Model(report)) => return Err(report.into()),
+        other => other,
+    };
+    let folder = ResultFolder::create(wanted.folder).map_err(|error| unwritable(error.into()))?;
+    let mut session = match started {
+        Ok(session) => session,
+        Err(error) => {
+            // A text can be said in JSON.
+            let _ = summary.insert("error", json!(error.to_string()));
+            folder.write_summary(&summary).map_err(|error| unwritable(error.into()))?;
+            return Err(Failure::new(Exit::Failed, error));
+        }
+    };
+    let mut history = folder.history().map_err(|error| unwritable(error.into()))?;
+    let mut record = Record::default();
+    let mut writers: Vec<&mut dyn Writer> = vec![&mut history];
+    if wanted.plots {
+        writers.push(&mut record);
+    }
+    let mut watch = || if interrupt.is_noted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    let report = session.run(&mut writers, &mut watch);
+    folder.write_summary(&session.summary(summary, &report)).map_err(|error| unwritable(error.into()))?;
+    let title = document.title.as_deref().unwrap_or(model.name());
+    if !wanted.quiet {
+        terminal::print(&told(title, &report, folder.path()));
+    }
+    if wanted.plots {
+        match folder.write_plots(&record, title) {
+            Err(error @ FolderError::Figure(_)) => terminal::complain(&format!("warning: {error}\n")),
+            other => other.map_err(unwritable)?,
+        }
+    }
+    match report.end {
+        PathEnd::Reached => Ok(Exit::Done),
+        PathEnd::Interrupted => Ok(Exit::Interrupted),
+        PathEnd::Failed(error) => Err(Failure::new(
+            Exit::Failed,
+            format!("{error}\n  {} equilibria are in `{}`", report.records, folder.path().display()),
+        )),
+    }
+}
+
+/// A few lines for a person.
+fn told(heading: &str, report: &PathReport, folder: &Path) -> String {
+    let mut text = format!("{heading}\n");
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "  path to load factor {:.6e}, {:.3} long, in {} steps ({} tried again), {} iterations, {:.3} s",
+        report.load_factor,
+        report.arc,
+        report.steps[0],
+        report.steps[1],
+        report.iterations,
+        report.wall.as_secs_f64()
+    );
+    for point in &report.critical {
+        let [before, after] = point.unstable;
+        let _ = writeln!(
+            text,
+            "  {:<12} load factor {:.9e}, unstable directions {before} → {after}{}",
+            point.kind.name(),
+            point.load_factor,
+            if point.is_located { "" } else { ", not located well" }
+        );
+    }
+    let _ = writeln!(text, "  results in {}", folder.display());
+    text
+}

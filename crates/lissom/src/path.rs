@@ -1,0 +1,275 @@
+//! Equilibrium paths of a model: the systems with and without loads, the table of equilibria, the critical points.
+
+use std::io;
+use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use lissom_core::analysis::path::{CriticalPoint, EquilibriumPath, PathError, PathSettings};
+use lissom_model::channels::Channel;
+use lissom_model::document::{AnalysisKind, OutputKind};
+use lissom_model::lower::{Lowered, lower};
+use lissom_model::output::{Column, Record, Summary, Writer};
+use lissom_model::{Document, Report};
+use serde_json::{Value, json};
+
+use crate::model::Override;
+use crate::session::columns;
+
+/// A path that has no start.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PathSessionError {
+    /// The model is wrong.
+    #[error(transparent)]
+    Model(#[from] Report),
+    /// The analysis is of another kind.
+    #[error("the analysis is of kind `{0}`, not `path`")]
+    NotAPath(&'static str),
+    /// There is no equilibrium to start from, or no load.
+    #[error(transparent)]
+    Start(#[from] PathError),
+}
+
+/// Why a path ended early.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PathRunError {
+    /// The path cannot be followed any farther.
+    #[error(transparent)]
+    Path(#[from] PathError),
+    /// A writer did not take the results.
+    #[error("the results cannot be written: {0}")]
+    Write(#[from] io::Error),
+}
+
+/// How a path ended.
+#[derive(Debug)]
+pub enum PathEnd {
+    /// At its load factor.
+    Reached,
+    /// Because it was told to.
+    Interrupted,
+    /// Because it could not go on.
+    Failed(PathRunError),
+}
+
+impl PathEnd {
+    fn name(&self) -> &'static str {
+        match self {
+            Self::Reached => "end",
+            Self::Interrupted => "interrupted",
+            Self::Failed(_) => "failed",
+        }
+    }
+}
+
+/// What a path came to.
+#[derive(Debug)]
+pub struct PathReport {
+    /// How it ended.
+    pub end: PathEnd,
+    /// Limit points and bifurcations, in their order along the path.
+    pub critical: Vec<CriticalPoint>,
+    /// Last load factor.
+    pub load_factor: f64,
+    /// Length of the path [-].
+    pub arc: f64,
+    /// Equilibria recorded.
+    pub records: usize,
+    /// Steps taken, and attempts given up.
+    pub steps: [usize; 2],
+    /// Newton iterations.
+    pub iterations: usize,
+    /// How long it took.
+    pub wall: Duration,
+}
+
+/// A model on its way along an equilibrium path.
+pub struct PathSession {
+    path: EquilibriumPath,
+    channels: Vec<Channel>,
+    columns: Vec<Column>,
+    unknowns: [usize; 2],
+    began: Instant,
+}
+
+impl PathSession {
+    /// At load factor zero.
+    ///
+    /// # Errors
+    /// If the model is wrong, has no load or no equilibrium without one.
+    pub fn new(document: &Document) -> Result<Self, PathSessionError> {
+        let began = Instant::now();
+        let AnalysisKind::Path { first, end, most_steps } = document.analysis.kind else {
+            return Err(PathSessionError::NotAPath(document.analysis.kind.name()));
+        };
+        let Lowered { system, state, settings, channels, .. } = lower(document)?;
+        let mut without = document.clone();
+        without.gravity.fill(0.0);
+        without.loads.clear();
+        let unloaded = lower(&without)?.system;
+        let layout = system.layout();
+        let unknowns = [layout.coordinate_count(), layout.multiplier_rows().len()];
+        let settings = PathSettings {
+            first: first.copysign(end),
+            end,
+            most_steps,
+            scaling: settings.scaling,
+            limits: settings.limits,
+            solver: settings.solver,
+        };
+        let path = EquilibriumPath::new(Arc::new(unloaded), Arc::new(system), state, settings)?;
+        let mut all = vec![
+            Column::new("load_factor", "", "load factor", ""),
+            Column::new("unstable", "", "unstable directions", ""),
+        ];
+        all.extend(columns(&channels));
+        Ok(Self { path, channels, columns: all, unknowns, began })
+    }
+
+    /// What is recorded: the load factor, the number of unstable directions, then the outputs.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// The path.
+    pub fn path(&self) -> &EquilibriumPath {
+        &self.path
+    }
+
+    /// The values of all columns at the last equilibrium.
+    pub fn values(&self, out: &mut Vec<f64>) {
+        let factor = self.path.load_factor();
+        out.extend([factor, self.path.unstable() as f64]);
+        for channel in &self.channels {
+            let first = out.len();
+            channel.evaluate(self.path.system(), self.path.state(), out);
+            // The potential of gravity grows with the load factor.
+            if channel.kind == OutputKind::Energy {
+                let mut without = Vec::new();
+                channel.evaluate(self.path.unloaded(), self.path.state(), &mut without);
+                for (value, without) in out[first..].iter_mut().zip(without) {
+                    *value = without + factor * (*value - without);
+                }
+            }
+        }
+    }
+
+    /// Follows the path to its end. `writers` receive a row at the start and after every step, with the length of the path
+    /// as the time; `watch` is asked after every step whether to go on.
+    pub fn run(
+        &mut self,
+        writers: &mut [&mut dyn Writer],
+        watch: &mut dyn FnMut() -> ControlFlow<()>,
+    ) -> PathReport {
+        let mut report = PathReport {
+            end: PathEnd::Reached,
+            critical: Vec::new(),
+            load_factor: 0.0,
+            arc: 0.0,
+            records: 0,
+            steps: [0; 2],
+            iterations: 0,
+            wall: Duration::ZERO,
+        };
+        let end = match self.follow(writers, watch, &mut report) {
+            Ok(ControlFlow::Continue(())) => PathEnd::Reached,
+            Ok(ControlFlow::Break(())) => PathEnd::Interrupted,
+            Err(error) => PathEnd::Failed(error),
+        };
+        let finished = writers.iter_mut().try_for_each(|writer| writer.finish());
+        report.end = match (end, finished) {
+            (PathEnd::Failed(error), _) => PathEnd::Failed(error),
+            (_, Err(error)) => PathEnd::Failed(error.into()),
+            (end, Ok(())) => end,
+        };
+        report.load_factor = self.path.load_factor();
+        report.arc = self.path.arc();
+        report.wall = self.began.elapsed();
+        report
+    }
+
+    /// Follows the path to its end and keeps the results in memory.
+    pub fn record(&mut self) -> (Record, PathReport) {
+        let mut record = Record::default();
+        let report = self.run(&mut [&mut record], &mut || ControlFlow::Continue(()));
+        (record, report)
+    }
+
+    fn follow(
+        &mut self,
+        writers: &mut [&mut dyn Writer],
+        watch: &mut dyn FnMut() -> ControlFlow<()>,
+        report: &mut PathReport,
+    ) -> Result<ControlFlow<()>, PathRunError> {
+        for writer in writers.iter_mut() {
+            writer.begin(&self.columns)?;
+        }
+        let mut values = Vec::new();
+        loop {
+            values.clear();
+            self.values(&mut values);
+            writers.iter_mut().try_for_each(|writer| writer.row(self.path.arc(), &values))?;
+            report.records += 1;
+            if self.path.is_finished() {
+                return Ok(ControlFlow::Continue(()));
+            }
+            if watch().is_break() {
+                return Ok(ControlFlow::Break(()));
+            }
+            let step = self.path.advance()?;
+            report.steps[0] += 1;
+            report.steps[1] += step.rejected;
+            report.iterations += step.iterations;
+            report.critical.extend(step.critical);
+        }
+    }
+
+    /// The facts of `summary.json`.
+    pub fn summary(&self, mut summary: Summary, report: &PathReport) -> Summary {
+        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+        tell("stopped", json!(report.end.name()));
+        if let PathEnd::Failed(error) = &report.end {
+            tell("error", json!(error.to_string()));
+        }
+        tell("load_factor", json!(report.load_factor));
+        tell("arc", json!(report.arc));
+        tell("records", json!(report.records));
+        tell("steps", json!(report.steps[0]));
+        tell("rejected_steps", json!(report.steps[1]));
+        tell("newton_iterations", json!(report.iterations));
+        tell("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
+        tell("multipliers", json!(self.unknowns[1]));
+        let point = |point: &CriticalPoint| {
+            json!({
+                "kind": point.kind.name(),
+                "load_factor": point.load_factor,
+                "arc": point.arc,
+                "unstable_before": point.unstable[0],
+                "unstable_after": point.unstable[1],
+                "located": point.is_located,
+            })
+        };
+        tell("critical_points", report.critical.iter().map(point).collect());
+        let column = |column: &Column| json!({ "name": column.name(), "quantity": column.quantity, "unit": column.unit });
+        tell("columns", self.columns.iter().map(column).collect());
+        tell("wall_seconds", json!(report.wall.as_secs_f64()));
+        summary
+    }
+}
+
+/// What is known before the first step.
+pub fn of_request(name: &str, overrides: &[Override], document: &Document) -> Summary {
+    let mut summary = Summary::new();
+    let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+    tell("model", json!(name));
+    tell("title", json!(document.title));
+    tell("version", json!(crate::VERSION));
+    tell("analysis", json!("path"));
+    tell("set", overrides.iter().map(|(path, value)| (path.clone(), json!(value))).collect());
+    tell("stopped", json!("failed"));
+    let warnings = document.warnings.problems().map(|problem| json!(problem.message));
+    tell("warnings", warnings.collect());
+    summary
+}

@@ -1,0 +1,74 @@
+//! Analyses of kind `path`, as scripts see them.
+
+use super::support::{Folder, lissom, summary};
+
+/// Two springs lean on each other, and snap through under a load.
+const TRUSS: &str = r#"
+lissom = 1
+[point_masses.top]
+mass = 1.0
+position = [0, 0.3, 0]
+plane = "xy"
+[springs.left]
+kind = "point"
+base = "ground"
+at_base = [-1, 0, 0]
+tip = "top"
+stiffness = 1000.0
+[springs.right]
+kind = "point"
+base = "ground"
+at_base = [1, 0, 0]
+tip = "top"
+stiffness = 1000.0
+[loads.down]
+kind = "force"
+on = "top"
+vector = [0, -1, 0]
+[outputs.top]
+kind = "position"
+of = "top"
+[analysis]
+kind = "path"
+end = 60
+"#;
+
+#[test]
+fn a_path_leaves_its_load_factor_and_its_limits() {
+    let folder = Folder::new("path");
+    folder.write("truss.toml", TRUSS);
+    let run = lissom(&["run", "truss.toml"], folder.path());
+    assert_eq!((run.code, run.errors.as_str()), (0, ""));
+    assert!(run.output.contains("limit        load factor"), "{}", run.output);
+    let out = folder.path().join("out/truss");
+    let text = std::fs::read_to_string(out.join("history.csv")).unwrap();
+    assert_eq!(text.lines().next().unwrap(), "time,load_factor,unstable,top.x,top.y,top.z");
+    assert!(text.lines().last().unwrap().split(',').nth(1).unwrap().starts_with("60"), "{text}");
+    assert!(out.join("top.svg").is_file() && out.join("load_factor.svg").is_file());
+    let facts = summary(&out);
+    assert_eq!(facts["stopped"], "end");
+    let points = facts["critical_points"].as_array().unwrap();
+    assert_eq!(points.len(), 2);
+    assert!(points.iter().all(|point| point["kind"] == "limit"));
+    let factor = |index: usize| points[index]["load_factor"].as_f64().unwrap();
+    assert!(factor(0) > 0.0 && (factor(0) + factor(1)).abs() < 1e-8);
+    let check = lissom(&["check", "truss.toml"], folder.path());
+    assert!(check.output.contains("equilibrium path to load factor 60"), "{}", check.output);
+}
+
+#[test]
+fn a_path_that_ends_early_has_an_exit_code() {
+    let folder = Folder::new("short-path");
+    folder.write("truss.toml", TRUSS);
+    let run = lissom(&["run", "truss.toml", "--set", "analysis.steps=4", "--quiet"], folder.path());
+    assert_eq!((run.code, run.output.as_str()), (3, ""));
+    assert!(run.errors.contains("has not come to 60"), "{}", run.errors);
+    let out = folder.path().join("out/truss");
+    assert_eq!(summary(&out)["stopped"], "failed");
+    assert_eq!(std::fs::read_to_string(out.join("history.csv")).unwrap().lines().count(), 6);
+    let run = lissom(&["run", "truss.toml", "--set", "loads.down.scale=0"], folder.path());
+    assert_eq!(run.code, 3);
+    assert!(run.errors.contains("load factor changes nothing"), "{}", run.errors);
+    let run = lissom(&["run", "truss.toml", "--set", "analysis.end=0"], folder.path());
+    assert_eq!(run.code, 2, "{}", run.errors);
+}
