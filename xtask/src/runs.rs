@@ -126,6 +126,7 @@ fn grid(document: &Document) -> String {
         }
         AnalysisKind::Statics { steps } => format!("{steps} load steps"),
         AnalysisKind::Path { end, .. } => format!("path to load factor {}", short(*end)),
+        AnalysisKind::Buckling { count } => format!("{count} load factors of buckling"),
         AnalysisKind::Modes { count, .. } => format!("{count} modes"),
     });
     words.join(", ")

@@ -24,6 +24,7 @@
 //! # Ok::<(), lissom::SessionError>(())
 //! ```
 
+pub mod buckling;
 mod checkpoint;
 mod folder;
 mod model;

@@ -222,7 +222,7 @@ fn in_equilibrium(document: &Document, count: usize, shift: Option<f64>) -> Resu
 fn after(document: &Document, time: f64, count: usize, shift: Option<f64>) -> Result<ModeReport, ModesError> {
     let (start, end) = (document.analysis.start, document.analysis.end);
     let wrong = |reason: String| Err(ModesError::Time { time, reason });
-    if matches!(document.analysis.kind, AnalysisKind::Modes { .. } | AnalysisKind::Path { .. }) {
+    if !matches!(document.analysis.kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
         return wrong(
             "an analysis of this kind has no course in time; take `static` or `undeformed`".to_owned(),
         );
@@ -326,20 +326,7 @@ impl ModeReport {
     /// mass, and imaginary parts of both where a mode has any.
     pub fn shapes_csv(&self) -> String {
         let is_complex = self.modes.iter().any(|mode| mode.shape.iter().any(|value| value.im != 0.0));
-        let mut text = "mode,node,x,y,z,u1,u2,u3,r1,r2,r3".to_owned();
-        text += if is_complex { ",u1_im,u2_im,u3_im,r1_im,r2_im,r3_im\n" } else { "\n" };
-        for (index, shape) in self.shapes.iter().enumerate() {
-            for node in shape {
-                let _ = write!(text, "{},{}", index + 1, quoted(&node.node));
-                let motion = || node.displacement.iter().chain(&node.rotation);
-                let numbers = node.position.iter().copied().chain(motion().map(|value| value.re));
-                for value in numbers.chain(motion().filter(|_| is_complex).map(|value| value.im)) {
-                    let _ = write!(text, ",{value:?}");
-                }
-                text.push('\n');
-            }
-        }
-        text
+        shapes_table(&self.shapes, is_complex)
     }
 
     /// The facts of `summary.json`.
@@ -380,15 +367,26 @@ impl ModeReport {
 
 /// What is known before the modes are; the summary of a search that failed says why.
 pub fn of_request(name: &str, overrides: &[Override], document: &Document) -> Summary {
-    let mut summary = Summary::new();
-    let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
-    tell("model", json!(name));
-    tell("title", json!(document.title));
-    tell("version", json!(crate::VERSION));
-    tell("analysis", json!("modes"));
-    tell("set", overrides.iter().map(|(path, value)| (path.clone(), json!(value))).collect());
-    tell("stopped", json!("failed"));
-    summary
+    crate::summary::of_request("modes", name, overrides, document)
+}
+
+/// A table of shapes, by number and node.
+pub(crate) fn shapes_table(shapes: &[Vec<NodeShape>], is_complex: bool) -> String {
+    let mut text = "mode,node,x,y,z,u1,u2,u3,r1,r2,r3".to_owned();
+    text += if is_complex { ",u1_im,u2_im,u3_im,r1_im,r2_im,r3_im\n" } else { "\n" };
+    for (index, shape) in shapes.iter().enumerate() {
+        for node in shape {
+            // Writing to a string cannot fail.
+            let _ = write!(text, "{},{}", index + 1, quoted(&node.node));
+            let motion = || node.displacement.iter().chain(&node.rotation);
+            let numbers = node.position.iter().copied().chain(motion().map(|value| value.re));
+            for value in numbers.chain(motion().filter(|_| is_complex).map(|value| value.im)) {
+                let _ = write!(text, ",{value:?}");
+            }
+            text.push('\n');
+        }
+    }
+    text
 }
 
 fn quoted(name: &str) -> String {

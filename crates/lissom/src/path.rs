@@ -261,15 +261,5 @@ impl PathSession {
 
 /// What is known before the first step.
 pub fn of_request(name: &str, overrides: &[Override], document: &Document) -> Summary {
-    let mut summary = Summary::new();
-    let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
-    tell("model", json!(name));
-    tell("title", json!(document.title));
-    tell("version", json!(crate::VERSION));
-    tell("analysis", json!("path"));
-    tell("set", overrides.iter().map(|(path, value)| (path.clone(), json!(value))).collect());
-    tell("stopped", json!("failed"));
-    let warnings = document.warnings.problems().map(|problem| json!(problem.message));
-    tell("warnings", warnings.collect());
-    summary
+    crate::summary::of_request("path", name, overrides, document)
 }

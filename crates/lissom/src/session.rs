@@ -157,7 +157,7 @@ impl Session {
     /// If the model is wrong, or has no consistent initial values.
     pub fn new(document: &Document) -> Result<Self, SessionError> {
         let kind = &document.analysis.kind;
-        if matches!(kind, AnalysisKind::Modes { .. } | AnalysisKind::Path { .. }) {
+        if !matches!(kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
             return Err(SessionError::NotInTime(kind.name()));
         }
         Ok(Self::start(lower(document)?)?)

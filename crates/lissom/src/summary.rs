@@ -15,6 +15,20 @@ pub(crate) fn tell(summary: &mut Summary, name: &str, fact: Value) {
     summary.insert(name, fact).expect("a JSON value can be said in JSON");
 }
 
+/// What is known of an analysis without time steps before it has a result: it is told as failed until then.
+pub fn of_request(analysis: &str, name: &str, overrides: &[Override], document: &Document) -> Summary {
+    let mut summary = Summary::new();
+    let mut tell = |name: &str, fact: Value| tell(&mut summary, name, fact);
+    tell("model", json!(name));
+    tell("title", json!(document.title));
+    tell("version", json!(crate::VERSION));
+    tell("analysis", json!(analysis));
+    tell("set", overrides.iter().map(|(path, value)| (path.clone(), json!(value))).collect());
+    tell("stopped", json!("failed"));
+    tell("warnings", document.warnings.problems().map(|problem| json!(problem.message)).collect());
+    summary
+}
+
 /// What is known before the first step. A run that cannot even start is told as failed, with `steps` zero;
 /// [`of_run`] replaces this.
 pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered: &Lowered) -> Summary {

@@ -85,7 +85,7 @@ impl Operator<f64> for Inverse<'_, '_, '_> {
 }
 
 /// Eigenvalues of the operator among the known vectors: 1/(λ - σ), coefficients and residuals, the largest first.
-fn ritz(krylov: &Krylov<f64>) -> Vec<(f64, Vec<f64>, f64)> {
+pub(super) fn ritz(krylov: &Krylov<f64>) -> Vec<(f64, Vec<f64>, f64)> {
     let order = krylov.order();
     let matrix = DMatrix::from_fn(order, order, |row, column| {
         0.5 * (krylov.entry(row, column) + krylov.entry(column, row))
@@ -102,7 +102,7 @@ fn ritz(krylov: &Krylov<f64>) -> Vec<(f64, Vec<f64>, f64)> {
     all
 }
 
-fn is_converged((value, _, residual): &(f64, Vec<f64>, f64)) -> bool {
+pub(super) fn is_converged((value, _, residual): &(f64, Vec<f64>, f64)) -> bool {
     *residual <= TOLERANCE * value.abs()
 }
 

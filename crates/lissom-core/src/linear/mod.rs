@@ -1,4 +1,4 @@
-//! The linearised model at a state, and what follows from it without stepping in time: natural modes.
+//! The linearised model at a state, and what follows from it without stepping in time: natural modes, linear buckling.
 //!
 //! ```text
 //! M η̈ + (D + M ad_V) η̇ + (K + D ad_V + M ad_V̇) η + Bᵀ μ = 0,    B η = 0
@@ -9,6 +9,7 @@
 //! No constraint is eliminated: every solve is with the sparse saddle-point matrix, without pivoting.
 
 mod arnoldi;
+mod buckling;
 mod krylov;
 mod lanczos;
 mod mode;
@@ -16,6 +17,7 @@ mod model;
 mod shapes;
 mod shifted;
 
+pub use buckling::{Buckling, BucklingError, BucklingMode};
 pub use mode::{Completeness, Mode, ModeError, ModeKind, ModeOptions, Modes};
 pub use model::{LinearError, LinearModel};
 pub use shapes::NodeShape;

@@ -25,6 +25,25 @@ pub struct NodeShape {
 impl LinearModel<'_> {
     /// The shape of a mode at every node but the ground.
     pub fn shape(&self, mode: &Mode) -> Vec<NodeShape> {
+        self.complex_shape(&mode.shape)
+    }
+
+    /// The same of real displacements and rotations by row.
+    pub fn shape_of(&self, rows: &[f64]) -> Vec<NodeShape> {
+        let rows: Vec<Complex64> = rows.iter().copied().map(Complex64::from).collect();
+        self.complex_shape(&rows)
+    }
+
+    /// Largest angle by which a node is turned against the other model's state [rad].
+    pub fn largest_turn(&self, other: &LinearModel<'_>) -> f64 {
+        let nodes = self.at.nodes.iter().zip(&other.at.nodes);
+        nodes.fold(0.0, |most, (one, two)| {
+            let turn = one.frame.rotation.inverse() * two.frame.rotation;
+            f64::max(most, turn.logarithm().norm())
+        })
+    }
+
+    fn complex_shape(&self, values: &[Complex64]) -> Vec<NodeShape> {
         let layout = self.system.layout();
         (1..layout.node_count())
             .map(|node| {
@@ -34,7 +53,7 @@ impl LinearModel<'_> {
                     let part = |take: fn(&Complex64) -> f64| {
                         let own = Vector3::from_fn(|k, _| match rows[first + k] {
                             LOCKED => 0.0,
-                            row => take(&mode.shape[row as usize]),
+                            row => take(&values[row as usize]),
                         });
                         frame.rotation.apply(&own)
                     };

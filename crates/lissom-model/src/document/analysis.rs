@@ -33,6 +33,11 @@ pub enum AnalysisKind {
         /// Most steps.
         most_steps: usize,
     },
+    /// Load factors of buckling, by a linear estimate.
+    Buckling {
+        /// How many.
+        count: usize,
+    },
     /// Natural modes about a state at rest.
     Modes {
         /// How many.
@@ -51,6 +56,7 @@ impl AnalysisKind {
             Self::Dynamics { .. } => "dynamics",
             Self::Statics { .. } => "statics",
             Self::Path { .. } => "path",
+            Self::Buckling { .. } => "buckling",
             Self::Modes { .. } => "modes",
         }
     }
@@ -58,6 +64,8 @@ impl AnalysisKind {
 
 /// Modes that are sought where no number is given.
 pub const DEFAULT_MODE_COUNT: usize = 20;
+/// Load factors of buckling that are sought where no number is given.
+pub const DEFAULT_BUCKLING_COUNT: usize = 5;
 
 /// First step of a path as part of its end, and most steps, where they are not given.
 const FIRST_OF_PATH: f64 = 0.02;
@@ -149,7 +157,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     let start = number("start", 0.0);
     let end = match (word, &start) {
         // Loads are those of an instant; functions of time are tried a little beyond it.
-        ("modes" | "path", Some(start)) => Some(Located::new(start.value + 1.0, name)),
+        ("modes" | "path" | "buckling", Some(start)) => Some(Located::new(start.value + 1.0, name)),
         _ if reader.has("end") => reader.number("end"),
         _ => Some(Located::new(1.0, name)),
     };
@@ -157,6 +165,9 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         stepping(&reader, end.as_ref()?.value - start.as_ref()?.value)
     } else if word == "modes" {
         modes(&reader)
+    } else if word == "buckling" {
+        let count = reader.count("count").map_or(DEFAULT_BUCKLING_COUNT, |count| count.value);
+        Some(AnalysisKind::Buckling { count })
     } else if word == "path" {
         path(&reader)
     } else {
@@ -194,6 +205,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
             "modes" => None,
             _ => reader.number("frames_per_second").map(|rate| rate.value),
         },
+        output_every: if matches!(word, "modes" | "buckling") { 1 } else { count("output_every", 1) },
         span: name,
         start: start.as_ref()?.value,
         end: end.as_ref()?.value,

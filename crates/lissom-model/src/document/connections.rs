@@ -153,8 +153,10 @@ fn free_parts(context: &Context<'_>, document: &Document) {
         .chain(document.bodies.iter().map(|body| &body.name))
         .chain(document.point_masses.iter().map(|mass| &mass.name))
         .collect();
-    let statics = matches!(document.analysis.kind, AnalysisKind::Statics { .. } | AnalysisKind::Path { .. })
-        || document.starts_in_equilibrium();
+    let statics = matches!(
+        document.analysis.kind,
+        AnalysisKind::Statics { .. } | AnalysisKind::Path { .. } | AnalysisKind::Buckling { .. }
+    ) || document.starts_in_equilibrium();
     let named: usize =
         ["beams", "bodies", "point_masses"].iter().map(|table| context.names(table).len()).sum();
     let read = |table, read: &[Component]| context.names(table).len() == read.len();

@@ -23,7 +23,7 @@ use crate::line::Line;
 use crate::report::{Located, Problem, Report, Sources, Span};
 use crate::sections::{Isotropic, SectionProperties, Shape};
 
-pub use analysis::{Analysis, AnalysisKind, DEFAULT_MODE_COUNT, Scaling, StepChoice};
+pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use outputs::{Output, OutputKind, OutputSource};
 pub use signals::{SignalEntry, StateEntry};
 pub use tables::VERSION;

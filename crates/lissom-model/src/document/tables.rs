@@ -365,7 +365,12 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
     let words = |table: &[ChoiceEntry]| Shape::Choice(table.iter().map(|entry| entry.name).collect());
     let common = || {
         vec![
-            required("kind", choice(&["dynamics", "statics", "modes", "path"]), "", "what is computed"),
+            required(
+                "kind",
+                choice(&["dynamics", "statics", "modes", "path", "buckling"]),
+                "",
+                "what is computed",
+            ),
             optional("start", Shape::Number, "s", "first time, default 0"),
             optional(
                 "scaling",
@@ -439,6 +444,9 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
         optional("step", Shape::Positive, "", "first step of the load factor, default a fiftieth of `end`"),
         optional("steps", Shape::Count(1, 1_000_000), "", "most steps, default 1000"),
     ]);
+    let mut buckling = common();
+    buckling.retain(|key| key.name != "output_every");
+    buckling.push(optional("count", Shape::Count(1, 10_000), "", "number of load factors, default 5"));
     let mut modes = common();
     modes.retain(|key| !matches!(key.name, "output_every" | "frames_per_second"));
     modes.extend([
@@ -459,6 +467,11 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
             word: "path",
             summary: "Equilibria under loads times a load factor, through limit points, by arc length.",
             keys: path,
+        },
+        Variant {
+            word: "buckling",
+            summary: "Load factors of buckling, by a linear estimate.",
+            keys: buckling,
         },
         Variant { word: "modes", summary: "Natural modes about a state at rest.", keys: modes },
     ]

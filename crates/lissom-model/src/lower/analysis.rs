@@ -38,7 +38,9 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
             (scheme(analysis)?, step.value, steps as usize, *control)
         }
         AnalysisKind::Statics { steps } => (statics::statics(), duration / *steps as f64, *steps, None),
-        AnalysisKind::Modes { .. } | AnalysisKind::Path { .. } => (statics::statics(), duration, 1, None),
+        AnalysisKind::Modes { .. } | AnalysisKind::Path { .. } | AnalysisKind::Buckling { .. } => {
+            (statics::statics(), duration, 1, None)
+        }
     };
     let control = choice
         .map(|StepChoice { relative_tolerance, max_step, .. }| StepControl { relative_tolerance, max_step });

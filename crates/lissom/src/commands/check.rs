@@ -107,6 +107,9 @@ fn analysis(document: &Document, lowered: &Lowered) -> String {
         let state = if undeformed { "the undeformed state" } else { "static equilibrium" };
         return format!("{count} natural modes about {state}");
     }
+    if let AnalysisKind::Buckling { count } = document.analysis.kind {
+        return format!("{count} load factors of buckling");
+    }
     if let AnalysisKind::Path { end, .. } = document.analysis.kind {
         return format!("equilibrium path to load factor {end}");
     }

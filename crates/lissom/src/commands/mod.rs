@@ -1,5 +1,6 @@
 //! The subcommands. A new one is a file here, a variant of [`Command`] and a line in [`Line::run`].
 
+mod buckling;
 mod check;
 mod completions;
 mod kinds;
@@ -107,6 +108,7 @@ enum Command {
     Run(run::Run),
     Check(check::Check),
     Modes(modes::Modes),
+    Buckling(buckling::Buckling),
     Kinds(kinds::Kinds),
     Schema(schema::Schema),
     Plot(plot::Plot),
@@ -126,6 +128,7 @@ impl Line {
             Command::Run(command) => command.run(),
             Command::Check(command) => command.run(),
             Command::Modes(command) => command.run(),
+            Command::Buckling(command) => command.run(),
             Command::Kinds(command) => command.run(),
             Command::Schema(command) => command.run(),
             Command::Plot(command) => command.run(),

@@ -101,17 +101,20 @@ impl Run {
         let interrupt = Interrupt::listen();
         let task = self.task()?;
         let document = task.model.document(&task.overrides)?;
-        if matches!(document.analysis.kind, AnalysisKind::Modes { .. }) {
-            let asked = (&task.model, &task.overrides[..], &document);
-            return super::modes::report(asked, &ModeRequest::default(), &task.folder, self.quiet);
-        }
-        if !self.quiet {
-            show_warnings(&document);
-        }
-        if matches!(document.analysis.kind, AnalysisKind::Path { .. }) {
-            let asked = (&task.model, &task.overrides[..], &document);
-            let wanted = super::path::Wanted { folder: &task.folder, plots: task.plots, quiet: self.quiet };
-            return super::path::run(asked, &wanted, &interrupt);
+        let asked = (&task.model, &task.overrides[..], &document);
+        match document.analysis.kind {
+            AnalysisKind::Modes { .. } => {
+                return super::modes::report(asked, &ModeRequest::default(), &task.folder, self.quiet);
+            }
+            AnalysisKind::Buckling { .. } => {
+                return super::buckling::report(asked, None, &task.folder, self.quiet);
+            }
+            AnalysisKind::Path { .. } => {
+                let wanted =
+                    super::path::Wanted { folder: &task.folder, plots: task.plots, quiet: self.quiet };
+                return super::path::run(asked, &wanted, &interrupt);
+            }
+            AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } => {}
         }
         let mut lowered = lower(&document)?;
         let processors = || std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);

@@ -1,0 +1,215 @@
+//! Linear buckling: load factors at which the stiffness, taken to change in proportion to the loads, becomes singular.
+//!
+//! ```text
+//! (K₀ + Λ (K₁ - K₀)) x + Bᵀ μ = 0,    B x = 0
+//! ```
+//!
+//! K₀ stiffness of the equilibrium without loads, K₁ of the one under the loads of the model. In the inner product of K₀ the
+//! operator x ↦ -K₀⁻¹ (K₁ - K₀) x on the constraints is symmetric with eigenvalues 1/Λ. The negative pivots of the matrix at a load
+//! factor above the last one count those below.
+
+use super::krylov::{Krylov, Operator, product};
+use super::lanczos::{is_converged, ritz};
+use super::mode::Completeness;
+use super::model::{LinearError, LinearModel};
+use super::shifted::RealShift;
+
+/// Vectors to start with.
+const BLOCK: usize = 6;
+/// Steps between two looks at the eigenvalues.
+const BETWEEN: usize = 8;
+/// Modes sought beyond those asked for.
+const BEYOND: usize = 2;
+/// Eigenvalues of the operator below this part of the largest one are round-off.
+const NOTHING: f64 = 1e-9;
+/// A search that has so many vectors, and eight times as many as modes are sought, is ended: there are no more modes.
+const MOST_VECTORS: usize = 300;
+/// Times the search is started again with new vectors.
+const MOST_RESTARTS: usize = 4;
+
+/// A buckling mode.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BucklingMode {
+    /// Factor of the loads, greater than zero.
+    pub load_factor: f64,
+    /// Body-frame displacements and rotations by row, normalised to xᵀK₀x = 2 J.
+    pub shape: Vec<f64>,
+}
+
+/// Buckling modes, by ascending load factor.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Buckling {
+    /// Those found: fewer than asked for where there are no more.
+    pub modes: Vec<BucklingMode>,
+    /// Whether a lower one may have been missed.
+    pub completeness: Completeness,
+}
+
+/// Buckling modes that do not exist.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BucklingError {
+    /// The model is not stable without loads.
+    #[error(
+        "the model is not stable without loads ({0} unstable or free directions): linear buckling means nothing"
+    )]
+    Unstable(usize),
+    /// The loads have no potential.
+    #[error(
+        "the stiffness under the loads is not symmetric, as with loads that follow: follow the path instead"
+    )]
+    NotSymmetric,
+    /// A factorisation stopped.
+    #[error(transparent)]
+    Linear(#[from] LinearError),
+}
+
+struct Inverse<'m, 's, 'a> {
+    unloaded: &'m LinearModel<'a>,
+    change: &'m [f64],
+    solver: &'s mut RealShift<'a>,
+    room: Vec<f64>,
+    product: Vec<f64>,
+}
+
+impl Inverse<'_, '_, '_> {
+    fn multiply(&mut self, values: &[f64], vector: &[f64], result: &mut [f64]) {
+        let count = vector.len();
+        self.room[..count].copy_from_slice(vector);
+        self.room[count..].fill(0.0);
+        self.unloaded.pattern().multiply(values, &self.room, &mut self.product);
+        result.copy_from_slice(&self.product[..count]);
+    }
+}
+
+impl Operator<f64> for Inverse<'_, '_, '_> {
+    fn size(&self) -> usize {
+        self.unloaded.coordinate_count()
+    }
+
+    fn apply(&mut self, vector: &[f64], image: &mut [f64]) {
+        let change = self.change;
+        self.multiply(change, vector, image);
+        let count = image.len();
+        for (value, force) in self.room.iter_mut().zip(&*image) {
+            *value = -force;
+        }
+        self.room[count..].fill(0.0);
+        self.solver.solve(&mut self.room);
+        image.copy_from_slice(&self.room[..count]);
+    }
+
+    fn weigh(&mut self, vector: &[f64], weighted: &mut [f64]) {
+        let unloaded = self.unloaded;
+        self.multiply(&unloaded.parts.stiffness, vector, weighted);
+    }
+}
+
+impl<'a> LinearModel<'a> {
+    /// The lowest positive load factors at which a model buckles. `self` is the linear model without loads, `loaded` that
+    /// under the loads of factor one, of a system with the same unknowns.
+    ///
+    /// # Errors
+    /// If the model is not stable without loads, or the loads have no potential.
+    pub fn buckling(&self, loaded: &LinearModel<'_>, count: usize) -> Result<Buckling, BucklingError> {
+        if !(self.is_conservative() && loaded.is_conservative()) {
+            return Err(BucklingError::NotSymmetric);
+        }
+        let mut solver = RealShift::new(self.system, &self.representative);
+        let below = solver.factor(&self.parts, 0.0).map_err(|error| self.stopped(&error))?;
+        if below > 0 {
+            return Err(BucklingError::Unstable(below));
+        }
+        let change: Vec<f64> =
+            loaded.parts.stiffness.iter().zip(&self.parts.stiffness).map(|(one, zero)| one - zero).collect();
+        let size = self.system.layout().size();
+        let mut operator = Inverse {
+            unloaded: self,
+            change: &change,
+            solver: &mut solver,
+            room: vec![0.0; size],
+            product: vec![0.0; size],
+        };
+        let mut krylov = Krylov::new(operator.size());
+        let mut is_exhausted = krylov.start(&mut operator, BLOCK, 1) == 0;
+        for restart in 0.. {
+            let modes = search(&mut krylov, &mut operator, count + BEYOND, &mut is_exhausted);
+            let next = modes.get(count).map(|mode| mode.load_factor);
+            let mut modes = modes;
+            modes.truncate(count);
+            let completeness = self.counted(&change, &modes, next);
+            if completeness == Completeness::Counted || is_exhausted || restart == MOST_RESTARTS {
+                return Ok(Buckling { modes, completeness });
+            }
+            is_exhausted = krylov.start(&mut operator, BLOCK, 1) == 0;
+        }
+        unreachable!("the search ends with its last restart")
+    }
+
+    /// Compares the number of modes with the number of negative pivots above the last one.
+    fn counted(&self, change: &[f64], modes: &[BucklingMode], next: Option<f64>) -> Completeness {
+        let Some(last) = modes.last().map(|mode| mode.load_factor) else { return Completeness::Unknown };
+        let mut solver = RealShift::new(self.system, &self.representative);
+        for part in [0.5, 0.4, 0.6, 0.3] {
+            let at = next.map_or((1.0 + part) * last, |next| last + part * (next - last));
+            let stiffness =
+                self.parts.stiffness.iter().zip(change).map(|(zero, change)| zero + at * change).collect();
+            let mut parts = self.parts.clone();
+            parts.stiffness = stiffness;
+            if let Ok(below) = solver.factor(&parts, 0.0) {
+                return match below.checked_sub(modes.len()) {
+                    Some(0) => Completeness::Counted,
+                    Some(missing) => Completeness::Missing(missing),
+                    None => Completeness::Unknown,
+                };
+            }
+        }
+        Completeness::Unknown
+    }
+}
+
+/// Builds the basis until the `wanted` largest positive eigenvalues have converged, or there are no more.
+fn search(
+    krylov: &mut Krylov<f64>,
+    operator: &mut Inverse<'_, '_, '_>,
+    wanted: usize,
+    is_exhausted: &mut bool,
+) -> Vec<BucklingMode> {
+    let mut since = 0;
+    loop {
+        if !*is_exhausted && !krylov.step(operator) {
+            *is_exhausted = krylov.start(operator, BLOCK, 1) == 0;
+        }
+        since += 1;
+        if !*is_exhausted && since < BETWEEN.max(krylov.order() / 8) {
+            continue;
+        }
+        since = 0;
+        let estimates = ritz(krylov);
+        let largest = estimates.first().map_or(0.0, |estimate| estimate.0.abs());
+        let mut positive: Vec<_> =
+            estimates.into_iter().filter(|estimate| estimate.0 > NOTHING * largest).collect();
+        positive.sort_by(|a, b| b.0.total_cmp(&a.0));
+        *is_exhausted |= krylov.order() > MOST_VECTORS.max(8 * wanted);
+        let are_enough = positive.len() >= wanted && positive[..wanted].iter().all(is_converged);
+        if are_enough || *is_exhausted {
+            positive.truncate(wanted);
+            return positive
+                .iter()
+                .map(|(value, weights, _)| mode(operator, &krylov.combine(weights), *value))
+                .collect();
+        }
+    }
+}
+
+fn mode(operator: &mut Inverse<'_, '_, '_>, vector: &[f64], value: f64) -> BucklingMode {
+    let mut shape = vec![0.0; vector.len()];
+    operator.apply(vector, &mut shape);
+    let mut forces = vec![0.0; vector.len()];
+    operator.weigh(&shape, &mut forces);
+    let factor = (2.0 / product(&forces, &shape)).sqrt();
+    for entry in &mut shape {
+        *entry *= factor;
+    }
+    BucklingMode { load_factor: value.recip(), shape }
+}

@@ -1,0 +1,178 @@
+//! Linear buckling of a model: its equilibria without loads and under them, and the load factors at which the stiffness between and
+//! beyond them is singular.
+
+use std::fmt::Write;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use lissom_core::analysis::path::{EquilibriumPath, PathError, PathSettings};
+use lissom_core::linear::{Buckling, BucklingError, Completeness, LinearError, LinearModel, NodeShape};
+use lissom_model::document::{AnalysisKind, DEFAULT_BUCKLING_COUNT};
+use lissom_model::lower::{Lowered, lower};
+use lissom_model::output::Summary;
+use lissom_model::{Document, Report};
+use serde_json::{Value, json};
+
+use crate::model::{Model, Override};
+use crate::modes::shapes_table;
+
+/// First step of the load factor on the way to one, and most steps.
+const FIRST: f64 = 0.25;
+const MOST_STEPS: usize = 500;
+/// Rotations under the loads beyond which the stiffness is not taken to change in proportion to them [rad].
+const LARGE_TURN: f64 = 0.05;
+
+/// Load factors that were not found.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum BucklingRunError {
+    /// The model is wrong.
+    #[error(transparent)]
+    Model(#[from] Report),
+    /// The equilibrium under the loads was not reached.
+    #[error(transparent)]
+    Path(#[from] PathError),
+    /// The loads are larger than a critical load.
+    #[error(
+        "the loads of the model are critical already at load factor {0:.6e}: make them smaller, or follow the path by an \
+         analysis of kind `path`"
+    )]
+    AlreadyCritical(f64),
+    /// There is no linear model.
+    #[error(transparent)]
+    Linear(#[from] LinearError),
+    /// There are no buckling modes.
+    #[error(transparent)]
+    Buckling(#[from] BucklingError),
+    /// Some modes were missed.
+    #[error(
+        "{0} of the load factors below the last one were missed, as negative pivots show; ask for another `count`"
+    )]
+    Missing(usize),
+}
+
+/// Buckling modes of a model, with all that is told of them.
+#[derive(Clone, Debug)]
+pub struct BucklingReport {
+    /// Load factors and shapes.
+    pub buckling: Buckling,
+    /// Shapes, node by node, in the state without loads.
+    pub shapes: Vec<Vec<NodeShape>>,
+    /// How many were asked for.
+    pub asked: usize,
+    /// Largest rotation of a node under the loads [rad].
+    pub turn: f64,
+    /// What may be wrong with them.
+    pub warnings: Vec<String>,
+    /// How long it took.
+    pub wall: Duration,
+}
+
+/// The lowest load factors at which `model` buckles, with `overrides` put in place; `count` of them, or as many as the model
+/// asks for.
+///
+/// # Errors
+/// If the model is wrong, its loads are critical already, or load factors were missed.
+pub fn buckling(
+    model: &Model,
+    overrides: &[Override],
+    count: Option<usize>,
+) -> Result<BucklingReport, BucklingRunError> {
+    let began = Instant::now();
+    let document = model.document(overrides)?;
+    let own = match document.analysis.kind {
+        AnalysisKind::Buckling { count } => count,
+        _ => DEFAULT_BUCKLING_COUNT,
+    };
+    let asked = count.unwrap_or(own);
+    let Lowered { system, state, settings, .. } = lower(&document)?;
+    let mut without = document.clone();
+    without.gravity.fill(0.0);
+    without.loads.clear();
+    let unloaded = lower(&without)?.system;
+    let path_settings = PathSettings {
+        first: FIRST,
+        end: 1.0,
+        most_steps: MOST_STEPS,
+        scaling: settings.scaling,
+        limits: settings.limits,
+        solver: settings.solver,
+    };
+    let mut path = EquilibriumPath::new(Arc::new(unloaded), Arc::new(system), state, path_settings)?;
+    let start = path.state().clone();
+    while !path.is_finished() {
+        let step = path.advance()?;
+        if let Some(point) = step.critical.first() {
+            return Err(BucklingRunError::AlreadyCritical(point.load_factor));
+        }
+    }
+    let zero = LinearModel::of(path.unloaded(), &start, settings.solver)?;
+    let one = LinearModel::of(path.system(), path.state(), settings.solver)?;
+    let buckling = zero.buckling(&one, asked)?;
+    let mut warnings = Vec::new();
+    let turn = zero.largest_turn(&one);
+    if turn > LARGE_TURN {
+        warnings.push(format!(
+            "nodes turn by up to {turn:.2} rad under the loads: load factors far from 1 are extrapolations of a stiffness that \
+             does not change in proportion; an analysis of kind `path` finds the critical points"
+        ));
+    }
+    match buckling.completeness {
+        Completeness::Missing(missing) => return Err(BucklingRunError::Missing(missing)),
+        Completeness::Unknown if !buckling.modes.is_empty() => {
+            warnings.push("whether a lower load factor was missed is not known".to_owned());
+        }
+        _ => {}
+    }
+    if buckling.modes.is_empty() {
+        warnings.push(
+            "no positive load factor makes the stiffness singular: these loads stiffen the model".to_owned(),
+        );
+    }
+    Ok(BucklingReport {
+        shapes: buckling.modes.iter().map(|mode| zero.shape_of(&mode.shape)).collect(),
+        buckling,
+        asked,
+        turn,
+        warnings,
+        wall: began.elapsed(),
+    })
+}
+
+impl BucklingReport {
+    /// The table `buckling.csv`: number from 1 and load factor.
+    pub fn csv(&self) -> String {
+        let mut text = "mode,load_factor\n".to_owned();
+        for (index, mode) in self.buckling.modes.iter().enumerate() {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{},{:?}", index + 1, mode.load_factor);
+        }
+        text
+    }
+
+    /// The table `shapes.csv`, as that of natural modes.
+    pub fn shapes_csv(&self) -> String {
+        shapes_table(&self.shapes, false)
+    }
+
+    /// The facts of `summary.json`.
+    pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
+        let mut summary = of_request(name, overrides, document);
+        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+        let of_document = document.warnings.problems().map(|problem| json!(problem.message));
+        tell("stopped", json!("end"));
+        tell("asked", json!(self.asked));
+        tell("found", json!(self.buckling.modes.len()));
+        tell("completeness", json!(self.buckling.completeness.name()));
+        tell("load_factors", self.buckling.modes.iter().map(|mode| json!(mode.load_factor)).collect());
+        tell("largest_turn", json!(self.turn));
+        tell("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        tell("wall_seconds", json!(self.wall.as_secs_f64()));
+        summary
+    }
+}
+
+/// What is known before the load factors are.
+pub fn of_request(name: &str, overrides: &[Override], document: &Document) -> Summary {
+    crate::summary::of_request("buckling", name, overrides, document)
+}

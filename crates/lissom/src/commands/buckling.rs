@@ -1,0 +1,111 @@
+//! `lissom buckling`: load factors at which a model buckles, by a linear estimate.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use lissom::buckling::{BucklingReport, BucklingRunError, buckling, of_request};
+use lissom::{Document, FolderError, Model, Override, ResultFolder};
+use serde_json::json;
+
+use super::{Exit, Failure, ModelArguments, show_warnings};
+use crate::terminal;
+
+/// Estimate the load factors at which a model buckles, from its stiffness without loads and under them.
+///
+/// The results go to a folder: `buckling.csv` (number, load factor), `shapes.csv` and `summary.json`. The loads of the model must be
+/// smaller than the critical ones.
+#[derive(Args)]
+#[command(after_help = "\
+Example:
+  lissom buckling column.toml --count 3
+
+Exit code: 0 all is done; 2 wrong model or command line; 3 no equilibrium, loads that are critical already, or \
+load factors missed.")]
+pub(super) struct Buckling {
+    #[command(flatten)]
+    model: ModelArguments,
+
+    /// How many load factors, the lowest first [default: 5].
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    count: Option<u32>,
+
+    /// Folder for the results [default: out/<name of the model file>-buckling].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Nothing on the terminal.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Buckling {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let (model, document) = self.model.read()?;
+        let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let folder = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-buckling")));
+        let count = self.count.map(|count| count as usize);
+        report((&model, &self.model.set, &document), count, &folder, self.quiet)
+    }
+}
+
+/// Finds the load factors and leaves them in a folder.
+pub(super) fn report(
+    (model, overrides, document): (&Model, &[Override], &Document),
+    count: Option<usize>,
+    folder: &Path,
+    quiet: bool,
+) -> Result<Exit, Failure> {
+    if !quiet {
+        show_warnings(document);
+    }
+    let found = match buckling(model, overrides, count) {
+        Err(BucklingRunError::Model(report)) => return Err(report.into()),
+        other => other,
+    };
+    let unwritable = |error: lissom::FileError| Failure::folder(Exit::Failed, &FolderError::from(error));
+    let folder = ResultFolder::create(folder).map_err(unwritable)?;
+    let found = match found {
+        Ok(found) => found,
+        Err(error) => {
+            let mut summary = of_request(model.name(), overrides, document);
+            // A text can be said in JSON.
+            let _ = summary.insert("error", json!(error.to_string()));
+            folder.write_summary(&summary).map_err(unwritable)?;
+            return Err(Failure::new(Exit::Failed, error));
+        }
+    };
+    folder.write_table("buckling.csv", &found.csv()).map_err(unwritable)?;
+    folder.write_table("shapes.csv", &found.shapes_csv()).map_err(unwritable)?;
+    folder.write_summary(&found.summary(model.name(), overrides, document)).map_err(unwritable)?;
+    if !quiet {
+        for warning in &found.warnings {
+            terminal::complain(&format!("warning: {warning}\n"));
+        }
+        terminal::print(&told(document.title.as_deref().unwrap_or(model.name()), &found, folder.path()));
+    }
+    Ok(Exit::Done)
+}
+
+/// A few lines for a person.
+fn told(heading: &str, found: &BucklingReport, folder: &Path) -> String {
+    let modes = &found.buckling.modes;
+    let mut text = format!("{heading}\n");
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "  {} load factors (asked for {}), {}, {:.3} s",
+        modes.len(),
+        found.asked,
+        match found.buckling.completeness.name() {
+            "counted" => "none missed by a count of pivots",
+            _ => "not counted",
+        },
+        found.wall.as_secs_f64()
+    );
+    for (index, mode) in modes.iter().enumerate() {
+        let _ = writeln!(text, "  {:>4}   {:.9e}", index + 1, mode.load_factor);
+    }
+    let _ = writeln!(text, "  results in {}", folder.display());
+    text
+}

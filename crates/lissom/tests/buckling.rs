@@ -1,0 +1,71 @@
+//! Linear buckling against closed forms.
+
+use std::f64::consts::PI;
+
+use lissom::Model;
+use lissom::buckling::{BucklingReport, BucklingRunError, buckling};
+use lissom_core::linear::Completeness;
+
+/// A clamped column of unit length under a load along its axis.
+fn column(load: &str) -> String {
+    format!(
+        r#"
+lissom = 1
+[sections.bar]
+shape = "general"
+stiffness = [1e7, 1e7, 1e7, 1e4, 100, 300]
+mass = [1, 1, 1, 1, 1, 1]
+[beams.bar]
+section = "bar"
+from = [0, 0, 0]
+to = [1, 0, 0]
+up = [0, 0, 1]
+elements = 8
+[joints.root]
+kind = "clamp"
+base = "ground"
+tip = "bar.start"
+[loads.push]
+kind = "force"
+on = "bar.end"
+{load}
+[analysis]
+kind = "buckling"
+"#
+    )
+}
+
+fn find(text: &str, count: usize) -> Result<BucklingReport, BucklingRunError> {
+    buckling(&Model::from_text("column.toml", text), &[], Some(count))
+}
+
+#[test]
+fn an_euler_column_buckles_about_both_axes() {
+    let report = find(&column("vector = [-2, 0, 0]"), 4).unwrap();
+    assert_eq!(report.buckling.completeness, Completeness::Counted);
+    // (2k - 1)² π² EI/(4 L²) over the load, lowered by shear and raised by shortening, both P/1e7.
+    let exact = [100.0, 300.0, 900.0, 2500.0].map(|bending| PI.powi(2) * bending / 8.0);
+    assert_eq!(report.buckling.modes.len(), 4);
+    for (mode, exact) in report.buckling.modes.iter().zip(exact) {
+        let error = (mode.load_factor / exact - 1.0).abs();
+        assert!(error < 1e-3, "{} for {exact}", mode.load_factor);
+    }
+    assert!((report.buckling.modes[0].load_factor / exact[0] - 1.0).abs() < 1e-4);
+    assert!(report.warnings.is_empty(), "{:?}", report.warnings);
+    // The first one bends about the soft axis, 2: it moves along 3.
+    let tip = &report.shapes[0][report.shapes[0].len() - 1];
+    assert!(tip.displacement[2].re.abs() > 100.0 * tip.displacement[1].re.abs());
+}
+
+#[test]
+fn what_does_not_buckle_is_told() {
+    let report = find(&column("vector = [2, 0, 0]"), 2).unwrap();
+    assert!(
+        report.buckling.modes.is_empty() && report.warnings[0].contains("stiffen"),
+        "{:?}",
+        report.warnings
+    );
+    assert!(matches!(find(&column("vector = [-300, 0, 0]"), 1), Err(BucklingRunError::AlreadyCritical(_))));
+    let follower = find(&column("vector = [0, 0.1, 0]\nfollower = true"), 1);
+    assert!(matches!(follower, Err(BucklingRunError::Buckling(_))), "{follower:?}");
+}
