@@ -15,6 +15,7 @@ pub mod line;
 pub mod lower;
 mod manual;
 mod model_text;
+pub mod numbers;
 pub mod output;
 mod reader;
 pub mod registry;

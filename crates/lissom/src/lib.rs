@@ -27,6 +27,7 @@
 pub mod buckling;
 mod checkpoint;
 mod folder;
+pub mod gradient;
 mod model;
 pub mod modes;
 pub mod motion;

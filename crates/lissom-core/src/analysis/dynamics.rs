@@ -313,7 +313,13 @@ impl Simulation {
             describe(&failure, self.system.layout(), time, &self.settings, &equations.worst_unknown())
         })?;
         equations.final_violations(&mut self.next.violations);
+        self.finish_attempt()?;
+        Ok(outcome)
+    }
 
+    /// Leaves what the increments and multipliers of an attempt come to in `next`.
+    pub(super) fn finish_attempt(&mut self) -> Result<(), StepError> {
+        let work = &*self.work;
         let last = self.settings.scheme.stages.len() - 1;
         let Some(end) = work.motions.last() else { unreachable!("every scheme has a stage") };
         copy_motion(&end.at, &mut self.next.kinematics);
@@ -327,7 +333,12 @@ impl Simulation {
                 .map_err(|error| StepError::Velocities { time: self.next.kinematics.time, error })?;
         }
         self.system.signals().check(&self.next.kinematics).map_err(StepError::Signal)?;
-        Ok(outcome)
+        Ok(())
+    }
+
+    /// A failed factorisation, with names.
+    pub(super) fn describe_factor(&self, error: &FactorError, time: f64) -> StepError {
+        describe(&Failure::Factor(*error), self.system.layout(), time, &self.settings, "")
     }
 
     /// Makes what the last attempt came to the state.

@@ -17,6 +17,7 @@ pub mod mobility;
 pub mod path;
 pub mod phase;
 mod secants;
+mod sensitivity;
 pub(crate) mod snapshot_parts;
 mod step_error;
 mod workspace;

@@ -190,7 +190,7 @@ impl Simulation {
     }
 
     /// Goes over to steps of another size with all that is remembered.
-    fn resize(&mut self, size: f64) -> Result<(), StepError> {
+    pub(crate) fn resize(&mut self, size: f64) -> Result<(), StepError> {
         let Self { system, settings, work, .. } = self;
         if let Some(memory) = &mut self.method_memory {
             let time = self.state.kinematics.time;

@@ -3,6 +3,7 @@
 mod buckling;
 mod check;
 mod completions;
+mod gradient;
 mod kinds;
 mod live;
 mod modes;
@@ -109,6 +110,7 @@ enum Command {
     Check(check::Check),
     Modes(modes::Modes),
     Buckling(buckling::Buckling),
+    Gradient(gradient::Gradient),
     Kinds(kinds::Kinds),
     Schema(schema::Schema),
     Plot(plot::Plot),
@@ -129,6 +131,7 @@ impl Line {
             Command::Check(command) => command.run(),
             Command::Modes(command) => command.run(),
             Command::Buckling(command) => command.run(),
+            Command::Gradient(command) => command.run(),
             Command::Kinds(command) => command.run(),
             Command::Schema(command) => command.run(),
             Command::Plot(command) => command.run(),

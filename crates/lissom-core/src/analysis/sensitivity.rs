@@ -1,0 +1,118 @@
+//! Steps of a neighbouring model: one whose numbers differ by a little takes the same steps as another has taken, and its
+//! equations are solved with that one's tangent, made at its solution. Differences of two such neighbours on both sides are
+//! derivatives by the number.
+//!
+//! Legend: z solution of a step, x state at its start, θ a number of the model, r residual, J tangent.
+//!
+//! ```text
+//! J δz = -r(z; x ± δx, θ ± δθ)
+//! ```
+//!
+//! is the linear equation of direct differentiation, with the derivatives of r by x and θ as differences. It is iterated a few
+//! times with the same J, so that the neighbour solves its own equations.
+
+use super::dynamics::Simulation;
+use super::equations::StepEquations;
+use super::{StepError, Unwatched};
+use crate::newton::Equations;
+
+/// Most corrections of a neighbour's step.
+const MOST: usize = 12;
+/// A correction below this part of what the step finds out is round-off.
+const ROUND_OFF: f64 = 1e-13;
+/// A neighbour whose last correction is larger has not found its solution.
+const FOUND: f64 = 1e-9;
+
+impl Simulation {
+    /// Makes the tangent of the last step anew, at its solution, and keeps it in use. Gives false if there is no such step: before
+    /// the first one, after one that failed, one that was taken in parts, or with the tangent of both stages.
+    ///
+    /// # Errors
+    /// If the tangent has no factors.
+    pub fn renew_at_solution(&mut self) -> Result<bool, StepError> {
+        if !self.is_last_step_known || self.work.is_coupled() {
+            return Ok(false);
+        }
+        self.system.begin_step(&self.previous.kinematics, &mut self.work.joint_starts);
+        let mut equations = StepEquations {
+            system: &self.system,
+            scheme: &self.settings.scheme,
+            scaled: self.scaled,
+            scaling: (&self.settings.scaling, &self.representative),
+            start: &self.previous,
+            work: &mut self.work,
+            watch: &mut Unwatched,
+        };
+        equations.work.correction = 0.0;
+        let result = equations.renew_tangent();
+        self.scaled = equations.scaled;
+        let step_size = self.scaled.step_size();
+        let time = self.state.kinematics.time;
+        result.map_err(|error| self.describe_factor(&error, time))?;
+        debug_assert!(step_size > 0.0);
+        Ok(true)
+    }
+
+    /// Takes the step that `base` has taken last, from the state of this simulation and with its own system, by corrections
+    /// of the solution of `base` with the tangent of `base`. Gives the number of corrections.
+    ///
+    /// # Errors
+    /// If the corrections do not converge: the models differ too much.
+    ///
+    /// # Panics
+    /// If the two systems have different numbers of unknowns.
+    pub fn follow(&mut self, base: &mut Self) -> Result<usize, StepError> {
+        let size = base.scaled.step_size();
+        if size != self.scaled.step_size() {
+            self.resize(size)?;
+        }
+        self.scaled = base.scaled;
+        let scheme = &self.settings.scheme;
+        let work = &mut *self.work;
+        self.scaled.enter(self.system.layout(), scheme, &self.state, &mut work.unit);
+        self.system.begin_step(&self.state.kinematics, &mut work.joint_starts);
+        work.increments.clone_from(&base.work.increments);
+        work.multipliers.clone_from(&base.work.multipliers);
+        work.yielding.clone_from(&base.work.yielding);
+        work.secants.forget();
+        std::mem::swap(&mut work.factorization, &mut base.work.factorization);
+        std::mem::swap(&mut work.equilibration, &mut base.work.equilibration);
+        work.note_scales(self.system.layout(), &self.scaled);
+        let mut equations = StepEquations {
+            system: &self.system,
+            scheme,
+            scaled: self.scaled,
+            scaling: (&self.settings.scaling, &self.representative),
+            start: &self.state,
+            work,
+            watch: &mut Unwatched,
+        };
+        equations.update_motions();
+        let mut made = 0;
+        let mut last = f64::INFINITY;
+        while made < MOST {
+            let correction = equations.correct();
+            made += 1;
+            let relative = correction.size / correction.reference.max(f64::MIN_POSITIVE);
+            // What no longer shrinks is round-off.
+            let is_done =
+                relative <= ROUND_OFF || (relative >= last && last <= FOUND) || correction.size == 0.0;
+            last = relative;
+            if is_done || !relative.is_finite() {
+                break;
+            }
+        }
+        let worst = equations.worst_unknown();
+        let correction = equations.work.correction;
+        equations.final_violations(&mut self.next.violations);
+        std::mem::swap(&mut self.work.factorization, &mut base.work.factorization);
+        std::mem::swap(&mut self.work.equilibration, &mut base.work.equilibration);
+        if !(last <= FOUND || correction == 0.0) {
+            let time = self.state.kinematics.time + size;
+            return Err(StepError::NotConverged { time, iterations: made, correction, worst });
+        }
+        self.finish_attempt()?;
+        self.accept_step();
+        Ok(made)
+    }
+}

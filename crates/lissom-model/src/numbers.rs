@@ -1,0 +1,40 @@
+//! Numbers of a model file by their paths, as `bodies.top.mass`.
+
+use std::collections::BTreeMap;
+
+use crate::expression::Expression;
+use crate::text::{self, Value};
+
+/// The number at `path` in a model's `text`, with `overrides` put in place; expressions may name `parameters`.
+///
+/// # Errors
+/// If there is no number at the path; in words.
+pub fn number_at(
+    text: &str,
+    overrides: &[(String, String)],
+    parameters: &BTreeMap<String, f64>,
+    path: &str,
+) -> Result<f64, String> {
+    let tree = text::read(text, "", overrides);
+    let mut keys = path.split('.').map(str::trim);
+    let first = keys.next().unwrap_or_default();
+    let mut node = tree.root.get(first).map(|entry| &entry.node);
+    for key in keys {
+        node = node.and_then(|node| node.table()).and_then(|table| table.get(key)).map(|entry| &entry.node);
+    }
+    match node.map(|node| &node.value) {
+        None => Err(format!(
+            "the model file says nothing at `{path}`: write the number there, even if it is a default"
+        )),
+        Some(Value::Number(value)) => Ok(*value),
+        Some(Value::Text(words)) => Expression::parse(words, None, parameters)
+            .ok()
+            .and_then(|expression| expression.constant())
+            .ok_or_else(|| format!("`{path}` is not a number: \"{words}\"")),
+        Some(Value::List(_)) => Err(format!(
+            "`{path}` is a list: write a parameter into it, as \"a\" with `parameters.a`, and name that"
+        )),
+        Some(Value::Table(_)) => Err(format!("`{path}` is a table: name a number in it")),
+        Some(_) => Err(format!("`{path}` is not a number")),
+    }
+}

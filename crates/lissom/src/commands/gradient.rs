@@ -1,0 +1,101 @@
+//! `lissom gradient`: derivatives of an output by numbers of the model file.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use lissom::gradient::{GradientError, GradientReport, Target, gradient};
+use lissom::{FolderError, ResultFolder, summary};
+use serde_json::json;
+
+use super::{Exit, Failure, ModelArguments, show_warnings};
+use crate::terminal;
+
+/// Differentiate an output by numbers of the model file, along the steps of a run.
+///
+/// The results go to a folder: `gradient.csv` (path, number, derivative) and `summary.json`.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  lissom gradient examples/pendulum.toml --of bob.x@0.5 --by point_masses.bob.mass,springs.spring.stiffness
+  lissom gradient examples/tip-crank.toml --of midspan.u3@max --by materials.steel.E
+
+Exit code: 0 all is done; 2 wrong model or command line; 3 no solution.")]
+pub(super) struct Gradient {
+    #[command(flatten)]
+    model: ModelArguments,
+
+    /// Output column, and what of it: `tip.u3` (at the end), `tip.u3@0.5` (at a time), `tip.u3@max`, `tip.u3@rms`.
+    #[arg(long, value_name = "OUTPUT[@TIME|max|rms]")]
+    of: String,
+
+    /// Paths of numbers in the model file, as `bodies.top.mass,springs.s.stiffness`.
+    #[arg(long, value_name = "PATH,…", value_delimiter = ',', required = true)]
+    by: Vec<String>,
+
+    /// Folder for the results [default: out/<name of the model file>-gradient].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Nothing on the terminal.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Gradient {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let target: Target = self.of.parse().map_err(|words: String| Failure::new(Exit::BadModel, words))?;
+        let (model, document) = self.model.read()?;
+        if !self.quiet {
+            show_warnings(&document);
+        }
+        let found = match gradient(&model, &self.model.set, &target, &self.by) {
+            Err(GradientError::Model(report)) => return Err(report.into()),
+            Err(error) if error.is_of_question() => return Err(Failure::new(Exit::BadModel, error)),
+            other => other,
+        };
+        let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let path = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-gradient")));
+        let unwritable = |error: lissom::FileError| Failure::folder(Exit::Failed, &FolderError::from(error));
+        let folder = ResultFolder::create(&path).map_err(unwritable)?;
+        let found = match found {
+            Ok(found) => found,
+            Err(error) => {
+                let mut summary = summary::of_request("gradient", model.name(), &self.model.set, &document);
+                // A text can be said in JSON.
+                let _ = summary.insert("error", json!(error.to_string()));
+                folder.write_summary(&summary).map_err(unwritable)?;
+                return Err(Failure::new(Exit::Failed, error));
+            }
+        };
+        folder.write_table("gradient.csv", &found.csv()).map_err(unwritable)?;
+        let summary = found.summary(model.name(), &self.model.set, &document, &self.of);
+        folder.write_summary(&summary).map_err(unwritable)?;
+        if !self.quiet {
+            let heading = document.title.as_deref().unwrap_or(model.name());
+            terminal::print(&told(heading, &self.of, &found, &path));
+        }
+        Ok(Exit::Done)
+    }
+}
+
+/// A few lines for a person.
+fn told(heading: &str, of: &str, found: &GradientReport, folder: &Path) -> String {
+    let mut text = format!("{heading}\n");
+    let time = found.time.map_or_else(String::new, |time| format!(" at t = {time} s"));
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "  {of} = {:.9e}{time}, {} steps, {} corrections of neighbouring models, {:.3} s",
+        found.value,
+        found.steps,
+        found.corrections,
+        found.wall.as_secs_f64()
+    );
+    for derivative in &found.derivatives {
+        let _ =
+            writeln!(text, "  by {} = {:.6e}: {:.9e}", derivative.path, derivative.number, derivative.value);
+    }
+    let _ = writeln!(text, "  results in {}", folder.display());
+    text
+}

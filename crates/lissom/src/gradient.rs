@@ -1,0 +1,366 @@
+//! Derivatives of an output by numbers of the model file, along the steps of a run.
+
+use std::fmt::Write;
+use std::time::{Duration, Instant};
+
+use lissom_core::analysis::{InitialError, StepError};
+use lissom_model::document::AnalysisKind;
+use lissom_model::numbers::number_at;
+use lissom_model::output::Summary;
+use lissom_model::{Document, Report};
+use serde_json::{Value, json};
+
+use crate::model::{Model, Override};
+use crate::session::{Session, SessionError};
+
+/// How far neighbouring models are from the model, relative to the number. Differences of both sides err by its square.
+const APART: f64 = 1e-4;
+/// Newton's tolerance, at least: what it leaves is divided by the distance of the neighbours.
+const TOLERANCE: f64 = 1e-12;
+
+/// What of an output is differentiated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Measure {
+    /// Its value at the end.
+    End,
+    /// Its value at this time [s].
+    Time(f64),
+    /// Its largest value over all steps.
+    Max,
+    /// The root of the mean of its square over time.
+    Rms,
+}
+
+/// An output's column and what of it is differentiated, as `tip.u3@max`.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// Name of the column.
+    pub column: String,
+    /// What of it.
+    pub measure: Measure,
+}
+
+impl std::str::FromStr for Target {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (column, measure) = text.split_once('@').unwrap_or((text, "end"));
+        let measure = match measure.trim() {
+            "end" => Measure::End,
+            "max" => Measure::Max,
+            "rms" => Measure::Rms,
+            time => match time.parse::<f64>() {
+                Ok(time) if time.is_finite() => Measure::Time(time),
+                _ => return Err(format!("`{time}` is neither a time in seconds nor `max`, `rms` or `end`")),
+            },
+        };
+        Ok(Self { column: column.trim().to_owned(), measure })
+    }
+}
+
+/// Derivatives that were not found.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum GradientError {
+    /// The model is wrong, or wrong with a number that is changed a little.
+    #[error(transparent)]
+    Model(#[from] Report),
+    /// There are no consistent initial values.
+    #[error(transparent)]
+    Initial(#[from] InitialError),
+    /// A step has no solution, or a neighbouring model's has none.
+    #[error(transparent)]
+    Step(#[from] StepError),
+    /// The model has no such column.
+    #[error("the model has no output column `{name}`: its columns are {known}")]
+    Column {
+        /// The name asked for.
+        name: String,
+        /// Those there are.
+        known: String,
+    },
+    /// There is no number to differentiate by.
+    #[error("{0}")]
+    Number(String),
+    /// The time is not one of the analysis.
+    #[error("the output at t = {time} s: the analysis runs from {start} to {end} s")]
+    Time {
+        /// The time [s].
+        time: f64,
+        /// First time of the analysis [s].
+        start: f64,
+        /// Last time [s].
+        end: f64,
+    },
+    /// The analysis has no steps.
+    #[error(
+        "an analysis of kind `{0}` has no steps to differentiate along: it must be of kind `dynamics` or `statics`"
+    )]
+    NotInTime(&'static str),
+    /// A neighbouring model has other unknowns.
+    #[error("another value at `{0}` changes the unknowns of the model: there is no derivative by it")]
+    Unlike(String),
+    /// A step was not solved as one.
+    #[error(
+        "the step to t = {0:.6e} s was taken in parts, or with the tangent of both stages, along which nothing is differentiated; \
+         choose a smaller step"
+    )]
+    InParts(f64),
+}
+
+impl GradientError {
+    /// Whether the question is wrong rather than the answer missing.
+    pub fn is_of_question(&self) -> bool {
+        matches!(
+            self,
+            Self::Column { .. } | Self::Number(_) | Self::Time { .. } | Self::NotInTime(_) | Self::Unlike(_)
+        )
+    }
+}
+
+impl From<SessionError> for GradientError {
+    fn from(error: SessionError) -> Self {
+        match error {
+            SessionError::Model(report) => Self::Model(report),
+            SessionError::Initial(error) => Self::Initial(error),
+            SessionError::NotInTime(kind) => Self::NotInTime(kind),
+        }
+    }
+}
+
+/// A derivative.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Derivative {
+    /// Path of the number.
+    pub path: String,
+    /// The number.
+    pub number: f64,
+    /// Derivative of the measure by it.
+    pub value: f64,
+}
+
+/// Derivatives of a measure of an output.
+#[derive(Clone, Debug)]
+pub struct GradientReport {
+    /// The measure's own value.
+    pub value: f64,
+    /// Time of the value, or of the largest one [s]; none for a mean.
+    pub time: Option<f64>,
+    /// Its derivatives, in the order asked for.
+    pub derivatives: Vec<Derivative>,
+    /// Steps of the run.
+    pub steps: usize,
+    /// Corrections of neighbouring models over all steps.
+    pub corrections: usize,
+    /// How long it took.
+    pub wall: Duration,
+}
+
+/// Models whose number is a little smaller and a little larger.
+struct Neighbours {
+    path: String,
+    number: f64,
+    sessions: [Session; 2],
+}
+
+/// One column along the run: times, values, and derivatives by number.
+#[derive(Default)]
+struct Course {
+    times: Vec<f64>,
+    values: Vec<f64>,
+    derivatives: Vec<Vec<f64>>,
+}
+
+/// Derivatives of `target` by the numbers at `paths` of `model`, with `overrides` put in place.
+///
+/// # Errors
+/// If the question makes no sense for the model, or a step has no solution.
+pub fn gradient(
+    model: &Model,
+    overrides: &[Override],
+    target: &Target,
+    paths: &[String],
+) -> Result<GradientReport, GradientError> {
+    let began = Instant::now();
+    let document = prepared(model, overrides, target)?;
+    let mut session = Session::new(&document)?;
+    let known: Vec<String> = session.columns().iter().map(crate::Column::name).collect();
+    let Some(column) = known.iter().position(|name| *name == target.column) else {
+        return Err(GradientError::Column { name: target.column.clone(), known: known.join(", ") });
+    };
+    let mut neighbours = paths
+        .iter()
+        .map(|path| Neighbours::new(model, overrides, target, (&document, &session), path))
+        .collect::<Result<Vec<_>, _>>()?;
+    let mut course = Course::default();
+    let mut corrections = 0;
+    course.note(&session, &neighbours, column);
+    while !session.is_finished() {
+        session.advance()?;
+        if !session.simulation_mut().renew_at_solution()? {
+            return Err(GradientError::InParts(session.progress().time));
+        }
+        for Neighbours { sessions, .. } in &mut neighbours {
+            for neighbour in sessions {
+                corrections += neighbour.simulation_mut().follow(session.simulation_mut())?;
+            }
+        }
+        course.note(&session, &neighbours, column);
+    }
+    let (value, time, derivatives) = course.measure(target.measure);
+    Ok(GradientReport {
+        value,
+        time,
+        derivatives: neighbours
+            .into_iter()
+            .zip(derivatives)
+            .map(|(Neighbours { path, number, .. }, value)| Derivative { path, number, value })
+            .collect(),
+        steps: course.times.len() - 1,
+        corrections,
+        wall: began.elapsed(),
+    })
+}
+
+/// The document of a run up to the time that is asked for.
+fn prepared(model: &Model, overrides: &[Override], target: &Target) -> Result<Document, GradientError> {
+    let mut document = model.document(overrides)?;
+    let analysis = &mut document.analysis;
+    if !matches!(analysis.kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
+        return Err(GradientError::NotInTime(analysis.kind.name()));
+    }
+    analysis.tolerance = analysis.tolerance.min(TOLERANCE);
+    if let Measure::Time(time) = target.measure {
+        let (start, end) = (analysis.start, analysis.end);
+        if !(time > start && time <= end) {
+            return Err(GradientError::Time { time, start, end });
+        }
+        if let AnalysisKind::Statics { steps } = &mut analysis.kind {
+            // As many load steps as lead there.
+            *steps = ((*steps as f64 * (time - start) / (end - start)) - 1e-9).ceil().max(1.0) as usize;
+        }
+        analysis.end = time;
+    }
+    Ok(document)
+}
+
+impl Neighbours {
+    fn new(
+        model: &Model,
+        overrides: &[Override],
+        target: &Target,
+        (document, session): (&Document, &Session),
+        path: &str,
+    ) -> Result<Self, GradientError> {
+        if path.split('.').next().is_some_and(|table| table.trim() == "analysis") {
+            let words =
+                format!("`{path}` is of the analysis, not of the model: there is no derivative by it");
+            return Err(GradientError::Number(words));
+        }
+        let number =
+            number_at(model.text(), overrides, &document.parameters, path).map_err(GradientError::Number)?;
+        if number == 0.0 {
+            let words = format!(
+                "the number at `{path}` is zero, which tells no size: give it a small value, or a parameter beside it"
+            );
+            return Err(GradientError::Number(words));
+        }
+        let neighbour = |side: f64| {
+            let mut changed = overrides.to_vec();
+            changed.push((path.to_owned(), format!("{:?}", number * (1.0 + side * APART))));
+            let neighbour = Session::new(&prepared(model, &changed, target)?)?;
+            let unknowns = |session: &Session| {
+                let layout = session.simulation().system().layout();
+                (layout.coordinate_count(), layout.size(), session.columns().len())
+            };
+            if unknowns(&neighbour) == unknowns(session)
+                && neighbour.simulation().system().pattern() == session.simulation().system().pattern()
+            {
+                Ok(neighbour)
+            } else {
+                Err(GradientError::Unlike(path.to_owned()))
+            }
+        };
+        Ok(Self { path: path.to_owned(), number, sessions: [neighbour(-1.0)?, neighbour(1.0)?] })
+    }
+
+    /// Derivative of a column by the number, now.
+    fn derivative(&self, column: usize) -> f64 {
+        let [below, above] = [0, 1].map(|side| {
+            let mut values = Vec::new();
+            self.sessions[side].values(&mut values);
+            values[column]
+        });
+        let apart = self.number * (1.0 + APART) - self.number * (1.0 - APART);
+        (above - below) / apart
+    }
+}
+
+impl Course {
+    fn note(&mut self, session: &Session, neighbours: &[Neighbours], column: usize) {
+        let mut values = Vec::new();
+        session.values(&mut values);
+        self.times.push(session.progress().time);
+        self.values.push(values[column]);
+        self.derivatives.resize(neighbours.len(), Vec::new());
+        for (derivatives, neighbours) in self.derivatives.iter_mut().zip(neighbours) {
+            derivatives.push(neighbours.derivative(column));
+        }
+    }
+
+    /// Value, its time, and its derivatives.
+    fn measure(&self, measure: Measure) -> (f64, Option<f64>, Vec<f64>) {
+        let last = self.values.len() - 1;
+        let at = |index: usize| {
+            let derivatives = self.derivatives.iter().map(|of| of[index]).collect();
+            (self.values[index], Some(self.times[index]), derivatives)
+        };
+        match measure {
+            Measure::End | Measure::Time(_) => at(last),
+            Measure::Max => {
+                let first = (0..=last).rev().max_by(|&a, &b| self.values[a].total_cmp(&self.values[b]));
+                at(first.unwrap_or(last))
+            }
+            Measure::Rms => {
+                let duration = self.times[last] - self.times[0];
+                let mean = |of: &dyn Fn(usize) -> f64| {
+                    let part = |k: usize| 0.5 * (self.times[k + 1] - self.times[k]) * (of(k) + of(k + 1));
+                    (0..last).map(part).sum::<f64>() / duration
+                };
+                let value = mean(&|k| self.values[k].powi(2)).sqrt();
+                let derivatives =
+                    self.derivatives.iter().map(|of| mean(&|k| self.values[k] * of[k]) / value).collect();
+                (value, None, derivatives)
+            }
+        }
+    }
+}
+
+impl GradientReport {
+    /// The table `gradient.csv`: path, number, derivative.
+    pub fn csv(&self) -> String {
+        let mut text = "path,number,derivative\n".to_owned();
+        for Derivative { path, number, value } in &self.derivatives {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{path},{number:?},{value:?}");
+        }
+        text
+    }
+
+    /// The facts of `summary.json`.
+    pub fn summary(&self, name: &str, overrides: &[Override], document: &Document, of: &str) -> Summary {
+        let mut summary = crate::summary::of_request("gradient", name, overrides, document);
+        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+        tell("stopped", json!("end"));
+        tell("of", json!(of));
+        tell("value", json!(self.value));
+        tell("time", json!(self.time));
+        let derivative =
+            |of: &Derivative| json!({ "path": of.path, "number": of.number, "derivative": of.value });
+        tell("derivatives", self.derivatives.iter().map(derivative).collect());
+        tell("steps", json!(self.steps));
+        tell("corrections", json!(self.corrections));
+        tell("wall_seconds", json!(self.wall.as_secs_f64()));
+        summary
+    }
+}
