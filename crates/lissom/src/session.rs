@@ -198,6 +198,8 @@ impl Session {
     /// Hands the states of a [`run`](Self::run) to `writer`, too.
     pub fn write_states_to(&mut self, writer: Box<dyn StateWriter>) {
         self.state_writers.push(writer);
+    }
+
     /// The simulation, for analyses along its steps.
     pub(crate) fn simulation_mut(&mut self) -> &mut Simulation {
         &mut self.simulation

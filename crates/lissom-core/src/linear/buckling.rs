@@ -105,7 +105,7 @@ impl Operator<f64> for Inverse<'_, '_, '_> {
     }
 }
 
-impl<'a> LinearModel<'a> {
+impl LinearModel<'_> {
     /// The lowest positive load factors at which a model buckles. `self` is the linear model without loads, `loaded` that
     /// under the loads of factor one, of a system with the same unknowns.
     ///

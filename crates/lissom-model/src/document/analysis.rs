@@ -154,10 +154,11 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         Some(_) => reader.number(key),
     };
     let dynamics = word == "dynamics";
+    let is_run = matches!(word, "dynamics" | "statics");
     let start = number("start", 0.0);
-    let end = match (word, &start) {
+    let end = match (is_run, &start) {
         // Loads are those of an instant; functions of time are tried a little beyond it.
-        ("modes" | "path" | "buckling", Some(start)) => Some(Located::new(start.value + 1.0, name)),
+        (false, Some(start)) => Some(Located::new(start.value + 1.0, name)),
         _ if reader.has("end") => reader.number("end"),
         _ => Some(Located::new(1.0, name)),
     };
@@ -200,12 +201,12 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         solver,
         tolerance: tolerance?.value,
         max_iterations: count("max_iterations", 40),
-        output_every: if word == "modes" { 1 } else { count("output_every", 1) },
-        frames_per_second: match word {
-            "modes" => None,
-            _ => reader.number("frames_per_second").map(|rate| rate.value),
+        output_every: if is_run { count("output_every", 1) } else { 1 },
+        frames_per_second: if is_run {
+            reader.number("frames_per_second").map(|rate| rate.value)
+        } else {
+            None
         },
-        output_every: if matches!(word, "modes" | "buckling") { 1 } else { count("output_every", 1) },
         span: name,
         start: start.as_ref()?.value,
         end: end.as_ref()?.value,

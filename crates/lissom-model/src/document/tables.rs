@@ -438,17 +438,26 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
     let mut statics = common();
     statics.push(optional("end", Shape::Number, "s", "last time, default 1"));
     statics.push(optional("steps", Shape::Count(1, 1_000_000), "", "load steps, default 10"));
-    let mut path = common();
+    let mut variants = vec![
+        Variant { word: "dynamics", summary: "Motion in time.", keys: dynamics },
+        Variant { word: "statics", summary: "Equilibrium in load steps.", keys: statics },
+    ];
+    variants.extend(analyses_without_records(common()));
+    variants
+}
+
+/// Analyses that record nothing over time.
+fn analyses_without_records(mut common: Vec<Key>) -> Vec<Variant> {
+    common.retain(|key| !matches!(key.name, "output_every" | "frames_per_second"));
+    let mut path = common.clone();
     path.extend([
         optional("end", Shape::Number, "", "load factor at which the path ends, default 1"),
         optional("step", Shape::Positive, "", "first step of the load factor, default a fiftieth of `end`"),
         optional("steps", Shape::Count(1, 1_000_000), "", "most steps, default 1000"),
     ]);
-    let mut buckling = common();
-    buckling.retain(|key| key.name != "output_every");
+    let mut buckling = common.clone();
     buckling.push(optional("count", Shape::Count(1, 10_000), "", "number of load factors, default 5"));
-    let mut modes = common();
-    modes.retain(|key| !matches!(key.name, "output_every" | "frames_per_second"));
+    let mut modes = common;
     modes.extend([
         optional("count", Shape::Count(1, 100_000), "", "number of modes, default 20"),
         optional(
@@ -461,8 +470,6 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
         optional("shift", Shape::NotNegative, "Hz", "frequency near which modes are sought; default: the lowest ones"),
     ]);
     vec![
-        Variant { word: "dynamics", summary: "Motion in time.", keys: dynamics },
-        Variant { word: "statics", summary: "Equilibrium in load steps.", keys: statics },
         Variant {
             word: "path",
             summary: "Equilibria under loads times a load factor, through limit points, by arc length.",

@@ -8,7 +8,7 @@ use lissom::path::{PathEnd, PathReport, PathSession, PathSessionError, of_reques
 use lissom::{Document, FolderError, Model, Override, Record, ResultFolder, Writer};
 use serde_json::json;
 
-use super::{Exit, Failure};
+use super::{Exit, Failure, show_warnings};
 use crate::terminal::{self, Interrupt};
 
 /// What is done with the results.
@@ -24,6 +24,9 @@ pub(super) fn run(
     wanted: &Wanted<'_>,
     interrupt: &Interrupt,
 ) -> Result<Exit, Failure> {
+    if !wanted.quiet {
+        show_warnings(document);
+    }
     let unwritable = |error: FolderError| Failure::folder(Exit::Failed, &error);
     let mut summary = of_request(model.name(), overrides, document);
     let started = match PathSession::new(document) {

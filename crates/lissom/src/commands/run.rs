@@ -116,6 +116,9 @@ impl Run {
             }
             AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } => {}
         }
+        if !self.quiet {
+            show_warnings(&document);
+        }
         let mut lowered = lower(&document)?;
         let processors = || std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
         lowered.settings.threads = self.threads.unwrap_or_else(processors).get();
