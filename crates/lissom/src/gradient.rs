@@ -100,6 +100,12 @@ pub enum GradientError {
     /// A neighbouring model has other unknowns.
     #[error("another value at `{0}` changes the unknowns of the model: there is no derivative by it")]
     Unlike(String),
+    /// Loads depend on the motion, or signals are sampled.
+    #[error(
+        "nothing is differentiated along the motion of a model with feedback, states or samples: remove loads and states whose \
+         signals depend on the motion"
+    )]
+    Feedback,
     /// A step was not solved as one.
     #[error(
         "the step to t = {0:.6e} s was taken in parts, or with the tangent of both stages, along which nothing is differentiated; \
@@ -113,7 +119,12 @@ impl GradientError {
     pub fn is_of_question(&self) -> bool {
         matches!(
             self,
-            Self::Column { .. } | Self::Number(_) | Self::Time { .. } | Self::NotInTime(_) | Self::Unlike(_)
+            Self::Column { .. }
+                | Self::Number(_)
+                | Self::Time { .. }
+                | Self::NotInTime(_)
+                | Self::Unlike(_)
+                | Self::Feedback
         )
     }
 }
@@ -184,6 +195,10 @@ pub fn gradient(
     let began = Instant::now();
     let document = prepared(model, overrides, target)?;
     let mut session = Session::new(&document)?;
+    let system = session.simulation().system();
+    if system.has_feedback() || system.signals().has_samples() {
+        return Err(GradientError::Feedback);
+    }
     let known: Vec<String> = session.columns().iter().map(crate::Column::name).collect();
     let Some(column) = known.iter().position(|name| *name == target.column) else {
         return Err(GradientError::Column { name: target.column.clone(), known: known.join(", ") });

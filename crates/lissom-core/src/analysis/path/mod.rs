@@ -50,6 +50,11 @@ pub enum PathError {
     /// The two systems are not one with and without loads.
     #[error("the model without its loads has other unknowns than with them")]
     NotAlike,
+    /// Loads depend on the motion, or there are states.
+    #[error(
+        "a path of a system with feedback is not known: remove loads and states whose signals depend on the motion"
+    )]
+    Feedback,
     /// No load acts.
     #[error(
         "no load and no gravity acts at the time `start`, so that a load factor changes nothing; give loads a size there"
@@ -144,6 +149,9 @@ impl EquilibriumPath {
         state: State,
         mut settings: PathSettings,
     ) -> Result<Self, PathError> {
+        if unloaded.has_feedback() || loaded.has_feedback() {
+            return Err(PathError::Feedback);
+        }
         let layouts = [&unloaded, &loaded].map(|system| system.layout());
         if layouts[0].coordinate_count() != layouts[1].coordinate_count()
             || layouts[0].size() != layouts[1].size()
