@@ -381,3 +381,108 @@ fn states_beside_a_motion_do_not_disturb_it() {
         assert!((x - reference.value("x").unwrap()).abs() < 1e-9, "{scale}: {x}");
     }
 }
+
+const SLIDER: &str = r#"
+lissom = 1
+[bodies.block]
+mass = 2
+inertia = [0.1, 0.1, 0.1]
+velocity = [0.5, 0, 0]
+[joints.slide]
+kind = "prismatic"
+base = "ground"
+tip = "block"
+axis = [1, 0, 0]
+[outputs.slide]
+kind = "relative"
+of = "slide"
+[analysis]
+kind = "dynamics"
+"#;
+
+fn slider(tables: &str, analysis: &str) -> String {
+    format!(
+        "{}\n{tables}",
+        SLIDER.replace("kind = \"dynamics\"\n", &format!("kind = \"dynamics\"\n{analysis}\n"))
+    )
+}
+
+/// With dry friction F the amplitude of an oscillator falls by 2 F/k per half swing, until it sticks.
+#[test]
+fn the_amplitude_of_an_oscillator_with_dry_friction_falls_by_a_constant() {
+    let tables = r#"
+[springs.spring]
+kind = "axial"
+joint = "slide"
+stiffness = 200
+[springs.friction]
+kind = "axial_friction"
+joint = "slide"
+coulomb = 0.8
+deflection = 1e-6
+damping = 20
+"#;
+    // The first two of them oscillate while the bristle bends at the start.
+    for (scheme, most) in
+        [("generalized-alpha", 1e-4), ("hht", 1e-4), ("radau-iia", 2e-5), ("energy-decaying", 2e-5)]
+    {
+        let text = slider(tables, &format!("scheme = \"{scheme}\"\nend = 4\nstep = 2e-4"));
+        let mut session = session(&text);
+        let (record, report) = session.record();
+        assert!(report.is_complete(), "{scheme}: {report:?}");
+        let places = record.column("slide", "displacement").unwrap();
+        let peaks: Vec<f64> = places
+            .windows(3)
+            .filter(|three| (three[1] - three[0]) * (three[2] - three[1]) < 0.0)
+            .map(|three| three[1].abs())
+            .filter(|peak| *peak > 6e-3)
+            .collect();
+        // From ½ m v² = ½ k a² + F a.
+        let first = (-0.8 + (0.8_f64 * 0.8 + 200.0 * 2.0 * 0.25).sqrt()) / 200.0;
+        assert!(peaks.len() >= 3, "{scheme}: {peaks:?}");
+        for (k, peak) in peaks.iter().enumerate() {
+            let wanted = first - 2.0 * 0.8 / 200.0 * k as f64;
+            assert!((peak - wanted).abs() < most, "{scheme}: peak {k} {peak} {wanted}");
+        }
+        // It sticks within F/k of the middle.
+        let last = places[places.len() - 1];
+        assert!(last.abs() < 0.8 / 200.0 + 1e-5, "{scheme}: {last}");
+        assert!((last - places[places.len() - 500]).abs() < 1e-7, "{scheme}");
+    }
+}
+
+/// A block on a slope below the limit of friction sticks, and does not creep in 10⁵ steps.
+#[test]
+fn a_block_sticks_on_a_slope_without_creeping() {
+    let tables = r#"
+[springs.friction]
+kind = "axial_friction"
+joint = "slide"
+coulomb = 10
+damping = 200
+"#;
+    let text = slider(tables, "scheme = \"radau-iia\"\nend = 100\nstep = 1e-3")
+        .replace("lissom = 1", "lissom = 1\ngravity = [4.5, 0, -8.7]")
+        .replace("velocity = [0.5, 0, 0]\n", "");
+    let mut session = session(&text);
+    session.step_to(2.0).unwrap();
+    let settled = session.value("slide.displacement").unwrap();
+    // Released at once it slips a little until the bristle holds 9 N of 10 N.
+    assert!(settled > 0.9e-4 && settled < 1e-3, "{settled}");
+    session.step_to(100.0).unwrap();
+    let crept = session.value("slide.displacement").unwrap() - settled;
+    assert!(crept.abs() < 1e-12, "{crept:e}");
+    // Above the limit it slides; while the bristle bends it gains F_c times its deflection at most, 1e-5 J.
+    let slips =
+        text.replace("coulomb = 10", "coulomb = 8\ndeflection = 1e-6").replace("end = 100", "end = 1");
+    let slid = finished(&slips).value("slide.displacement").unwrap();
+    assert!((slid - 0.5 * (9.0 - 8.0) / 2.0).abs() < 4e-3, "{slid}");
+}
+
+#[test]
+fn friction_has_no_equation_in_statics() {
+    let tables = "[springs.friction]\nkind = \"axial_friction\"\njoint = \"slide\"\ncoulomb = 1\n";
+    let statics =
+        slider(tables, "").replace("\"dynamics\"", "\"statics\"").replace("velocity = [0.5, 0, 0]\n", "");
+    assert!(refused(&statics).contains("know no rates"));
+}

@@ -136,6 +136,9 @@ impl Simulation {
         } else {
             (system, state)
         };
+        if let Some((row, ..)) = system.layout().states().next().filter(|_| !settings.scheme.dynamic) {
+            return Err(InitialError::StateInStatics(system.layout().name_of(row)));
+        }
         let at_start = Linearization::of_state(&system, &state.kinematics);
         let representative = Representative::of(&system, &state.kinematics, &at_start);
         let mut velocity_correction = 0.0;

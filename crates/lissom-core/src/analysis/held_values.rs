@@ -49,9 +49,9 @@ pub(super) fn settle(
     settings: &Settings,
 ) -> Result<(), InitialError> {
     system.signals().begin(&mut state.kinematics).map_err(InitialError::Signal)?;
-    system.feedback.set_rates(&mut state.kinematics);
+    initial.set_state_rates(system, &mut state.kinematics);
     initial.accelerations(system, state)?;
-    Initial::accelerate_states(system, state, settings.step_size);
+    initial.accelerate_states(system, state, settings.step_size);
     let delay = settings.scheme.memory_delay * settings.step_size;
     state.algorithmic = initial.delayed_accelerations(system, state, delay)?;
     Ok(())

@@ -35,6 +35,12 @@ pub enum InitialError {
     /// A signal is not finite.
     #[error("at the start: {0}")]
     Signal(crate::signals::SignalError),
+    /// States where there are no rates.
+    #[error(
+        "statics and a start from equilibrium know no rates: {0} is a state and has no equation there; remove states \
+         and friction, or start a dynamic analysis as it is"
+    )]
+    StateInStatics(String),
     /// The places of rest were not found.
     #[error("initial equilibrium: {0}")]
     NoEquilibrium(Box<super::StepError>),
@@ -239,9 +245,26 @@ impl Initial {
         Ok(())
     }
 
+    /// Sets the rates of first-order states to what their equations x' - f = 0 say.
+    pub(super) fn set_state_rates(&self, system: &System, at: &mut Kinematics) {
+        let layout = system.layout();
+        if layout.state_count() == 0 {
+            return;
+        }
+        for (_, coordinate, _) in layout.states() {
+            at.coordinates[coordinate].rate = 0.0;
+        }
+        let zero = vec![0.0; layout.multiplier_count];
+        let mut residual = vec![0.0; layout.size()];
+        system.residual(&self.point(at, &zero), &mut residual);
+        for (row, coordinate, _) in layout.states() {
+            at.coordinates[coordinate].rate = -residual[row];
+        }
+    }
+
     /// Second derivatives of first-order states by a central difference of their derivatives over `delay` [s] before
     /// and after the state, along the motion.
-    pub(super) fn accelerate_states(system: &System, state: &mut State, delay: f64) {
+    pub(super) fn accelerate_states(&self, system: &System, state: &mut State, delay: f64) {
         let states: Vec<_> = system.layout().states().map(|(_, coordinate, _)| coordinate).collect();
         if states.is_empty() {
             return;
@@ -251,7 +274,7 @@ impl Initial {
         }
         let [after, before] = [delay, -delay].map(|delay| {
             let mut moved = moved(state, delay).kinematics;
-            system.feedback.set_rates(&mut moved);
+            self.set_state_rates(system, &mut moved);
             moved.coordinates
         });
         for coordinate in states {

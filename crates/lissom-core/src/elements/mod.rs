@@ -7,6 +7,7 @@ pub mod beam;
 pub mod blocks;
 pub mod coordinate_spring;
 pub mod force;
+pub mod friction;
 pub mod inertia;
 mod inertia_blocks;
 pub mod joint_load;
@@ -270,8 +271,13 @@ pub struct ElementKind {
 }
 
 /// Springs and dampers, one line each.
-pub static SPRINGS: &[ElementKind] =
-    &[coordinate_spring::AXIAL, point_spring::KIND, coordinate_spring::TORSIONAL];
+pub static SPRINGS: &[ElementKind] = &[
+    coordinate_spring::AXIAL,
+    point_spring::KIND,
+    coordinate_spring::TORSIONAL,
+    friction::AXIAL,
+    friction::TORSIONAL,
+];
 
 /// Loads, one line each.
 pub static LOADS: &[ElementKind] = &[force::KIND, moment::KIND, joint_load::TORQUE, joint_load::FORCE];

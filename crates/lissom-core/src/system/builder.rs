@@ -317,6 +317,11 @@ impl Builder {
         built
     }
 
+    /// Name of a coordinate.
+    pub(crate) fn coordinate_name(&self, coordinate: CoordinateId) -> &str {
+        &self.coordinates[coordinate].name
+    }
+
     /// What a coordinate measures.
     pub fn coordinate_quantity(&self, coordinate: CoordinateId) -> Quantity {
         self.coordinates[coordinate].quantity

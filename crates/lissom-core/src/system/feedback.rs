@@ -214,16 +214,6 @@ impl Feedback {
         self.places.shrink();
     }
 
-    /// Sets the rates of all states to what their signals are.
-    pub(crate) fn set_rates(&self, at: &mut Kinematics) {
-        let rates: Vec<f64> = self.graph.evaluate(at, <[f64]>::to_vec);
-        for driven in &self.driven {
-            if let Target::State([coordinate]) = driven.target {
-                at.coordinates[coordinate].rate = rates[driven.signal];
-            }
-        }
-    }
-
     fn add_forces(&self, at: &Kinematics, out: &mut [f64]) {
         self.graph.evaluate(at, |values| {
             for driven in &self.driven {

@@ -117,7 +117,7 @@ impl System {
 
     /// Whether forces depend on the motion through signals, or there are states.
     pub fn has_feedback(&self) -> bool {
-        self.feedback.depends_on_motion()
+        self.feedback.depends_on_motion() || self.layout.state_count() > 0
     }
 
     /// Gravity [m/s²].

@@ -1,0 +1,185 @@
+//! Dry friction on a joint's relative rotation or displacement, by a bristle that bends before it slips
+//! [Canudas de Wit, Olsson, Åström and Lischinsky 1995].
+//!
+//! Legend: v rate of the coordinate, z deflection of the bristle (a first-order state), F_c Coulomb and F_s static friction,
+//! v_s Stribeck's velocity, σ₀ = F_c/z_c stiffness with the deflection z_c at slip, σ₁ damping, σ₂ viscous friction.
+//!
+//! ```text
+//! z' = v - σ₀ |v| z/g(v),      g = F_c + (F_s - F_c) exp(-(v/v_s)²),      F = σ₀ z + σ₁ z' + σ₂ v
+//! ```
+
+use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
+use crate::joints::Quantity;
+use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
+use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
+
+/// Deflection at which the bristle slips, where it is not given [rad, m].
+const DEFLECTION: f64 = 1e-4;
+
+/// Registry entry of friction on a rotation.
+pub const TORSIONAL: ElementKind = ElementKind {
+    name: "torsional_friction",
+    summary: "Dry and viscous friction on a joint's relative rotation; it sticks without creeping.",
+    sample: "coulomb = 0.5",
+    parameters: &[
+        Parameter::required("coulomb", ParameterType::Positive, "N m", "Moment of sliding friction."),
+        Parameter::optional(
+            "breakaway",
+            ParameterType::Positive,
+            "N m",
+            "Additional moment of friction at rest; default none.",
+        ),
+        Parameter::optional(
+            "stribeck",
+            ParameterType::Positive,
+            "rad/s",
+            "Rate at which the additional moment has fallen to 1/e; default 0.01.",
+        ),
+        Parameter::optional(
+            "viscous",
+            ParameterType::NotNegative,
+            "N m s/rad",
+            "Moment per rate besides; default 0.",
+        ),
+        Parameter::optional(
+            "deflection",
+            ParameterType::Positive,
+            "rad",
+            "Elastic rotation before it slips; default 1e-4.",
+        ),
+        Parameter::optional(
+            "damping",
+            ParameterType::NotNegative,
+            "N m s/rad",
+            "Damping of the elastic rotation; default 0.",
+        ),
+        COORDINATE,
+    ],
+    attachment: Attachment::Coordinate(Quantity::Angle),
+    build: |builder, attached, parameters| add(builder, attached, parameters, Quantity::Angle),
+};
+
+/// Registry entry of friction on a displacement.
+pub const AXIAL: ElementKind = ElementKind {
+    name: "axial_friction",
+    summary: "Dry and viscous friction on a joint's relative displacement; it sticks without creeping.",
+    sample: "coulomb = 5.0",
+    parameters: &[
+        Parameter::required("coulomb", ParameterType::Positive, "N", "Force of sliding friction."),
+        Parameter::optional(
+            "breakaway",
+            ParameterType::Positive,
+            "N",
+            "Additional force of friction at rest; default none.",
+        ),
+        Parameter::optional(
+            "stribeck",
+            ParameterType::Positive,
+            "m/s",
+            "Velocity at which the additional force has fallen to 1/e; default 0.01.",
+        ),
+        Parameter::optional(
+            "viscous",
+            ParameterType::NotNegative,
+            "N s/m",
+            "Force per velocity besides; default 0.",
+        ),
+        Parameter::optional(
+            "deflection",
+            ParameterType::Positive,
+            "m",
+            "Elastic displacement before it slips; default 1e-4.",
+        ),
+        Parameter::optional(
+            "damping",
+            ParameterType::NotNegative,
+            "N s/m",
+            "Damping of the elastic displacement; default 0.",
+        ),
+        COORDINATE,
+    ],
+    attachment: Attachment::Coordinate(Quantity::Length),
+    build: |builder, attached, parameters| add(builder, attached, parameters, Quantity::Length),
+};
+
+/// Friction on an algebraic coordinate.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Friction {
+    /// The joint's coordinate, then the bristle's deflection.
+    coordinates: [CoordinateId; 2],
+    coulomb: f64,
+    breakaway: f64,
+    stribeck: f64,
+    viscous: f64,
+    stiffness: f64,
+    damping: f64,
+}
+
+fn add(
+    builder: &mut Builder,
+    attached: Attached,
+    parameters: &Parameters,
+    acts_on: Quantity,
+) -> Result<(), ParameterError> {
+    let coordinate = attached.coordinate()?;
+    builder.check_quantity(coordinate, acts_on)?;
+    let coulomb = parameters.number("coulomb")?;
+    let deflection = parameters.number_or("deflection", DEFLECTION)?;
+    let name = format!("{}, friction", builder.coordinate_name(coordinate));
+    let bristle = builder.add_state(&name, 0.0, deflection);
+    builder.add_element(Friction {
+        coordinates: [coordinate, bristle],
+        coulomb,
+        breakaway: parameters.number_or("breakaway", 0.0)?,
+        stribeck: parameters.number_or("stribeck", 0.01)?,
+        viscous: parameters.number_or("viscous", 0.0)?,
+        stiffness: coulomb / deflection,
+        damping: parameters.number_or("damping", 0.0)?,
+    });
+    Ok(())
+}
+
+impl Friction {
+    /// g(v) and its derivative.
+    fn limit(&self, rate: f64) -> (f64, f64) {
+        let relative = rate / self.stribeck;
+        let more = self.breakaway * (-relative * relative).exp();
+        (self.coulomb + more, -2.0 * more * relative / self.stribeck)
+    }
+}
+
+impl Element for Friction {
+    fn nodes(&self) -> &[NodeId] {
+        &[]
+    }
+
+    fn coordinates(&self) -> &[CoordinateId] {
+        &self.coordinates
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        let [rate, bristle] = self.coordinates.map(|coordinate| at.coordinates[coordinate]);
+        let rate = rate.rate;
+        let (limit, _) = self.limit(rate);
+        out[0] += self.stiffness * bristle.value + self.damping * bristle.rate + self.viscous * rate;
+        out[1] += bristle.rate - rate + self.stiffness * rate.abs() * bristle.value / limit;
+    }
+
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        let [rate, bristle] = self.coordinates.map(|coordinate| at.coordinates[coordinate]);
+        let (rate, value) = (rate.rate, bristle.value);
+        let (limit, slope) = self.limit(rate);
+        let sign = if rate == 0.0 { 0.0 } else { rate.signum() };
+        out.stiffness[1] += self.stiffness;
+        out.damping[0] += self.viscous;
+        out.damping[1] += self.damping;
+        out.damping[2] += self.stiffness * value * (sign - rate.abs() * slope / limit) / limit - 1.0;
+        out.stiffness[3] += self.stiffness * rate.abs() / limit;
+        out.damping[3] += 1.0;
+    }
+
+    fn energy(&self, at: &Kinematics) -> Energy {
+        let deflection = at.coordinates[self.coordinates[1]].value;
+        Energy { strain: 0.5 * self.stiffness * deflection * deflection, ..Energy::default() }
+    }
+}
