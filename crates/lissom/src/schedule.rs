@@ -69,9 +69,9 @@ impl Schedule {
         }
     }
 
-    /// A planned instant [s].
+    /// A planned instant [s]; where a run was diverted beyond its end, that time.
     fn planned(&self, index: usize) -> f64 {
-        if index >= self.steps { self.plan.end } else { self.base + index as f64 * self.step_size }
+        if index >= self.steps { self.plan.end.max(self.base) } else { self.base + index as f64 * self.step_size }
     }
 
     /// The next record at an equal distance, or the end [s].
@@ -186,6 +186,13 @@ mod tests {
             }
         }
         assert_eq!(met, [0.75, 1.0, 1.25, 1.5, 1.6]);
+    }
+
+    #[test]
+    fn a_run_diverted_beyond_its_end_stands_there() {
+        let mut schedule = Schedule::new(plan(1.5, 10), 0.1);
+        schedule.divert(1.75);
+        assert!(schedule.is_finished() && schedule.time() == 1.75);
     }
 
     #[test]
