@@ -1,0 +1,31 @@
+"""Flexible multibody dynamics: mechanisms of rigid bodies, geometrically exact beams and joints.
+
+>>> import lissom
+>>> model = lissom.load("pendulum.toml", **{"analysis.end": 2})
+>>> result = model.run()
+>>> result["bob.x"]            # NumPy, one value per recorded instant [m]
+
+All quantities are in SI units. Exceptions are `ModelError` and `SolutionError`, with the texts of the command line.
+"""
+
+from ._lissom import LissomError, ModelError, Simulation, SolutionError, __version__
+from ._model import Model, ModelWarning, load, loads
+from ._result import Result, read
+from ._sweep import SolutionWarning, SweepTable, sweep
+
+__all__ = [
+    "LissomError",
+    "Model",
+    "ModelError",
+    "ModelWarning",
+    "Result",
+    "Simulation",
+    "SolutionError",
+    "SolutionWarning",
+    "SweepTable",
+    "__version__",
+    "load",
+    "loads",
+    "read",
+    "sweep",
+]

@@ -1,0 +1,105 @@
+"""The compiled part of the package."""
+
+from typing import Any, Callable, Optional, final
+
+from ._types import Array, Outcome, Parts
+
+_Progress = Optional[Callable[[float, float], object]]
+
+__version__: str
+
+class LissomError(Exception):
+    """What all exceptions of this package are."""
+
+class ModelError(LissomError):
+    """A model or sweep is wrong. The text underlines every mistake where it stands, with a remedy."""
+
+class SolutionError(LissomError):
+    """A model has no solution. The text says at which time and where, and what to try."""
+
+    # What was computed before a run failed, a `lissom.Result`; not there otherwise.
+    result: Any
+
+@final
+class NativeModel:
+    def __new__(cls, text: str, name: str, overrides: list[tuple[str, str]]) -> NativeModel: ...
+    @staticmethod
+    def read(path: str, overrides: list[tuple[str, str]]) -> NativeModel: ...
+    def __getnewargs__(self) -> tuple[str, str, list[tuple[str, str]]]: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def overrides(self) -> list[tuple[str, str]]: ...
+    def replace(self, overrides: list[tuple[str, str]]) -> NativeModel: ...
+    def to_toml(self) -> str: ...
+    def check(self) -> dict[str, Any]: ...
+    def run(self, progress: _Progress, threads: Optional[int]) -> tuple[Parts, Optional[str]]: ...
+    def simulation(self) -> Simulation: ...
+
+@final
+class Simulation:
+    """A model on its way, made by `Model.simulation()`.
+
+    `sim["arm.rotation"]` is the present value of a column, in SI units. The interpreter lock is released while stepping.
+    """
+
+    def step(self) -> None:
+        """Takes one step: the next planned one, or one that is as long as its error allows. On failure the simulation
+        stays where it was.
+
+        Raises `SolutionError` if the step has no solution, `ValueError` at the end of the model's analysis.
+        """
+    def step_to(self, time: float) -> None:
+        """Goes on to `time` [s], which is met exactly; beyond the end of the model's analysis, too.
+
+        Raises `SolutionError` if a step has no solution: the simulation then stands at the end of the last one that has.
+        Raises `ValueError` if `time` is before the present time or not finite.
+        """
+    @property
+    def time(self) -> float:
+        """Present time [s]."""
+    @property
+    def end(self) -> float:
+        """End of the model's analysis [s]."""
+    @property
+    def is_finished(self) -> bool:
+        """Whether that end is reached."""
+    @property
+    def names(self) -> list[str]:
+        """Names of the columns, in the order of `values`."""
+    @property
+    def units(self) -> list[str]:
+        """Units of the columns, in the order of `values`."""
+    def values(self) -> Array:
+        """Present values of all columns: an array of shape (number of columns,), in SI units."""
+    def __getitem__(self, name: str, /) -> float:
+        """Present value of a column, a signal, an input or a state, in SI units."""
+    def set(self, name: str, value: float) -> None:
+        """Sets an input of the model from now on, until it is set again.
+
+        Raises `ValueError` if the model has no such input or the value is not finite, `SolutionError` if there is no
+        consistent start with it.
+        """
+    def snapshot(self) -> bytes:
+        """Where the simulation stands, as bytes that can be kept, sent and pickled."""
+    def restore(self, snapshot: bytes) -> None:
+        """Goes back, or on, to where a snapshot of the same model was taken; from there to the same results, bit by bit.
+
+        Raises `ValueError` if the bytes are no snapshot of this model and version; the simulation is then as it was.
+        """
+
+@final
+class NativeSweep:
+    def __new__(cls, model: NativeModel, text: str, name: str) -> NativeSweep: ...
+    def __len__(self) -> int: ...
+    def definition(self) -> str: ...
+    def paths(self) -> list[str]: ...
+    def collected(self) -> list[str]: ...
+    def values(self, member: int) -> list[Any]: ...
+    def solve(self, members: list[int], workers: Optional[int], progress: _Progress) -> list[Outcome]: ...
+    def solve_in_folder(
+        self, folder: str, restart: bool, workers: Optional[int], progress: _Progress
+    ) -> list[Outcome]: ...
+
+def read_folder(folder: str) -> Parts: ...
+def statistics() -> tuple[dict[str, str], dict[str, str]]: ...

@@ -1,0 +1,42 @@
+"""From Python values to TOML, as model and sweep files take them."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+
+def value(of: Any) -> str:
+    """A value on one line. Numbers come back to the last bit; a text stays a text, or an expression of the model."""
+    if isinstance(of, np.generic):
+        of = of.item()
+    if isinstance(of, bool):
+        return "true" if of else "false"
+    if isinstance(of, int):
+        return str(of)
+    if isinstance(of, float):
+        # `inf` and `nan` are TOML, too: the model refuses them with its own words.
+        return repr(of)
+    if isinstance(of, str):
+        return json.dumps(of, ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(of, np.ndarray):
+        return value(of.tolist())
+    if isinstance(of, Mapping):
+        return "{ " + ", ".join(f"{key(str(name))} = {value(inner)}" for name, inner in of.items()) + " }"
+    if isinstance(of, Sequence):
+        return "[" + ", ".join(value(inner) for inner in of) + "]"
+    raise TypeError(f"a model holds numbers, texts, booleans, lists and tables, not {type(of).__name__}: {of!r}")
+
+
+def key(name: str) -> str:
+    """A key, in quotes where it needs them."""
+    bare = name != "" and all(c.isascii() and (c.isalnum() or c in "_-") for c in name)
+    return name if bare else value(name)
+
+
+def overrides(changes: Mapping[str, Any]) -> list[tuple[str, str]]:
+    """Paths and TOML values."""
+    return [(path, value(of)) for path, of in changes.items()]

@@ -1,0 +1,16 @@
+"""What the compiled part takes and gives."""
+
+from __future__ import annotations
+
+from typing import Optional
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+
+#: Times, names, units and values of all columns, summary as JSON.
+Parts = tuple[Array, list[str], list[str], list[Array], str]
+
+#: Member, state, collected values, time, steps, largest violation, diagnosis.
+Outcome = tuple[int, str, list[float], Optional[float], int, Optional[float], Optional[str]]

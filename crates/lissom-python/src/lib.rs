@@ -1,0 +1,27 @@
+//! The compiled part of the Python package `lissom`. The package itself, in `python/`, holds what users see; here are the
+//! classes and functions it is made of. No mechanics is done here.
+
+mod errors;
+mod model;
+mod results;
+mod simulation;
+mod sweep;
+mod watch;
+
+use pyo3::prelude::*;
+
+/// The compiled part of the package.
+#[pymodule]
+fn _lissom(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = module.py();
+    module.add("__version__", lissom::VERSION)?;
+    module.add("LissomError", py.get_type::<errors::LissomError>())?;
+    module.add("ModelError", py.get_type::<errors::ModelError>())?;
+    module.add("SolutionError", py.get_type::<errors::SolutionError>())?;
+    module.add_class::<model::NativeModel>()?;
+    module.add_class::<simulation::Simulation>()?;
+    module.add_class::<sweep::NativeSweep>()?;
+    module.add_function(wrap_pyfunction!(results::read_folder, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep::statistics, module)?)?;
+    Ok(())
+}

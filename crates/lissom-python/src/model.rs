@@ -1,0 +1,163 @@
+//! A model: its text with overrides, checked when it is made.
+
+use std::num::NonZero;
+use std::path::PathBuf;
+
+use lissom::core::analysis::mobility::{Redundant, mobility};
+use lissom::{Model, Override, Record, Session, SessionError, Stopped, summary};
+use lissom_model::ModelText;
+use lissom_model::document::AnalysisKind;
+use lissom_model::lower::lower;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+use crate::errors::{self, of_report, of_session};
+use crate::results::{Parts, json, parts};
+use crate::simulation::Simulation;
+use crate::watch::Watch;
+
+/// A checked model.
+#[pyclass(frozen, module = "lissom._lissom")]
+pub(crate) struct NativeModel {
+    pub(crate) model: Model,
+    pub(crate) overrides: Vec<Override>,
+}
+
+impl NativeModel {
+    fn checked(model: Model, overrides: Vec<Override>) -> PyResult<Self> {
+        let document = model.document(&overrides).map_err(|report| of_report(&report))?;
+        lower(&document).map_err(|report| of_report(&report))?;
+        Ok(Self { model, overrides })
+    }
+}
+
+#[pymethods]
+impl NativeModel {
+    /// A model from a text; `name` is what complaints call it.
+    #[new]
+    fn new(text: &str, name: &str, overrides: Vec<Override>) -> PyResult<Self> {
+        Self::checked(Model::from_text(name, text), overrides)
+    }
+
+    /// A model from a file.
+    #[staticmethod]
+    fn read(path: PathBuf, overrides: Vec<Override>) -> PyResult<Self> {
+        let model = Model::read(&path).map_err(|error| errors::of_file(&error))?;
+        Self::checked(model, overrides)
+    }
+
+    fn __getnewargs__(&self) -> (&str, &str, Vec<Override>) {
+        (self.model.text(), self.model.name(), self.overrides.clone())
+    }
+
+    /// Path or name.
+    #[getter]
+    fn name(&self) -> &str {
+        self.model.name()
+    }
+
+    /// Path into the model and TOML value of everything that was put into it.
+    #[getter]
+    fn overrides(&self) -> Vec<Override> {
+        self.overrides.clone()
+    }
+
+    /// The model with further values put into it.
+    fn replace(&self, overrides: Vec<Override>) -> PyResult<Self> {
+        let mut all = self.overrides.clone();
+        all.extend(overrides);
+        Self::checked(self.model.clone(), all)
+    }
+
+    /// The model as TOML, overrides in place; the text as it was written where there are none.
+    fn to_toml(&self) -> PyResult<String> {
+        if self.overrides.is_empty() {
+            return Ok(self.model.text().to_owned());
+        }
+        let text = ModelText::read(self.model.text(), self.model.name(), &self.overrides);
+        text.map(|text| text.to_toml()).map_err(|report| of_report(&report))
+    }
+
+    /// Sizes, freedoms, redundant constraints and warnings.
+    fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
+        let document = self.model.document(&self.overrides).map_err(|report| of_report(&report))?;
+        let lowered = lower(&document).map_err(|report| of_report(&report))?;
+        let freedom = mobility(&lowered.system, &lowered.state);
+        let facts = PyDict::new(py);
+        facts.set_item("title", &document.title)?;
+        facts.set_item("unknowns", lowered.system.layout().size())?;
+        facts.set_item("coordinates", freedom.coordinates)?;
+        facts.set_item("constraints", freedom.constraints)?;
+        facts.set_item("independent_constraints", freedom.rank)?;
+        facts.set_item("freedoms", freedom.freedoms)?;
+        let told = |redundant: &Redundant| {
+            let others = match redundant.among.as_slice() {
+                [] => "its own other equations".to_owned(),
+                names => names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
+            };
+            format!("{} of joint `{}` follows from {others}", redundant.equation, redundant.joint)
+        };
+        facts.set_item("redundant", freedom.redundant.iter().map(told).collect::<Vec<_>>())?;
+        let warnings = document.warnings.problems().map(|problem| problem.message.clone());
+        facts.set_item("warnings", warnings.collect::<Vec<_>>())?;
+        let columns = lissom::columns(&lowered.channels);
+        facts.set_item("names", columns.iter().map(lissom::Column::name).collect::<Vec<_>>())?;
+        Ok(facts)
+    }
+
+    /// Runs to the end with the interpreter lock released: the results, and why it failed, if it did.
+    #[pyo3(signature = (progress, threads))]
+    fn run<'py>(
+        &self,
+        py: Python<'py>,
+        progress: Option<Py<PyAny>>,
+        threads: Option<NonZero<usize>>,
+    ) -> PyResult<(Parts<'py>, Option<String>)> {
+        let outcome = py.detach(|| self.solve(progress.as_ref(), threads));
+        let (record, summary, failure) = outcome?;
+        Ok((parts(py, record, summary), failure))
+    }
+
+    /// A session at the start of the model.
+    fn simulation(&self, py: Python<'_>) -> PyResult<Simulation> {
+        let start = || self.model.session(&self.overrides).map_err(|error| of_session(&error));
+        Ok(Simulation::new(py.detach(start)?))
+    }
+}
+
+impl NativeModel {
+    fn solve(
+        &self,
+        progress: Option<&Py<PyAny>>,
+        threads: Option<NonZero<usize>>,
+    ) -> PyResult<(Record, String, Option<String>)> {
+        let document = self.model.document(&self.overrides).map_err(|report| of_report(&report))?;
+        let mut lowered = lower(&document).map_err(|report| of_report(&report))?;
+        if !matches!(document.analysis.kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
+            return Err(of_session(&SessionError::NotInTime(document.analysis.kind.name())));
+        }
+        let processors = || std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
+        lowered.settings.threads = threads.unwrap_or_else(processors).get();
+        let mut summary = summary::of_model(self.model.name(), &self.overrides, &document, &lowered);
+        let mut session = match Session::start(lowered) {
+            Ok(session) => session,
+            Err(error) => {
+                summary::of_failed_start(&mut summary, &error);
+                return Ok((Record::default(), json(&summary), Some(error.to_string())));
+            }
+        };
+        let mut record = Record::default();
+        let mut watch = Watch::new(progress);
+        let report = session.run(&mut [&mut record], &mut |progress| {
+            watch.ask(progress.done as f64, progress.planned as f64)
+        });
+        watch.finish()?;
+        summary::of_run(&mut summary, &session, &report);
+        let failure = match &report.stopped {
+            Stopped::End => None,
+            Stopped::Interrupted => Some("interrupted".to_owned()),
+            Stopped::Failed(error) => Some(error.to_string()),
+        };
+        Ok((record, json(&summary), failure))
+    }
+}

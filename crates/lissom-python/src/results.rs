@@ -1,0 +1,45 @@
+//! Results as Python takes them: arrays by name, made without a copy, and the summary as JSON.
+
+use std::path::PathBuf;
+
+use lissom::{Record, ResultFolder, Summary};
+use lissom_model::files;
+use numpy::PyArray1;
+use pyo3::prelude::*;
+
+use crate::errors;
+
+/// Times, then names, units and values of all columns, then the summary as JSON.
+pub(crate) type Parts<'py> =
+    (Bound<'py, PyArray1<f64>>, Vec<String>, Vec<String>, Vec<Bound<'py, PyArray1<f64>>>, String);
+
+/// Hands the numbers over.
+pub(crate) fn parts(py: Python<'_>, record: Record, summary: String) -> Parts<'_> {
+    let Record { columns, times, values } = record;
+    let names = columns.iter().map(lissom::Column::name).collect();
+    let units = columns.into_iter().map(|column| column.unit).collect();
+    let arrays = values.into_iter().map(|column| PyArray1::from_vec(py, column)).collect();
+    (PyArray1::from_vec(py, times), names, units, arrays, summary)
+}
+
+/// The summary as JSON, with numbers to the last bit.
+pub(crate) fn json(summary: &Summary) -> String {
+    summary.to_json()
+}
+
+/// What a run left in a folder; an empty summary where there is none, as after a crash.
+#[pyfunction]
+pub(crate) fn read_folder(py: Python<'_>, folder: PathBuf) -> PyResult<Parts<'_>> {
+    let read = || {
+        let (_, record, _) = ResultFolder::open(&folder).map_err(|error| errors::of_folder(&error))?;
+        let summary = folder.join("summary.json");
+        let text = if summary.is_file() {
+            files::read_text(&summary).map_err(|error| errors::of_file(&error))?
+        } else {
+            "{}".to_owned()
+        };
+        Ok::<_, PyErr>((record, text))
+    };
+    let (record, text) = py.detach(read)?;
+    Ok(parts(py, record, text))
+}

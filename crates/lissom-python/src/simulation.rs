@@ -1,0 +1,190 @@
+//! A simulation that Python takes step by step.
+
+use std::collections::HashMap;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use lissom::core::analysis::InputError;
+use lissom::{Session, SessionSnapshot};
+use numpy::PyArray1;
+use pyo3::exceptions::{PyKeyError, PyValueError};
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+
+use crate::errors::SolutionError;
+use crate::watch::Watch;
+
+/// A session and the values of its columns.
+struct Inner {
+    session: Session,
+    values: Vec<f64>,
+    are_current: bool,
+}
+
+impl Inner {
+    fn values(&mut self) -> &[f64] {
+        if !self.are_current {
+            self.values.clear();
+            self.session.values(&mut self.values);
+            self.are_current = true;
+        }
+        &self.values
+    }
+}
+
+/// A model on its way, made by `Model.simulation()`.
+///
+/// `sim["arm.rotation"]` is the present value of a column, in SI units. The interpreter lock is released while stepping.
+#[pyclass(frozen, module = "lissom")]
+pub(crate) struct Simulation {
+    inner: Mutex<Inner>,
+    names: Vec<String>,
+    indices: HashMap<String, usize>,
+}
+
+impl Simulation {
+    pub(crate) fn new(session: Session) -> Self {
+        let names: Vec<String> = session.columns().iter().map(lissom::Column::name).collect();
+        let indices = names.iter().enumerate().map(|(index, name)| (name.clone(), index)).collect();
+        let inner = Mutex::new(Inner { session, values: Vec::new(), are_current: false });
+        Self { inner, names, indices }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Inner> {
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[pymethods]
+impl Simulation {
+    /// Takes one step: the next planned one, or one that is as long as its error allows. On failure the simulation stays
+    /// where it was.
+    ///
+    /// Raises `SolutionError` if the step has no solution, `ValueError` at the end of the model's analysis.
+    fn step(&self, py: Python<'_>) -> PyResult<()> {
+        py.detach(|| {
+            let mut inner = self.lock();
+            if inner.session.is_finished() {
+                let end = inner.session.progress().end;
+                return Err(PyValueError::new_err(format!(
+                    "the simulation is at its end, t = {end} s: set a later `analysis.end`, or go on by `step_to`"
+                )));
+            }
+            inner.are_current = false;
+            inner.session.advance().map(|_| ()).map_err(|error| SolutionError::new_err(error.to_string()))
+        })
+    }
+
+    /// Goes on to `time` [s], which is met exactly; beyond the end of the model's analysis, too.
+    ///
+    /// Raises `SolutionError` if a step has no solution: the simulation then stands at the end of the last one that has.
+    /// Raises `ValueError` if `time` is before the present time or not finite.
+    fn step_to(&self, py: Python<'_>, time: f64) -> PyResult<()> {
+        let mut watch = Watch::new(None);
+        let outcome = py.detach(|| {
+            let mut inner = self.lock();
+            let now = inner.session.progress().time;
+            // NaN is refused as well.
+            if !(time >= now && time.is_finite()) {
+                return Err(PyValueError::new_err(format!(
+                    "the simulation is at t = {now} s: it cannot go to {time} s"
+                )));
+            }
+            inner.are_current = false;
+            let mut go_on = |_: &lissom::Progress| watch.ask(0.0, 0.0);
+            let reached = inner.session.step_to_watched(time, &mut go_on);
+            reached.map(|_| ()).map_err(|error| SolutionError::new_err(error.to_string()))
+        });
+        watch.finish()?;
+        outcome
+    }
+
+    /// Present time [s].
+    #[getter]
+    fn time(&self) -> f64 {
+        self.lock().session.progress().time
+    }
+
+    /// End of the model's analysis [s].
+    #[getter]
+    fn end(&self) -> f64 {
+        self.lock().session.progress().end
+    }
+
+    /// Whether that end is reached.
+    #[getter]
+    fn is_finished(&self) -> bool {
+        self.lock().session.is_finished()
+    }
+
+    /// Names of the columns, in the order of `values`.
+    #[getter]
+    fn names(&self) -> Vec<String> {
+        self.names.clone()
+    }
+
+    /// Units of the columns, in the order of `values`.
+    #[getter]
+    fn units(&self) -> Vec<String> {
+        self.lock().session.columns().iter().map(|column| column.unit.clone()).collect()
+    }
+
+    /// Present values of all columns: an array of shape (number of columns,), in SI units.
+    fn values<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        PyArray1::from_slice(py, self.lock().values())
+    }
+
+    /// Sets an input of the model from now on, until it is set again.
+    ///
+    /// Raises `ValueError` if the model has no such input or the value is not finite, `SolutionError` if there is no
+    /// consistent start with it.
+    fn set(&self, py: Python<'_>, name: &str, value: f64) -> PyResult<()> {
+        py.detach(|| {
+            let mut inner = self.lock();
+            inner.are_current = false;
+            inner.session.set_input(name, value).map_err(|error| match error {
+                InputError::Unknown { .. } | InputError::NotFinite { .. } => {
+                    PyValueError::new_err(error.to_string())
+                }
+                other => SolutionError::new_err(other.to_string()),
+            })
+        })
+    }
+
+    /// Present value of a column, a signal, an input or a state, in SI units.
+    fn __getitem__(&self, name: &str) -> PyResult<f64> {
+        let Some(&index) = self.indices.get(name) else {
+            if let Some(value) = self.lock().session.value(name) {
+                return Ok(value);
+            }
+            let known = self.names.join(", ");
+            return Err(PyKeyError::new_err(format!("`{name}` is no column; the columns are {known}")));
+        };
+        Ok(self.lock().values()[index])
+    }
+
+    /// Where the simulation stands, as bytes that can be kept, sent and pickled.
+    fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
+        let bytes = py.detach(|| self.lock().session.snapshot().to_bytes());
+        PyBytes::new(py, &bytes)
+    }
+
+    /// Goes back, or on, to where a snapshot of the same model was taken; from there to the same results, bit by bit.
+    ///
+    /// Raises `ValueError` if the bytes are no snapshot of this model and version; the simulation is then as it was.
+    fn restore(&self, py: Python<'_>, snapshot: &[u8]) -> PyResult<()> {
+        py.detach(|| {
+            let refused =
+                |error: lissom::core::stepping::SnapshotError| PyValueError::new_err(error.to_string());
+            let read = SessionSnapshot::from_bytes(snapshot).map_err(refused)?;
+            let mut inner = self.lock();
+            inner.session.restore(&read).map_err(refused)?;
+            inner.are_current = false;
+            Ok(())
+        })
+    }
+
+    fn __repr__(&self) -> String {
+        let progress = self.lock().session.progress();
+        format!("<lissom.Simulation at t = {} of {} s>", progress.time, progress.end)
+    }
+}

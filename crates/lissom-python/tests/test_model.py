@@ -1,0 +1,86 @@
+"""Models: read, changed, checked, written."""
+
+from __future__ import annotations
+
+import pickle
+import warnings
+
+import numpy as np
+import pytest
+
+import lissom
+from conftest import PENDULUM
+
+TEXT = """
+lissom = 1
+[point_masses.stone]
+mass = 2
+velocity = [3, 0, 0]
+[outputs.stone]
+kind = "position"
+of = "stone"
+[analysis]
+kind = "dynamics"
+end = 1.0
+step = 0.1
+"""
+
+
+def test_values_are_put_in_place() -> None:
+    model = lissom.loads(TEXT, **{"analysis.end": 2, "analysis.step": np.float64(0.05)})
+    assert model.overrides == {"analysis.end": "2", "analysis.step": "0.05"}
+    assert model.run().summary["steps"] == 40
+    further = model.replace({"point_masses.stone.velocity": [0, "sqrt(4)", 0]}, **{"analysis.scheme": "hht"})
+    result = further.run()
+    assert result.summary["scheme"].startswith("hht") and abs(result["stone.y"][-1] - 4) < 1e-12
+    assert model.run()["stone.y"][-1] == 0, "the model it was made from is as it was"
+
+
+def test_a_model_written_as_toml_means_the_same() -> None:
+    assert lissom.loads(TEXT).to_toml() == TEXT
+    model = lissom.load(PENDULUM, **{"point_masses.bob.mass": 0.1 + 0.2})
+    again = lissom.loads(model.to_toml())
+    for name in model.names:
+        assert np.array_equal(model.run()[name], again.run()[name])
+
+
+def test_models_are_pickled() -> None:
+    model = lissom.load(PENDULUM, **{"analysis.end": 0.1})
+    again = pickle.loads(pickle.dumps(model))
+    assert again.overrides == model.overrides and np.array_equal(again.run()["bob.x"], model.run()["bob.x"])
+
+
+def test_a_check_counts_freedoms() -> None:
+    facts = lissom.load(PENDULUM).check()
+    assert facts["freedoms"] == 1 and facts["unknowns"] == 5 and facts["redundant"] == []
+    assert facts["names"][:2] == ["bob.x", "bob.y"]
+
+
+def test_mistakes_are_underlined() -> None:
+    with pytest.raises(lissom.ModelError, match="did you mean `end`") as caught:
+        lissom.load(PENDULUM, **{"analysis.endd": 2})
+    assert "analysis.endd = 2" in str(caught.value) and "1 error" in str(caught.value)
+    with pytest.raises(lissom.ModelError, match="point_masses"):
+        lissom.loads(TEXT.replace("[point_masses.stone]", "[point_mases.stone]"))
+    assert issubclass(lissom.ModelError, lissom.LissomError)
+    with pytest.raises(OSError, match="no such file"):
+        lissom.load("nothing.toml")
+    with pytest.raises(TypeError, match="not object"):
+        lissom.loads(TEXT, **{"analysis.end": object()})
+    with pytest.raises(lissom.ModelError, match="finite"):
+        lissom.loads(TEXT, **{"analysis.end": float("nan")})
+
+
+def test_a_good_model_is_read_without_a_warning() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        lissom.load(PENDULUM)
+
+
+def test_an_analysis_without_a_course_in_time_cannot_be_run() -> None:
+    text = TEXT.split("[analysis]")[0]
+    model = lissom.loads(text + '[analysis]\nkind = "modes"\n')
+    with pytest.raises(lissom.ModelError, match="modes"):
+        model.run()
+    with pytest.raises(lissom.ModelError, match="modes"):
+        model.simulation()

@@ -1,0 +1,115 @@
+"""Runs and their results, which are those of the command line to the last bit."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import threading
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import lissom
+from conftest import PENDULUM, ROOT
+
+Program = Callable[..., "subprocess.CompletedProcess[str]"]
+
+
+@pytest.mark.parametrize("name", ["pendulum", "tip-crank", "top", "four-bar"])
+def test_results_are_those_of_the_command_line(name: str, program: Program, tmp_path: Path) -> None:
+    example = ROOT / "examples" / f"{name}.toml"
+    changes = {"analysis.end": 0.05}
+    ended = program("run", example, "--no-plots", "--out", tmp_path, "--set", "analysis.end=0.05")
+    assert ended.returncode == 0, ended.stderr
+    result, there = lissom.load(example, **changes).run(), lissom.read(tmp_path)
+    assert result.names == there.names and result.is_complete and there.is_complete
+    assert result.time.tobytes() == there.time.tobytes()
+    for column in result.names:
+        assert result[column].tobytes() == there[column].tobytes(), column
+    assert result.units == there.units
+    clocks = {"wall_seconds", "solve_seconds", "seconds", "model"}
+    facts = {key: value for key, value in result.summary.items() if key not in clocks}
+    assert facts == {key: value for key, value in there.summary.items() if key not in clocks}
+    with open(tmp_path / "summary.json") as file:
+        assert there.summary == json.load(file)
+
+
+def test_columns_are_arrays() -> None:
+    result = lissom.load(PENDULUM).run()
+    assert result["bob.x"].dtype == np.float64 and result["bob.x"].shape == result.time.shape == (101,)
+    assert result.units["bob.x"] == "m" and "bob.x" in result and len(result) == len(list(result)) == 15
+    with pytest.raises(KeyError, match="did you mean `bob.x`"):
+        result["bob.xx"]
+    frame = result.to_pandas()
+    assert frame.index.name == "time" and np.array_equal(frame["bob.y"], result["bob.y"])
+
+
+def test_a_run_without_a_solution_keeps_what_it_has() -> None:
+    model = lissom.load(ROOT / "examples" / "four-bar.toml")
+    drive = "5*t^2 + 1e7*max(t-0.05, 0)^3"
+    with pytest.raises(lissom.SolutionError, match="step to t =") as caught:
+        model.replace({"analysis.end": 0.1, "joints.drive.rotation": drive}).run()
+    result = caught.value.result
+    assert not result.is_complete and result.summary["error"] == str(caught.value)
+    assert 0.02 < result.time[-1] < 0.1
+
+
+def test_folders_that_hold_nothing_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(OSError, match="no such file"):
+        lissom.read(tmp_path)
+    (tmp_path / "history.csv").write_text("time,a\n0,1\nx,2\n")
+    with pytest.raises(ValueError, match="line 3"):
+        lissom.read(tmp_path)
+    (tmp_path / "history.csv").write_text("time,a\n0,1\n")
+    assert not lissom.read(tmp_path).is_complete, "a run without summary was cut off"
+
+
+def test_progress_is_told() -> None:
+    told: list[tuple[float, float]] = []
+    model = lissom.load(PENDULUM, **{"analysis.step": 1e-5})
+    model.run(progress=lambda done, planned: told.append((done, planned)))
+    assert told and all(0 < done <= planned == 100000 for done, planned in told)
+    with pytest.raises(ZeroDivisionError):
+        model.run(progress=lambda done, planned: 1 / 0)
+
+
+def test_other_threads_go_on_while_a_model_runs() -> None:
+    model = lissom.load(PENDULUM, **{"analysis.step": 5e-6})
+    ended = threading.Event()
+
+    def run() -> None:
+        model.run()
+        ended.set()
+
+    thread = threading.Thread(target=run)
+    thread.start()
+    count = 0
+    while not ended.is_set():
+        time.sleep(0.001)
+        count += 1
+    thread.join()
+    assert count > 20
+
+
+@pytest.mark.parametrize("work", ["model.run()", "model.simulation().step_to(1e9)"])
+def test_ctrl_c_ends_a_run(work: str) -> None:
+    code = f"""
+import lissom
+model = lissom.load({PENDULUM!r}, **{{"analysis.end": 1e6}})
+print("begun", flush=True)
+try:
+    {work}
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+"""
+    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    assert child.stdout is not None and child.stdout.readline() == "begun\n"
+    time.sleep(0.3)
+    child.send_signal(signal.SIGINT)
+    output, _ = child.communicate(timeout=30)
+    assert output == "interrupted\n" and child.returncode == 0

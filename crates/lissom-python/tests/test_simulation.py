@@ -1,0 +1,121 @@
+"""Simulations taken step by step."""
+
+from __future__ import annotations
+
+import pickle
+
+import numpy as np
+import pytest
+
+import lissom
+from conftest import PENDULUM
+
+STONE = """
+lissom = 1
+point_masses.stone.mass = 1
+analysis = { kind = "dynamics", end = 1, step = 0.1 }
+"""
+
+
+def test_steps_are_those_of_a_run() -> None:
+    model = lissom.load(PENDULUM)
+    result, sim = model.run(), model.simulation()
+    assert sim.names == result.names and sim.units == [result.units[name] for name in sim.names]
+    for index in range(len(result.time)):
+        assert sim.time == result.time[index]
+        assert sim["bob.x"] == result["bob.x"][index] and sim["force.f1"] == result["force.f1"][index]
+        assert sim.values().tobytes() == np.array([result[name][index] for name in result.names]).tobytes()
+        if not sim.is_finished:
+            sim.step()
+    assert sim.is_finished and sim.time == sim.end == 1.0
+    with pytest.raises(ValueError, match="at its end"):
+        sim.step()
+    sim.step_to(1.5)
+    assert sim.time == 1.5
+
+
+def test_a_simulation_goes_to_any_time() -> None:
+    sim = lissom.load(PENDULUM).simulation()
+    sim.step_to(0.1234)
+    assert sim.time == 0.1234
+    for time in (0.1, float("nan"), float("inf")):
+        with pytest.raises(ValueError, match="cannot go"):
+            sim.step_to(time)
+    with pytest.raises(KeyError, match="bob.x"):
+        sim["bob"]
+    assert "0.1234" in repr(sim)
+
+
+def test_a_snapshot_goes_on_to_the_last_bit() -> None:
+    model = lissom.load(PENDULUM)
+    sim = model.simulation()
+    sim.step_to(0.3)
+    kept = pickle.loads(pickle.dumps(sim.snapshot()))
+    first = []
+    for _ in range(20):
+        sim.step()
+        first.append(sim.values())
+    for again in (sim, model.simulation()):
+        again.restore(kept)
+        assert again.time == 0.3
+        for values in first:
+            again.step()
+            assert again.values().tobytes() == values.tobytes()
+
+
+def test_foreign_snapshots_are_refused() -> None:
+    sim = lissom.load(PENDULUM).simulation()
+    sim.step()
+    before = sim.values()
+    with pytest.raises(ValueError):
+        sim.restore(b"nothing")
+    other = lissom.loads(STONE).simulation()
+    with pytest.raises(ValueError, match="another model"):
+        sim.restore(other.snapshot())
+    assert sim.time == 0.01 and np.array_equal(sim.values(), before)
+
+
+def test_failures_name_the_time() -> None:
+    sim = lissom.load(PENDULUM, **{"analysis.max_iterations": 1}).simulation()
+    with pytest.raises(lissom.SolutionError, match="max_iterations"):
+        sim.step()
+    assert sim.time == 0
+
+
+def test_inputs_are_set_from_outside() -> None:
+    """A mass under an input force, bang-bang: the place is known in closed form."""
+    text = """
+lissom = 1
+[inputs]
+thrust = 0
+[point_masses.cart]
+mass = 2
+[loads.thrust]
+kind = "force"
+on = "cart"
+vector = [1, 0, 0]
+scale = "thrust"
+[outputs.cart]
+kind = "position"
+of = "cart"
+[analysis]
+kind = "dynamics"
+scheme = "radau-iia"
+end = 2
+step = 0.1
+"""
+    sim = lissom.loads(text).simulation()
+    sim.set("thrust", 4.0)
+    assert sim["thrust"] == 4.0
+    sim.step_to(1.0)
+    kept = sim.snapshot()
+    sim.set("thrust", -4.0)
+    sim.step_to(2.0)
+    assert abs(sim["cart.x"] - 2.0) < 1e-9
+    sim.restore(kept)
+    sim.step_to(2.0)
+    assert abs(sim["cart.x"] - 4.0) < 1e-9, "the snapshot holds the input"
+    with pytest.raises(ValueError, match="thrust"):
+        sim.set("trust", 1.0)
+    with pytest.raises(ValueError, match="finite"):
+        sim.set("thrust", float("inf"))
