@@ -71,7 +71,11 @@ impl Schedule {
 
     /// A planned instant [s]; where a run was diverted beyond its end, that time.
     fn planned(&self, index: usize) -> f64 {
-        if index >= self.steps { self.plan.end.max(self.base) } else { self.base + index as f64 * self.step_size }
+        if index >= self.steps {
+            self.plan.end.max(self.base)
+        } else {
+            self.base + index as f64 * self.step_size
+        }
     }
 
     /// The next record at an equal distance, or the end [s].
