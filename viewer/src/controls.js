@@ -74,6 +74,8 @@ export const connect = (viewer) => {
     1: () => viewer.look("front"),
     2: () => viewer.look("side"),
     3: () => viewer.look("top"),
+    n: () => viewer.showMode(viewer.modes.index + 1),
+    p: () => viewer.showMode(viewer.modes.index - 1),
     Escape: () => viewer.select(null),
     "?": () => $("keys").showModal(),
   };

@@ -59,9 +59,22 @@ export const fields = (scene, kinematics) => {
   return found;
 };
 
+/** The same over a period of a mode. */
+const rangeOfMode = (field, kinematics) => {
+  const { time } = kinematics;
+  let most = 0;
+  for (let k = 0; k < 24; k++) {
+    kinematics.set(k / 24);
+    most = Math.max(most, field.extremes()[1]);
+  }
+  kinematics.set(time);
+  return [0, most];
+};
+
 /** Least and greatest value over all frames. */
 export const rangeOf = (field, kinematics) => {
   const { motion, time } = kinematics;
+  if (kinematics.mode) return rangeOfMode(field, kinematics);
   const stride = Math.max(1, Math.floor(motion.frames / 300));
   let [low, high] = [Infinity, -Infinity];
   for (let frame = 0; frame < motion.frames; frame += stride) {

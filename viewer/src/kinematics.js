@@ -53,11 +53,60 @@ export class Kinematics {
     this.set(motion.times[0]);
   }
 
+  /** Shows the oscillation of a mode about the first frame; the time is the share of a period. */
+  setMode(mode) {
+    this.mode = mode;
+    const { reference } = this.motion;
+    const low = [0, 1, 2].map((k) => Math.min(...this.column(reference, 7, k)));
+    const high = [0, 1, 2].map((k) => Math.max(...this.column(reference, 7, k)));
+    const size = Math.hypot(...high.map((x, k) => x - low[k])) || 1;
+    const length = (node, numbers) => Math.hypot(...numbers.slice(6 * node, 6 * node + 3));
+    let most = 0;
+    for (let node = 0; node + 1 < this.count; node++) {
+      most = Math.max(most, Math.hypot(length(node, mode.real), length(node, mode.imaginary)));
+    }
+    // The largest displacement is a twelfth of the model; of modes that only turn, a turn of 0.3 rad.
+    const turns = Math.max(...mode.real.map(Math.abs), 1e-300);
+    this.amplitude = most > 1e-9 * size * turns ? size / 12 / most : 0.3 / turns;
+  }
+
+  column(numbers, stride, k) {
+    return Array.from({ length: numbers.length / stride - 1 }, (_, row) => numbers[stride * (row + 1) + k]);
+  }
+
   get start() {
     return this.motion.times[0];
   }
   get end() {
+    if (this.mode) return 1;
     return this.motion.times[this.motion.frames - 1];
+  }
+
+  /** Moves all nodes to where they are at a share of the period of a mode. */
+  oscillate(share) {
+    const { mode, count, positions, quaternions, a } = this;
+    const { reference, displacements, rotations } = this.motion;
+    const factor = this.amplitude * this.magnification;
+    const [c, s] = [factor * Math.cos(2 * Math.PI * share), factor * Math.sin(2 * Math.PI * share)];
+    const turned = [0, 0, 0];
+    const base = [0, 0, 0, 1];
+    const both = [0, 0, 0, 1];
+    for (let node = 0; node < count; node++) {
+      const value = (k) => {
+        const at = 6 * (node - 1) + k;
+        return node === 0 ? 0 : c * mode.real[at] - s * (mode.imaginary[at] ?? 0);
+      };
+      for (let k = 0; k < 3; k++) {
+        positions[3 * node + k] = reference[7 * node + k] + displacements[3 * node + k] + value(k);
+        turned[k] = value(3 + k);
+      }
+      this.distances[node] = Math.hypot(value(0), value(1), value(2)) / (this.amplitude || 1);
+      exponential(turned, 0, a);
+      exponential(rotations, 3 * node, base);
+      multiply(...a, ...base, both, 0);
+      const r = 7 * node + 3;
+      multiply(...both, reference[r + 1], reference[r + 2], reference[r + 3], reference[r], quaternions, 4 * node);
+    }
   }
 
   /** The last frame not after `time`. */
@@ -82,6 +131,7 @@ export class Kinematics {
     const duration = times[next] - times[frame];
     const x = duration > 0 ? Math.min(Math.max((time - times[frame]) / duration, 0), 1) : 0;
     this.time = time;
+    if (this.mode) return this.oscillate(time);
     const m = this.magnification;
     const before = 3 * count * frame;
     const after = 3 * count * next;
@@ -146,23 +196,28 @@ export class Kinematics {
     const { count, motion } = this;
     const low = [Infinity, Infinity, Infinity];
     const high = [-Infinity, -Infinity, -Infinity];
+    const m = this.mode ? 1 : this.magnification;
     const stride = Math.max(1, Math.floor((motion.frames * count) / 400000));
     for (let frame = 0; frame < motion.frames; frame += stride) {
       for (let node = count > 1 ? 1 : 0; node < count; node++) {
         for (let k = 0; k < 3; k++) {
           const shift = motion.displacements[3 * (frame * count + node) + k];
-          const place = motion.reference[7 * node + k] + this.magnification * shift;
+          const place = motion.reference[7 * node + k] + m * shift;
           low[k] = Math.min(low[k], place);
           high[k] = Math.max(high[k], place);
         }
       }
     }
-    return { low, high };
+    // A mode goes a twelfth of the model beyond its state.
+    const room = this.mode ? Math.hypot(...high.map((x, k) => x - low[k])) / 12 : 0;
+    return { low: low.map((x) => x - room), high: high.map((x) => x + room) };
   }
 
   /** Places of a carried point in all frames, one after the other. */
   path(anchor) {
-    const { frames, times } = this.motion;
+    // A mode has a period of 48 places instead of frames.
+    const frames = this.mode ? 49 : this.motion.frames;
+    const times = this.mode ? Array.from({ length: frames }, (_, k) => k / 48) : this.motion.times;
     const now = this.time;
     const path = new Float32Array(3 * frames);
     const place = [0, 0, 0];

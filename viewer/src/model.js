@@ -155,6 +155,7 @@ export class ModelView {
   /** The name of what is drawn at a pixel. */
   pick(x, y) {
     const { clientWidth: width, clientHeight: height } = this.stage.holder;
+    this.stage.camera.updateMatrixWorld();
     const caster = new THREE.Raycaster();
     for (const [dx, dy] of [[0, 0], [4, 0], [-4, 0], [0, 4], [0, -4]]) {
       const at = new THREE.Vector2((2 * (x + dx)) / width - 1, 1 - (2 * (y + dy)) / height);

@@ -128,7 +128,7 @@ export class Stage {
     const above = new THREE.Vector3().crossVectors(away, right);
     const reach = (axis) => Math.abs(axis.x * half.x) + Math.abs(axis.y * half.y) + Math.abs(axis.z * half.z) + 0.05 * this.size;
     const needed = Math.max(reach(above), (reach(right) * height) / Math.max(width, 1));
-    const distance = (1.02 * needed) / Math.tan((16 * Math.PI) / 180) + reach(away);
+    const distance = (1.08 * needed) / Math.tan((16 * Math.PI) / 180) + reach(away);
     this.controls.target.copy(this.centre);
     this.camera.position.copy(this.centre).addScaledVector(away, distance);
     this.camera.zoom = 1;
@@ -147,6 +147,8 @@ export class Stage {
 
   /** Where a place lies on the canvas, in pixels of the page. */
   pixel(place) {
+    // The camera may have moved since it last drew.
+    this.camera.updateMatrixWorld();
     const seen = new THREE.Vector3(...place).project(this.camera);
     const { clientWidth: width, clientHeight: height } = this.holder;
     return [((seen.x + 1) / 2) * width, ((1 - seen.y) / 2) * height];

@@ -6,6 +6,7 @@ import { decodeHistory, decodeMotion } from "./decode.js";
 import { fields } from "./fields.js";
 import { Kinematics } from "./kinematics.js";
 import { ModelView } from "./model.js";
+import { Modes } from "./modes.js";
 import { Panel } from "./panel.js";
 import { Player } from "./player.js";
 import { Plots } from "./plots.js";
@@ -32,6 +33,7 @@ export class Viewer {
     this.player = new Player(() => (this.isMoved = true));
     this.plots = new Plots($("plots"), (time) => this.player.seek(time));
     this.panel = new Panel({ selection: $("selection"), parts: $("parts") }, (name) => this.select(name));
+    this.modes = new Modes($("modes"), (index) => this.showMode(index));
     this.choices = { bodyShape: "box", colour: "part", magnification: 1, traces: false, follow: false };
     requestAnimationFrame((now) => this.draw(now));
   }
@@ -76,6 +78,11 @@ export class Viewer {
     this.notices(result.notices ?? []);
     this.kinematics = motion && motion.frames > 0 ? new Kinematics(motion) : null;
     if (this.kinematics) this.kinematics.magnification = this.choices.magnification;
+    this.modes.load(this.kinematics ? result.modes ?? [] : []);
+    if (this.modes.current) {
+      this.kinematics.setMode(this.modes.current);
+      this.modes.mark(this.modes.index);
+    }
     const span = this.kinematics
       ? [this.kinematics.start, this.kinematics.end]
       : [history.times[0] ?? 0, history.times[history.times.length - 1] ?? 0];
@@ -86,9 +93,21 @@ export class Viewer {
     this.rebuild();
     if (this.kinematics && !keeps) this.firstLook();
     this.player.load(...span, isStatic, keeps);
+    if (this.modes.current) this.player.speed = 0.5;
     this.offerColours();
     this.select(selected);
     $("scrub").disabled = $("play").disabled = !this.player.canPlay;
+    this.isMoved = true;
+  }
+
+  /** Shows another mode, from the first to the last. */
+  showMode(index) {
+    const count = this.modes.modes?.length ?? 0;
+    if (count === 0) return;
+    this.modes.mark((index + count) % count);
+    this.kinematics.setMode(this.modes.current);
+    this.colourBy(this.choices.colour);
+    if (this.choices.traces) this.setTraces(true);
     this.isMoved = true;
   }
 
@@ -194,7 +213,9 @@ export class Viewer {
   }
 
   offerColours() {
-    const names = this.kinematics ? Object.keys(fields(this.result.scene, this.kinematics)) : [];
+    const all = this.kinematics ? Object.keys(fields(this.result.scene, this.kinematics)) : [];
+    // Of modes there are shapes alone.
+    const names = this.modes.current ? ["displacement"] : all;
     $("colour").replaceChildren(...["part", ...names].map((name) => new Option(name, name)));
     $("colour").value = this.choices.colour;
     if (!$("colour").value) this.colourBy("part");
@@ -244,7 +265,9 @@ export class Viewer {
     const { time, start, end, speed, isPlaying, isLooping } = this.player;
     $("scrub").value = end > start ? String((time - start) / (end - start)) : "0";
     const digits = Math.max(0, Math.min(6, 3 - Math.floor(Math.log10(Math.max(end - start, 1e-9)))));
-    $("clock").textContent = this.isStatic ? `load ${time.toFixed(3)}` : `${time.toFixed(digits)} s of ${spelled(end, 6)} s`;
+    const mode = this.modes.current;
+    if (mode) $("clock").textContent = `mode ${this.modes.index + 1}: ${spelled(mode.frequency, 5)} Hz`;
+    else $("clock").textContent = this.isStatic ? `load ${time.toFixed(3)}` : `${time.toFixed(digits)} s of ${spelled(end, 6)} s`;
     $("speed").textContent = factor(speed);
     const icon = isPlaying ? ICONS.pause : ICONS.play;
     if (this.icon !== icon) $("play").innerHTML = this.icon = icon;

@@ -89,10 +89,14 @@ const plays = async (page) => {
 
 /** A click on a part selects it, tells its name and marks its plots. */
 const selects = async (page, part) => {
-  const [x, y] = await page.evaluate((part) => lissom.stage.pixel(lissom.kinematics.point(lissom.model.anchorOf(part))), part);
+  const [x, y] = await page.evaluate((part) => {
+    lissom.player.seek(lissom.player.start);
+    lissom.move();
+    return lissom.stage.pixel(lissom.kinematics.point(lissom.model.anchorOf(part)));
+  }, part);
   const stage = await page.locator("#stage").boundingBox();
   await page.mouse.click(stage.x + x, stage.y + y);
-  await page.waitForFunction((part) => document.querySelector("#selection h2")?.textContent.startsWith(part), part, { timeout: 5000 });
+  await page.waitForFunction((part) => document.querySelector("#selection h2")?.textContent.startsWith(part), part, { timeout: 15000 });
   await page.keyboard.press("Escape");
   assert.equal(await page.evaluate(() => lissom.model.selected), null);
 };
@@ -157,6 +161,18 @@ const tests = {
     const out = view("verification/right-angle-frame/model.toml");
     const { page, complaints } = await open(browser, join(out, "view.html"));
     assert.match(await page.locator("#clock").textContent(), /load/);
+    await plays(page);
+    assert.deepEqual(complaints(), []);
+  },
+  "natural modes": async (browser) => {
+    const out = join(folder, "modes");
+    execFileSync(program, ["modes", join(root, "examples/four-bar.toml"), "--count", "5", "--out", out, "--quiet"]);
+    execFileSync(program, ["view", out, "--quiet"]);
+    const { page, complaints } = await open(browser, join(out, "view.html"));
+    assert.equal(await page.locator("#modes li").count(), 5);
+    await page.keyboard.press("n");
+    await page.waitForFunction(() => document.getElementById("clock").textContent.startsWith("mode 2:"), null, { timeout: 5000 });
+    await draws(page);
     await plays(page);
     assert.deepEqual(complaints(), []);
   },

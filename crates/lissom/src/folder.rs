@@ -11,18 +11,20 @@ use serde_json::Value;
 
 use crate::checkpoint::Checkpoint;
 use crate::motion::{Motion, MotionError};
-use crate::view::{Notice, Results};
 
 /// Name of the table in the folder.
 const HISTORY: &str = "history.csv";
 /// Name of the summary in the folder.
-const SUMMARY: &str = "summary.json";
+pub(crate) const SUMMARY: &str = "summary.json";
 /// Name of the motion file in the folder.
-const MOTION: &str = "motion.bin";
+pub(crate) const MOTION: &str = "motion.bin";
 /// Name of what the motion is of.
-const SCENE: &str = "scene.json";
+pub(crate) const SCENE: &str = "scene.json";
 /// Name of the page that shows the results.
 const PAGE: &str = "view.html";
+/// Names of the tables of natural modes.
+pub(crate) const MODES: &str = "modes.csv";
+pub(crate) const SHAPES: &str = "shapes.csv";
 
 /// Results that cannot be left in the folder.
 #[derive(Debug, thiserror::Error)]
@@ -66,7 +68,7 @@ impl ResultFolder {
     /// If it cannot be created or written to.
     pub fn create(path: &Path) -> Result<Self, FileError> {
         files::create_folder(path)?;
-        for name in [SUMMARY, MOTION, SCENE, PAGE] {
+        for name in [SUMMARY, MOTION, SCENE, PAGE, MODES, SHAPES] {
             let former = path.join(name);
             if let Err(error) = std::fs::remove_file(&former)
                 && error.kind() != ErrorKind::NotFound
@@ -99,45 +101,6 @@ impl ResultFolder {
         }
         let title = summary["title"].as_str().unwrap_or_default().to_owned();
         Ok((Self { path: path.to_owned() }, record, title))
-    }
-
-    /// All that a page shows of a folder left by a run.
-    ///
-    /// # Errors
-    /// If there is no table, or if table, motion or scene are none.
-    pub fn results(path: &Path) -> Result<Results, FolderError> {
-        let (_, record, _) = Self::open(path)?;
-        let summary = files::read_text(&path.join(SUMMARY)).unwrap_or_default();
-        let summary: Value = serde_json::from_str(&summary).unwrap_or_default();
-        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
-        let mut results = Results::new(&name).with_summary(&summary).with_record(&record);
-        if summary.is_null() {
-            let text = "There is no summary of the run: it was cut off, or is still going on.";
-            results = results.with_notice(Notice::warning(text));
-        }
-        let motion = path.join(MOTION);
-        let bytes = match std::fs::read(&motion) {
-            Ok(bytes) => bytes,
-            Err(error) if error.kind() == ErrorKind::NotFound => {
-                let text = "No motion was recorded: run the model without `--no-plots` to see it move.";
-                return Ok(results.with_notice(Notice::warning(text)));
-            }
-            Err(error) => return Err(files::failure(files::Action::Read, &motion, error).into()),
-        };
-        let foreign = |path: &Path, error| FolderError::Motion { path: path.display().to_string(), error };
-        let last = Motion::last_time(&bytes).map_err(|error| foreign(&motion, error))?;
-        let scene = path.join(SCENE);
-        let described = files::read_text(&scene)?;
-        let described =
-            serde_json::from_str(&described).map_err(|_| foreign(&scene, MotionError::Damaged))?;
-        // A table that goes on after the motion is of another run, or of one that was resumed without it.
-        if let (Some(frame), Some(row)) = (last, record.times.last())
-            && (frame - row).abs() > 0.01 * (row - record.times[0]).abs()
-        {
-            let text = format!("The motion ends at t = {frame} s, the table at t = {row} s.");
-            results = results.with_notice(Notice::warning(text));
-        }
-        results.with_motion(described, &bytes).map_err(|error| foreign(&motion, error))
     }
 
     /// Where it is.

@@ -27,6 +27,7 @@
 pub mod buckling;
 mod checkpoint;
 mod folder;
+mod folder_page;
 pub mod gradient;
 mod model;
 pub mod modes;

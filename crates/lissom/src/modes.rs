@@ -10,7 +10,7 @@ use lissom_core::analysis::{InitialError, StepError};
 use lissom_core::linear::{
     Completeness, LinearError, LinearModel, Mode, ModeError, ModeKind, ModeOptions, NodeShape,
 };
-use lissom_core::system::State;
+use lissom_core::system::{Kinematics, State};
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, lower};
 use lissom_model::output::Summary;
@@ -130,6 +130,8 @@ impl From<SessionError> for ModesError {
 pub struct ModeReport {
     /// The modes, by ascending frequency, unstable ones first.
     pub modes: Vec<Mode>,
+    /// The state about which they are.
+    pub state: Kinematics,
     /// Their shapes, node by node.
     pub shapes: Vec<Vec<NodeShape>>,
     /// Share of each part in the kinetic energy of each mode.
@@ -297,6 +299,7 @@ fn tell(model: &LinearModel<'_>, count: usize, shift: Option<f64>) -> Result<Mod
     }
     let layout = model.system().layout();
     Ok(ModeReport {
+        state: model.kinematics().clone(),
         shapes: found.modes.iter().map(|mode| model.shape(mode)).collect(),
         shares: found.modes.iter().map(|mode| model.kinetic_shares(mode)).collect(),
         modes: found.modes,

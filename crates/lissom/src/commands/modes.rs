@@ -5,7 +5,10 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use lissom::modes::{About, ModeReport, ModeRequest, ModesError, modes, of_request};
+use lissom::motion::MotionRecorder;
 use lissom::{Document, FolderError, Model, Override, ResultFolder};
+use lissom_model::lower::lower;
+use lissom_model::scene::Scene;
 use serde_json::json;
 
 use super::{Exit, Failure, ModelArguments, show_warnings};
@@ -17,7 +20,7 @@ const LISTED: usize = 20;
 /// Find natural modes: frequencies, damping ratios and shapes of the model linearised about a state.
 ///
 /// The results go to a folder: `modes.csv` (number, frequency, damping ratio, kind), `shapes.csv` (displacement and rotation of
-/// every node) and `summary.json` (eigenvalues, share of each part in the kinetic energy).
+/// every node), `summary.json` (eigenvalues, share of each part in the kinetic energy) and what `lissom view` shows.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -105,6 +108,7 @@ pub(super) fn report(
     };
     folder.write_table("modes.csv", &found.csv()).map_err(unwritable)?;
     folder.write_table("shapes.csv", &found.shapes_csv()).map_err(unwritable)?;
+    write_state(&folder, document, &found)?;
     folder.write_summary(&found.summary(model.name(), overrides, document)).map_err(unwritable)?;
     if !quiet {
         for warning in &found.warnings {
@@ -113,6 +117,16 @@ pub(super) fn report(
         terminal::print(&told(document.title.as_deref().unwrap_or(model.name()), &found, folder.path()));
     }
     Ok(Exit::Done)
+}
+
+/// Writes the state about which the modes are, as a motion of one frame, for the page that shows them.
+fn write_state(folder: &ResultFolder, document: &Document, found: &ModeReport) -> Result<(), Failure> {
+    let unwritable = |error: lissom::FileError| Failure::folder(Exit::Failed, &FolderError::from(error));
+    let lowered = lower(document)?;
+    folder.write_scene(&Scene::of(document, &lowered)).map_err(unwritable)?;
+    let file = folder.motion().map_err(unwritable)?;
+    let mut recorder = MotionRecorder::new(&lowered, None, file);
+    recorder.write_still(&found.state).map_err(|error| Failure::new(Exit::Failed, error))
 }
 
 /// A few lines for a person.

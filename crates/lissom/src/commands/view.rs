@@ -7,6 +7,7 @@ use clap::Args;
 use lissom::motion::MotionRecorder;
 use lissom::view::Results;
 use lissom::{FileError, Model, Override, ResultFolder, Session};
+use lissom_model::document::AnalysisKind;
 use lissom_model::files;
 use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
@@ -17,8 +18,8 @@ use crate::terminal;
 
 /// Show results as a moving picture with plots, in one HTML file for any browser.
 ///
-/// Of a folder of results the file shows what is there; a model is simulated first, as by `lissom run`. The file needs
-/// no network and nothing beside it.
+/// Of a folder of results the file shows what is there: a run, or the natural modes that `lissom modes` has found. A model
+/// is simulated first, as by `lissom run`. The file needs no network and nothing beside it.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -68,15 +69,34 @@ impl View {
         if self.initial {
             return self.view_start(&folder);
         }
+        self.refuse_what_does_not_move()?;
         let run = Run::of_model(&self.what, &self.set, &folder, self.quiet).run();
         // A run that failed leaves results up to there, one that could not start leaves none to be shown.
         match run {
             Ok(exit) => self.show(&folder).map(|()| exit),
-            Err(failure) if failure.exit == Exit::Failed && folder.join("history.csv").is_file() => {
+            Err(failure) if failure.exit == Exit::Failed && folder.join("motion.bin").is_file() => {
                 self.show(&folder)?;
                 Err(failure)
             }
             Err(failure) => Err(failure),
+        }
+    }
+
+    /// Paths and buckling loads have tables of their own, and no motion.
+    fn refuse_what_does_not_move(&self) -> Result<(), Failure> {
+        let model = Model::read(&self.what).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let kind = model.document(&self.set)?.analysis.kind;
+        match kind {
+            AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } | AnalysisKind::Modes { .. } => {
+                Ok(())
+            }
+            _ => {
+                let message = format!("an analysis of kind `{}` leaves no motion to be shown", kind.name());
+                Err(Failure::new(
+                    Exit::BadModel,
+                    format!("{message}; `--initial` shows the model at its start"),
+                ))
+            }
         }
     }
 

@@ -2,6 +2,7 @@
 //!
 //! The page itself is bundled from `viewer/`; here the results are put into it.
 
+mod modes;
 mod packed;
 
 use lissom_model::output::{Column, Record};
@@ -57,6 +58,7 @@ pub struct Results {
     notices: Vec<Notice>,
     scene: Value,
     motion: Option<packed::Motion>,
+    modes: Vec<modes::Mode>,
     columns: Vec<Value>,
     history: Option<String>,
 }
@@ -115,6 +117,15 @@ impl Results {
     pub fn with_scene(self, scene: &Scene, motion: &[u8]) -> Result<Self, MotionError> {
         let scene = serde_json::to_value(scene).expect("plain numbers and texts can always be said in JSON");
         self.with_motion(scene, motion)
+    }
+
+    /// With natural modes, from the tables `modes.csv` and `shapes.csv`; nothing if they do not belong to the motion that
+    /// was given before, which is the state about which the modes are.
+    #[must_use]
+    pub fn with_modes(mut self, modes: &str, shapes: &str) -> Option<Self> {
+        self.modes = modes::read(modes, shapes, self.motion.as_ref()?.node_count())?;
+        self.facts = format!("{} modes", self.modes.len());
+        Some(self)
     }
 
     /// With the table of results.

@@ -33,6 +33,11 @@ pub(super) struct Motion {
 }
 
 impl Motion {
+    /// Number of nodes, the ground included.
+    pub(super) fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+
     pub(super) fn of(motion: &Recorded) -> Self {
         let (header, times) = (motion.header(), motion.times());
         let mut bytes: Vec<u8> = times.iter().flat_map(|time| time.to_le_bytes()).collect();

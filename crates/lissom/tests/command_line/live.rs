@@ -103,6 +103,12 @@ fn version(told: &Value) -> u64 {
     told["version"].as_u64().unwrap()
 }
 
+/// Puts another file in the place of the model, as editors do.
+fn save(folder: &Folder, text: &str) {
+    folder.write("bar.toml.new", text);
+    fs::rename(folder.path().join("bar.toml.new"), folder.path().join("bar.toml")).unwrap();
+}
+
 const WITH_PARAMETER: &str = "lissom = 1\n\n[parameters]\nload = 3\n";
 
 fn model() -> String {
@@ -118,23 +124,20 @@ fn a_model_is_simulated_again_when_it_is_saved_and_mistakes_are_told_meanwhile()
     assert_eq!(first["notice"], Value::Null, "{first}");
     assert_eq!(first["result"]["motion"]["frames"], 5);
     // A mistake: it is underlined, and there are no results that could replace those on the page.
-    folder.write("bar.toml", &model().replace("elements = 4", "elements = -4"));
+    save(&folder, &model().replace("elements = 4", "elements = -4"));
     let wrong = live.after(version(&first));
     let text = wrong["notice"]["text"].as_str().unwrap();
     assert!(wrong["result"].is_null() && wrong["notice"]["is_code"] == true);
     assert!(text.contains("elements") && text.contains("bar.toml:"), "{text}");
     // Half a file, as an editor may leave it for a moment, and then a right one.
-    folder.write("bar.toml", "lissom = ");
+    save(&folder, "lissom = ");
     let half = live.after(version(&wrong));
     assert!(half["result"].is_null());
-    folder.write("bar.toml", &model().replace("steps = 4", "steps = 7"));
+    save(&folder, &model().replace("steps = 4", "steps = 7"));
     let right = live.after(version(&half));
     assert_eq!((&right["notice"], &right["result"]["motion"]["frames"]), (&Value::Null, &Value::from(8)));
     // A model that has no solution shows how far it came.
-    folder.write(
-        "bar.toml",
-        &model().replace("load*t", "1e9*t").replace("steps = 4", "steps = 2\nmax_iterations = 3"),
-    );
+    save(&folder, &model().replace("load*t", "1e9*t").replace("steps = 4", "steps = 2\nmax_iterations = 3"));
     let failed = live.after(version(&right));
     assert_eq!(failed["result"]["notices"][0]["kind"], "error", "{}", failed["result"]["notices"]);
     fs::remove_file(folder.path().join("bar.toml")).unwrap();
@@ -230,11 +233,11 @@ fn many_saves_leave_nothing_behind() {
     let live = Live::start("bar.toml", folder.path());
     let mut told = live.after(0);
     let mut sizes = Vec::new();
-    for save in 0..120 {
-        folder.write("bar.toml", &format!("{}\n# {}", model(), "x".repeat(1 + save % 7)));
+    for round in 0..120 {
+        save(&folder, &format!("{}\n# {}", model(), "x".repeat(1 + round % 7)));
         told = live.after(version(&told));
         assert_eq!(told["notice"], Value::Null);
-        if save == 39 || save == 119 {
+        if round == 39 || round == 119 {
             sizes.extend(memory(live.program.id()));
         }
     }

@@ -186,9 +186,12 @@ fn what_is_missing_or_went_wrong_is_told_in_the_page() {
     assert_eq!(lissom(&["view", "out/bar", "-q"], folder.path()).code, 0);
     let told = notices("out/bar/view.html");
     assert!(told[0]["text"].as_str().unwrap().contains("--no-plots"), "{told}");
+    let path = CANTILEVER.replace("kind = \"statics\"\nsteps = 4", "kind = \"path\"\nend = 3");
+    folder.write("path.toml", &path.replace("scale = \"3*t\"\n", ""));
     for (args, words) in [
         (vec!["view", "nowhere"], "there is no such file"),
         (vec!["view", "out"], "history.csv"),
+        (vec!["view", "path.toml"], "leaves no motion"),
         (vec!["view", "out/bar", "--initial"], "folder of results"),
     ] {
         let view = lissom(&args, folder.path());
@@ -199,4 +202,34 @@ fn what_is_missing_or_went_wrong_is_told_in_the_page() {
     let view = lissom(&["view", "out/bar"], folder.path());
     assert_eq!(view.code, 2);
     assert!(view.errors.contains("no motion file"), "{}", view.errors);
+}
+
+#[test]
+fn modes_are_shown_about_their_state() {
+    let folder = Folder::new("view-modes");
+    folder.write("bar.toml", CANTILEVER);
+    let modes = lissom(&["modes", "bar.toml", "--out", "out", "--count", "6", "-q"], folder.path());
+    assert_eq!(modes.code, 0, "{}", modes.errors);
+    let view = lissom(&["view", "out"], folder.path());
+    assert_eq!((view.code, view.output.trim()), (0, "out/view.html"), "{}", view.errors);
+    let results = results(&fs::read_to_string(folder.path().join("out/view.html")).unwrap());
+    let shown = results["modes"].as_array().unwrap();
+    assert_eq!((shown.len(), &results["motion"]["frames"]), (6, &Value::from(1)));
+    let nodes = results["motion"]["nodes"].as_array().unwrap().len();
+    for mode in shown {
+        assert_eq!(mode["real"].as_array().unwrap().len(), 6 * (nodes - 1));
+    }
+    // The state is the bar under its load: bent by F L³/(3 EI) = 3/600 m, up to shear and to what is beyond linear.
+    let motion = Motion::from_bytes(&fs::read(folder.path().join("out/motion.bin")).unwrap()).unwrap();
+    let tip = motion.node("bar.end").unwrap();
+    assert!((motion.pose(0, tip).position.z - 5e-3).abs() < 5e-5, "{}", motion.pose(0, tip).position);
+    // Shapes of another model, and a run in the same folder: nothing is mixed up.
+    let shapes = folder.path().join("out/shapes.csv");
+    let text = fs::read_to_string(&shapes).unwrap();
+    fs::write(&shapes, &text[..text.len() / 2]).unwrap();
+    let view = lissom(&["view", "out"], folder.path());
+    assert!(view.code == 2 && view.errors.contains("shapes.csv"), "{}", view.errors);
+    let run = lissom(&["view", "bar.toml", "--out", "out", "-q"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(!folder.path().join("out/modes.csv").exists());
 }

@@ -21,6 +21,8 @@ const LOOK: Duration = Duration::from_millis(30);
 const SETTLED: Duration = Duration::from_millis(15);
 /// A mistake in a file is told if the file has stayed as it is for so long: half of it may not have been written yet.
 const SURE: Duration = Duration::from_millis(200);
+/// The same for a file that is empty, as it is for a moment while it is saved.
+const SURE_TO_BE_EMPTY: Duration = Duration::from_secs(2);
 
 /// What pages are told, and what they ask for.
 #[derive(Default)]
@@ -87,7 +89,8 @@ pub(super) fn start(model: PathBuf, set: Vec<Override>, shared: &Arc<Shared>) {
             let is_current = || Seen::of(&model, &shared) == now;
             let message = simulate(&model, &set, &now.parameters, &mut bases, &is_current);
             let is_mistake = message.as_ref().is_some_and(|message| message["result"].is_null());
-            while is_mistake && now.is_younger_than(SURE) && is_current() {
+            let sure = if now.length == 0 { SURE_TO_BE_EMPTY } else { SURE };
+            while is_mistake && now.modified.is_some() && now.is_younger_than(sure) && is_current() {
                 std::thread::sleep(LOOK);
             }
             // What was overtaken by a change is told to nobody.

@@ -1,0 +1,73 @@
+//! What a page shows of a folder of results: a run with its motion, or natural modes.
+
+use std::io::ErrorKind;
+use std::path::Path;
+
+use lissom_model::files;
+use serde_json::Value;
+
+use crate::folder::{FolderError, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY};
+use crate::motion::{Motion, MotionError};
+use crate::view::{Notice, Results};
+
+impl ResultFolder {
+    /// All that a page shows of a folder left by a run or by a search for modes.
+    ///
+    /// # Errors
+    /// If there is no table, or if table, motion or scene are none.
+    pub fn results(path: &Path) -> Result<Results, FolderError> {
+        let summary = files::read_text(&path.join(SUMMARY)).unwrap_or_default();
+        let summary: Value = serde_json::from_str(&summary).unwrap_or_default();
+        let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
+        let results = Results::new(&name).with_summary(&summary);
+        if path.join(MODES).is_file() {
+            return with_modes(path, results);
+        }
+        let (_, record, _) = Self::open(path)?;
+        let mut results = results.with_record(&record);
+        if summary.is_null() {
+            let text = "There is no summary of the run: it was cut off, or is still going on.";
+            results = results.with_notice(Notice::warning(text));
+        }
+        let Some((scene, motion)) = drawn(path)? else {
+            let text = "No motion was recorded: run the model without `--no-plots` to see it move.";
+            return Ok(results.with_notice(Notice::warning(text)));
+        };
+        let last = Motion::last_time(&motion).map_err(|error| foreign(&path.join(MOTION), error))?;
+        // A table that goes on after the motion is of another run, or of one that was resumed without it.
+        if let (Some(frame), Some(row)) = (last, record.times.last())
+            && (frame - row).abs() > 0.01 * (row - record.times[0]).abs()
+        {
+            let text = format!("The motion ends at t = {frame} s, the table at t = {row} s.");
+            results = results.with_notice(Notice::warning(text));
+        }
+        results.with_motion(scene, &motion).map_err(|error| foreign(&path.join(MOTION), error))
+    }
+}
+
+/// Scene and motion, if there are any.
+fn drawn(path: &Path) -> Result<Option<(Value, Vec<u8>)>, FolderError> {
+    let motion = path.join(MOTION);
+    let bytes = match std::fs::read(&motion) {
+        Ok(bytes) => bytes,
+        Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
+        Err(error) => return Err(files::failure(files::Action::Read, &motion, error).into()),
+    };
+    // What is no motion file is told before the scene is missed.
+    Motion::last_time(&bytes).map_err(|error| foreign(&motion, error))?;
+    let scene = path.join(SCENE);
+    let described = serde_json::from_str(&files::read_text(&scene)?);
+    Ok(Some((described.map_err(|_| foreign(&scene, MotionError::Damaged))?, bytes)))
+}
+
+fn with_modes(path: &Path, results: Results) -> Result<Results, FolderError> {
+    let (modes, shapes) = (files::read_text(&path.join(MODES))?, files::read_text(&path.join(SHAPES))?);
+    let damaged = || foreign(&path.join(SHAPES), MotionError::Damaged);
+    let (scene, motion) = drawn(path)?.ok_or_else(|| foreign(&path.join(MOTION), MotionError::Damaged))?;
+    let results = results.with_motion(scene, &motion).map_err(|error| foreign(&path.join(MOTION), error))?;
+    results.with_modes(&modes, &shapes).ok_or_else(damaged)
+}
+
+fn foreign(path: &Path, error: MotionError) -> FolderError {
+    FolderError::Motion { path: path.display().to_string(), error }
+}
