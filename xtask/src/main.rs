@@ -11,7 +11,6 @@ mod formula;
 mod invariants;
 mod outcome;
 mod peers;
-mod readme;
 mod refine;
 mod report;
 mod runs;
@@ -131,9 +130,6 @@ struct VerifyArguments {
     /// Folder with data of third parties; cases that need it are skipped without it
     #[arg(long, env = "LISSOM_REFERENCES")]
     references: Option<PathBuf>,
-    /// Rewrite the table between the markers in README.md
-    #[arg(long)]
-    readme: bool,
     /// Cases that run at the same time
     #[arg(long, default_value_t = 2)]
     threads: usize,

@@ -39,7 +39,7 @@ pub(crate) fn write(
 }
 
 /// One line per case.
-pub(crate) fn summary(cases: &[Case], outcomes: &[Outcome]) -> String {
+fn summary(cases: &[Case], outcomes: &[Outcome]) -> String {
     let mut text = String::from(
         "| case | problem | rows passed | digits agreed | time [s] | state |\n|---|---|---|---|---|---|\n",
     );

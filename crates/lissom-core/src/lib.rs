@@ -7,6 +7,7 @@ pub mod analysis;
 pub mod elements;
 pub mod equilibration;
 pub mod joints;
+pub mod judge;
 mod lanes;
 pub mod linear;
 pub mod newton;

@@ -16,6 +16,14 @@ pub trait TimeFunction: Send + Sync + fmt::Debug {
     fn first_derivative(&self, time: f64) -> f64;
     /// Second derivative with respect to time at `time` [s].
     fn second_derivative(&self, time: f64) -> f64;
+    /// Times at which it is known not to be smooth [s], in ascending order. Default: none.
+    fn kinks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+    /// Whether the value is the same at all times. Default: it is not.
+    fn is_constant(&self) -> bool {
+        false
+    }
 }
 
 /// A shared function of time.
@@ -34,6 +42,9 @@ impl TimeFunction for Constant {
     }
     fn second_derivative(&self, _: f64) -> f64 {
         0.0
+    }
+    fn is_constant(&self) -> bool {
+        true
     }
 }
 

@@ -1,7 +1,7 @@
 //! Elements eight at a time against one at a time, on every kind of vector that this processor has.
 
 use lissom_core::elements::beam::{Beam, SectionLaw};
-use lissom_core::elements::inertia::Inertia;
+use lissom_core::elements::inertia::{Gravity, Inertia};
 use lissom_core::elements::{Element, Tangents};
 use lissom_core::system::{Kinematics, NodeMotion};
 use lissom_motion::{Block, Matrix6, Motion, Vector3, Vector6, WIDTH};
@@ -175,8 +175,9 @@ fn inertias() {
     for count in [1, 8, 19] {
         let mut numbers = Numbers(0x2545_F491_4F6C_DD1D);
         let at = kinematics(&mut numbers, count, 1.0);
-        let gravity = Vector3::new(0.5, -9.81, 2.0);
-        let elements: Vec<_> = (0..count).map(|node| Inertia::new(node, numbers.matrix(), gravity)).collect();
+        let gravity = Gravity::constant(Vector3::new(0.5, -9.81, 2.0));
+        let elements: Vec<_> =
+            (0..count).map(|node| Inertia::new(node, numbers.matrix(), gravity.clone())).collect();
         compare(&elements, &at);
     }
 }

@@ -106,6 +106,21 @@ pub fn write(path: &Path, contents: &[u8]) -> Result<(), FileError> {
     fs::write(path, contents).map_err(|source| failure(Action::Write, path, source))
 }
 
+/// Replaces a whole file at once: whoever reads it finds the former contents or the new ones.
+///
+/// # Errors
+/// If it cannot be written; the former file is then as it was.
+pub fn replace(path: &Path, contents: &[u8]) -> Result<(), FileError> {
+    let mut name = path.file_name().unwrap_or_default().to_owned();
+    name.push(".new");
+    let unfinished = path.with_file_name(name);
+    fs::write(&unfinished, contents).and_then(|()| fs::rename(&unfinished, path)).map_err(|source| {
+        // A part of a file helps nobody.
+        let _ = fs::remove_file(&unfinished);
+        failure(Action::Write, path, source)
+    })
+}
+
 /// An error while writing to a file that could be created.
 pub fn failure(action: Action, path: &Path, source: io::Error) -> FileError {
     let help = match source.kind() {

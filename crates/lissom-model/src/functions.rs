@@ -17,6 +17,9 @@ impl TimeFunction for Expression {
     fn second_derivative(&self, time: f64) -> f64 {
         self.jet(time).second
     }
+    fn kinks(&self) -> Vec<f64> {
+        Self::kinks(self)
+    }
 }
 
 /// An expression as a shared function of time; one that does not depend on time becomes a [`Constant`].
@@ -110,6 +113,43 @@ impl TimeFunction for Table {
     }
     fn second_derivative(&self, time: f64) -> f64 {
         self.evaluate(time)[2]
+    }
+    fn kinks(&self) -> Vec<f64> {
+        if self.curvatures.iter().any(|curvature| *curvature != 0.0) {
+            return Vec::new();
+        }
+        let slope = |i: usize| (self.values[i + 1] - self.values[i]) / (self.times[i + 1] - self.times[i]);
+        let jumps = |&i: &usize| {
+            let (before, after) = (slope(i - 1), slope(i));
+            (after - before).abs() > SAME_SLOPE * before.abs().max(after.abs())
+        };
+        (1..self.times.len() - 1).filter(jumps).map(|i| self.times[i]).collect()
+    }
+}
+
+/// Slopes that differ by less than this part are the same but for the digits of a text.
+const SAME_SLOPE: f64 = 1e-3;
+
+/// A constant that grows from nothing, in a straight line from the first time to the last.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ramp {
+    /// Value at the end.
+    pub value: f64,
+    /// From when to when [s].
+    pub span: (f64, f64),
+}
+
+impl TimeFunction for Ramp {
+    fn value(&self, time: f64) -> f64 {
+        let (start, end) = self.span;
+        self.value * ((time - start) / (end - start))
+    }
+    fn first_derivative(&self, _: f64) -> f64 {
+        let (start, end) = self.span;
+        self.value / (end - start)
+    }
+    fn second_derivative(&self, _: f64) -> f64 {
+        0.0
     }
 }
 

@@ -72,7 +72,9 @@ fn energy_never_increases_with_any_joint_spring_or_beam() {
     // Prescribed motions bring power from outside.
     let joints = lissom_core::joints::KINDS.iter().filter(|kind| !kind.name.starts_with("prescribed"));
     assert!(joints.clone().count() >= 9 && joints.clone().all(|kind| named(kind.name)));
-    assert!(lissom_core::elements::SPRINGS.iter().all(|kind| named(kind.name)));
+    // The bristles of friction are first-order states, which the scheme's promise does not cover.
+    let mut springs = lissom_core::elements::SPRINGS.iter().filter(|kind| !kind.name.ends_with("friction"));
+    assert!(springs.all(|kind| named(kind.name)));
     for (step, radius, bound) in
         [("1e-3", "0.0", 1e-12), ("5e-3", "0.0", 1e-12), ("2e-2", "0.0", 1e-12), ("1e-3", "1.0", 1e-10)]
     {

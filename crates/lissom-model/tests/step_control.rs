@@ -139,3 +139,43 @@ fn values_within_a_step_are_of_the_scheme_s_order() {
     let order = (error(0.058) / error(0.029 * 2.0 / 3.0)).ln() / 3.0_f64.ln();
     assert!(order > 2.7, "{order}");
 }
+
+#[test]
+fn steps_end_where_loads_have_kinks() {
+    // A mass under a force that sets in at 0.3333 s and is doubled, by a table, at 0.7 s.
+    let text = r#"
+        lissom = 1
+        [point_masses.m]
+        mass = 2
+        [loads.on]
+        kind = "force"
+        on = "m"
+        vector = [1, 0, 0]
+        scale = "step(t - 0.3333)"
+        [loads.more]
+        kind = "force"
+        on = "m"
+        vector = [1, 0, 0]
+        scale = { table = [[0, 0], [0.7, 0], [1, 0.3]] }
+        [analysis]
+        kind = "dynamics"
+        scheme = "radau-iia"
+        end = 1
+        relative_tolerance = 1e-3
+        max_step = 0.3
+    "#;
+    let document = Document::parse(text, "kinks.toml", &registry()).expect("it is right");
+    let Lowered { system, state, settings, .. } = lower(&document).expect("it is right");
+    let mut simulation = Simulation::new(system, state, settings).expect("it starts");
+    let mut times = Vec::new();
+    while simulation.state().kinematics.time < 1.0 {
+        simulation.step_watched(1.0, &mut lissom_core::analysis::Unwatched).expect("it has a solution");
+        times.push(simulation.state().kinematics.time);
+    }
+    assert!(times.contains(&0.3333_f64.next_down()) && times.contains(&0.7_f64.next_down()), "{times:?}");
+    // The motion between kinks is a polynomial that the scheme has exactly.
+    let place = simulation.state().kinematics.nodes[1].frame.position.x;
+    let impulse = [(1.0_f64 - 0.3333).powi(2) / 2.0, 0.3_f64.powi(3) / 6.0];
+    let exact = impulse.iter().sum::<f64>() / 2.0;
+    assert!((place - exact).abs() < 1e-9, "{place} {exact} {times:?}");
+}

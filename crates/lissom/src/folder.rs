@@ -1,7 +1,7 @@
 //! The folder a run leaves behind: `history.csv`, `summary.json`, the motion with its scene, and the plots. Knows no simulation.
 
-use std::fs::File;
-use std::io::{BufWriter, ErrorKind, Seek, SeekFrom};
+use std::fs::{File, TryLockError};
+use std::io::{BufWriter, Error, ErrorKind, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use lissom_model::files::{self, FileError};
@@ -25,6 +25,10 @@ const PAGE: &str = "view.html";
 /// Names of the tables of natural modes.
 pub(crate) const MODES: &str = "modes.csv";
 pub(crate) const SHAPES: &str = "shapes.csv";
+/// Name of the file with what the steps told of their tangents.
+const TELEMETRY: &str = "telemetry.json";
+/// Name of the file that a run holds locked.
+const LOCK: &str = ".lock";
 
 /// Results that cannot be left in the folder.
 #[derive(Debug, thiserror::Error)]
@@ -54,29 +58,77 @@ pub enum FolderError {
     Figure(#[from] FigureError),
 }
 
+/// Takes the lock of a folder.
+fn lock(path: &Path) -> Result<File, FileError> {
+    let file = path.join(LOCK);
+    let refuse = |source| files::failure(files::Action::Write, &file, source);
+    let lock = File::options().create(true).truncate(false).write(true).open(&file).map_err(refuse)?;
+    match lock.try_lock() {
+        Err(TryLockError::WouldBlock) => Err(refuse(Error::new(
+            ErrorKind::ResourceBusy,
+            "another run is writing into this folder: wait for it, or choose another one with `--out`",
+        ))),
+        // Where files cannot be locked runs are told apart by the folders they are given.
+        _ => Ok(lock),
+    }
+}
+
 /// A folder of results.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Debug)]
 pub struct ResultFolder {
     path: PathBuf,
+    /// Held as long as a run writes into the folder; the system gives it back when the program ends, however it does.
+    _lock: Option<File>,
 }
 
 impl ResultFolder {
-    /// The folder, created with those above it where it is missing. What a former run summed up there is
-    /// removed: an old summary beside new results would lie.
+    /// The folder, created with those above it where it is missing, for a run that will write into it. What a former run
+    /// left stays until [`begin`](Self::begin).
     ///
     /// # Errors
-    /// If it cannot be created or written to.
+    /// If it cannot be created, or another run writes into it.
     pub fn create(path: &Path) -> Result<Self, FileError> {
         files::create_folder(path)?;
-        for name in [SUMMARY, MOTION, SCENE, PAGE, MODES, SHAPES] {
-            let former = path.join(name);
-            if let Err(error) = std::fs::remove_file(&former)
-                && error.kind() != ErrorKind::NotFound
-            {
-                return Err(files::failure(files::Action::Write, &former, error));
+        let lock = lock(path)?;
+        Ok(Self { path: path.to_owned(), _lock: Some(lock) })
+    }
+
+    /// Whether a former run has left results.
+    pub fn has_results(&self) -> bool {
+        self.path.join(HISTORY).exists()
+    }
+
+    /// Removes what a former run left: old results beside new ones would lie.
+    ///
+    /// # Errors
+    /// If something cannot be removed.
+    pub fn clear(&self) -> Result<(), FileError> {
+        let mut stale = [HISTORY, SUMMARY, TELEMETRY, MOTION, SCENE, PAGE, MODES, SHAPES]
+            .map(|name| self.path.join(name))
+            .to_vec();
+        if let Ok((_, record, title)) = Self::open(&self.path) {
+            for figure in figures(&record, &title) {
+                stale.extend(["svg", "png"].map(|kind| self.path.join(format!("{}.{kind}", figure.name))));
             }
         }
-        Ok(Self { path: path.to_owned() })
+        for file in stale {
+            match std::fs::remove_file(&file) {
+                Err(error) if error.kind() != ErrorKind::NotFound => {
+                    return Err(files::failure(files::Action::Write, &file, error));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+
+    /// Removes what a former run left and gives a writer of the table: a run has started well.
+    ///
+    /// # Errors
+    /// If something cannot be removed or created.
+    pub fn begin(&self) -> Result<CsvWriter<BufWriter<File>>, FileError> {
+        self.clear()?;
+        self.history()
     }
 
     /// A folder left by a former run: its table and its title. Units and quantities come from the summary;
@@ -100,7 +152,7 @@ impl ResultFolder {
             }
         }
         let title = summary["title"].as_str().unwrap_or_default().to_owned();
-        Ok((Self { path: path.to_owned() }, record, title))
+        Ok((Self { path: path.to_owned(), _lock: None }, record, title))
     }
 
     /// Where it is.
@@ -109,10 +161,7 @@ impl ResultFolder {
     }
 
     /// A writer of its table, emptied.
-    ///
-    /// # Errors
-    /// If the file cannot be created.
-    pub fn history(&self) -> Result<CsvWriter<BufWriter<File>>, FileError> {
+    fn history(&self) -> Result<CsvWriter<BufWriter<File>>, FileError> {
         files::create_file(&self.path.join(HISTORY)).map(CsvWriter::new)
     }
 
@@ -165,8 +214,9 @@ impl ResultFolder {
     pub fn resume(path: &Path, checkpoint: &Checkpoint) -> Result<(Self, Record), FolderError> {
         let history = path.join(HISTORY);
         checkpoint.open_history(&history)?;
+        let lock = lock(path)?;
         let (folder, record, _) = Self::open(path)?;
-        Ok((folder, record))
+        Ok((Self { _lock: Some(lock), ..folder }, record))
     }
 
     /// A writer that goes on with its table.
@@ -190,7 +240,15 @@ impl ResultFolder {
     /// # Errors
     /// If it cannot be written.
     pub fn write_summary(&self, summary: &Summary) -> Result<(), FileError> {
-        files::write(&self.path.join(SUMMARY), summary.to_json().as_bytes())
+        files::replace(&self.path.join(SUMMARY), summary.to_json().as_bytes())
+    }
+
+    /// Writes what the steps told of their tangents.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write_telemetry(&self, telemetry: &Value) -> Result<(), FileError> {
+        files::replace(&self.path.join(TELEMETRY), format!("{telemetry}\n").as_bytes())
     }
 
     /// Draws every output of `record`, as SVG and as PNG. What can be drawn is drawn, even when something

@@ -211,7 +211,7 @@ fn in_equilibrium(document: &Document, count: usize, shift: Option<f64>) -> Resu
     }
     drop(model);
     settings.limits.tolerance = settings.limits.tolerance.min(TOLERANCE);
-    let (system, mut state) = at_rest(Arc::new(system), state, &settings)?;
+    let (system, mut state, _) = at_rest(Arc::new(system), state, &settings)?;
     stop(&mut state);
     let model = LinearModel::of(&system, &state, settings.solver)?;
     let hint =

@@ -4,9 +4,12 @@
 use std::collections::BTreeMap;
 use std::io;
 use std::ops::ControlFlow;
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use lissom_core::analysis::{InitialError, InputError, Simulation, StepError, StepReport};
+use lissom_core::judge::Warning;
 use lissom_core::signals::Argument;
 use lissom_core::stepping::{Snapshot, SnapshotError};
 use lissom_model::channels::{Channel, signal_value};
@@ -96,6 +99,8 @@ pub struct Session {
     scale: f64,
     telemetry: Telemetry,
     state_writers: Vec<Box<dyn StateWriter>>,
+    /// Of the model, before it ran.
+    warnings: Vec<Warning>,
     began: Instant,
 }
 
@@ -169,7 +174,7 @@ impl Session {
     /// If there are no consistent initial values.
     pub fn start(lowered: Lowered) -> Result<Self, InitialError> {
         let began = Instant::now();
-        let Lowered { system, state, settings, plan, channels, names } = lowered;
+        let Lowered { system, state, settings, plan, channels, names, warnings } = lowered;
         let schedule = Schedule::new(plan, settings.step_size);
         let simulation = Simulation::new(system, state, settings)?;
         let violations = vec![0.0; simulation.system().layout().multiplier_rows().len()];
@@ -186,8 +191,14 @@ impl Session {
             channels,
             signals: names.signals,
             schedule,
+            warnings,
             began,
         })
+    }
+
+    /// Gives up a step that is tried again and again, once `cancelled` is set; the run then counts as interrupted.
+    pub fn cancel_by(&mut self, cancelled: Arc<AtomicBool>) {
+        self.spent.cancelled = Some(cancelled);
     }
 
     /// The simulation: system, state, totals.
@@ -203,6 +214,11 @@ impl Session {
     /// The simulation, for analyses along its steps.
     pub(crate) fn simulation_mut(&mut self) -> &mut Simulation {
         &mut self.simulation
+    }
+
+    /// Reasons to doubt the results up to now.
+    pub fn warnings(&self) -> impl Iterator<Item = &Warning> {
+        self.warnings.iter().chain(self.simulation.warnings())
     }
 
     /// From when to when, in how many steps.
@@ -477,6 +493,9 @@ impl Session {
                     if !recorded {
                         self.write_row(writers)?;
                     }
+                    if matches!(error, StepError::Interrupted { .. }) {
+                        return Ok(ControlFlow::Break(()));
+                    }
                     return Err(error.into());
                 }
             };
@@ -546,7 +565,7 @@ impl Session {
         let tally = &mut self.tally;
         self.simulation.system().violations(at, &mut tally.violations);
         tally.violation = tally.violations.iter().fold(tally.violation, |most, value| most.max(value.abs()));
-        let now = self.simulation.system().energy(at);
+        let now = self.simulation.ledger().energy;
         if tally.records == 0 {
             tally.energy.start = now;
         }

@@ -1,6 +1,8 @@
 //! Where the time of a run went. Short steps are watched now and then only, so that looking at the clock does
 //! not become part of what is seen.
 
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use lissom_core::analysis::{Phase, Stopwatch};
@@ -53,6 +55,8 @@ pub(crate) struct Spent {
     phase: Phase,
     pub(crate) start: Duration,
     pub(crate) output: Duration,
+    /// Set by somebody who wants a step to be given up.
+    pub(crate) cancelled: Option<Arc<AtomicBool>>,
 }
 
 impl Spent {
@@ -69,6 +73,7 @@ impl Spent {
             phase: Phase::Rest,
             start: Duration::ZERO,
             output: Duration::ZERO,
+            cancelled: None,
         }
     }
 
@@ -151,6 +156,10 @@ impl Stopwatch for Spent {
             self.note(Instant::now());
             self.phase = phase;
         }
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.cancelled.as_ref().is_some_and(|cancelled| cancelled.load(Ordering::Relaxed))
     }
 }
 

@@ -78,10 +78,18 @@ pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered
     summary
 }
 
+/// Says that a run has begun: what is read of one that was killed.
+pub fn of_beginning(summary: &mut Summary) {
+    tell(summary, "stopped", json!("running"));
+}
+
 /// Adds what a run came to.
 pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     let simulation = session.simulation();
     let totals = &report.totals;
+    let known = summary.get("warnings").and_then(Value::as_array).cloned().unwrap_or_default();
+    let warnings = session.warnings().map(|warning| json!(format!("{}: {warning}", warning.code())));
+    tell(summary, "warnings", known.into_iter().chain(warnings).collect());
     let mut tell = |name: &str, fact: Value| tell(summary, name, fact);
     tell("stopped", json!(report.stopped.name()));
     if let Some(error) = report.error() {
@@ -118,13 +126,17 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     tell("max_constraint_violation", json!(report.violation));
     tell("max_carried_violation", json!(totals.max_constraint_violation));
     tell("velocity_correction", json!(simulation.velocity_correction()));
-    let energy = &report.energy;
+    let (energy, ledger) = (&report.energy, simulation.ledger());
     tell(
         "energy",
         json!({
             "start": of_energy(&energy.start),
             "end": of_energy(&energy.end),
             "largest_change": energy.largest,
+            "work_of_loads": ledger.loads,
+            "work_of_drives": ledger.drives,
+            "surplus": ledger.surplus,
+            "turned_over": ledger.turned_over,
         }),
     );
     let scaling = &simulation.settings().scaling;
@@ -154,7 +166,6 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
             "penalty": if scaling.augmented { scaling.penalty } else { 0.0 },
         }),
     );
-    tell("telemetry", session.telemetry().to_json());
     let Representative { mass, damping, stiffness, length } = *simulation.representative();
     tell(
         "representative",

@@ -127,7 +127,7 @@ impl Telemetry {
     }
 
     /// As columns for the summary.
-    pub(crate) fn to_json(&self) -> Value {
+    pub fn to_json(&self) -> Value {
         let column = |of: fn(&Sample) -> Value| self.samples.iter().map(of).collect::<Value>();
         json!({
             "every": self.every,

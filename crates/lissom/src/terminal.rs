@@ -68,7 +68,7 @@ impl Bar {
     }
 }
 
-/// Whether Ctrl-C was pressed.
+/// Whether Ctrl-C was pressed, or the program was told to end in another way (SIGTERM, SIGHUP).
 #[derive(Clone, Default)]
 pub(crate) struct Interrupt(Arc<AtomicBool>);
 
@@ -84,6 +84,11 @@ impl Interrupt {
             }
         });
         interrupt
+    }
+
+    /// What is set when it is pressed.
+    pub(crate) fn flag(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.0)
     }
 
     /// Whether it was pressed.

@@ -10,6 +10,8 @@ mod motion;
 mod new;
 #[path = "command_line/path.rs"]
 mod path;
+#[path = "command_line/silent.rs"]
+mod silent;
 #[path = "command_line/study.rs"]
 mod study;
 mod support;
@@ -341,7 +343,8 @@ fn samples_of_kinds_are_good_models() {
     const PARTS: &str = "lissom = 1\n\
         [bodies.my_body]\nmass = 1\ninertia = [1, 1, 1]\nposition = [1, 0, -1]\n\
         [joints.my_hinge]\nkind = \"revolute\"\nbase = \"ground\"\ntip = \"my_body\"\naxis = [1, 0, 0]\n\
-        [joints.my_slide]\nkind = \"prismatic\"\nbase = \"ground\"\ntip = \"my_body\"\naxis = [1, 0, 0]\n\
+        [bodies.my_slider]\nmass = 1\ninertia = [1, 1, 1]\nposition = [1, 0, -1]\n\
+        [joints.my_slide]\nkind = \"prismatic\"\nbase = \"ground\"\ntip = \"my_slider\"\naxis = [1, 0, 0]\n\
         [analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.1\n";
     let folder = Folder::new("samples");
     let run = lissom(&["kinds"], folder.path());

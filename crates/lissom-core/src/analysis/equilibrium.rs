@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use super::dynamics::{Settings, Simulation};
 use super::initial::InitialError;
+use crate::judge::Warning;
 use crate::schemes::statics;
 use crate::system::{State, System};
 
-/// Moves the places of `state` into equilibrium, in one load step.
+/// Moves the places of `state` into equilibrium, in one load step. Tells if it is unstable.
 ///
 /// # Errors
 /// If the load step has no solution, as where a part is not held.
@@ -16,7 +17,7 @@ pub fn at_rest(
     system: Arc<System>,
     state: State,
     settings: &Settings,
-) -> Result<(Arc<System>, State), InitialError> {
+) -> Result<(Arc<System>, State, Option<Warning>), InitialError> {
     let mut moved = state.clone();
     // Loads act as they are at the end of the load step, which is the start of the motion.
     let step_size = 1.0;
@@ -28,6 +29,8 @@ pub fn at_rest(
         Settings { scheme: statics::statics(), step_size, from_equilibrium: false, ..settings.clone() };
     let mut simulation = Simulation::new(system, moved, settings)?;
     simulation.step().map_err(|error| InitialError::NoEquilibrium(Box::new(error)))?;
+    let doubt =
+        simulation.warnings().iter().find(|warning| matches!(warning, Warning::Unstable { .. })).cloned();
     let (system, reached) = simulation.into_parts();
     let mut state = state;
     for (node, reached) in state.kinematics.nodes.iter_mut().zip(&reached.kinematics.nodes) {
@@ -37,5 +40,5 @@ pub fn at_rest(
         own.value = reached.value;
     }
     state.position_remainders = reached.position_remainders;
-    Ok((system, state))
+    Ok((system, state, doubt))
 }

@@ -44,6 +44,29 @@ pub enum InitialError {
     /// The places of rest were not found.
     #[error("initial equilibrium: {0}")]
     NoEquilibrium(Box<super::StepError>),
+    /// Velocities that the constraints exclude altogether.
+    #[error(
+        "the initial velocity of `{part}`, {given}, is excluded by the joints and drives: nothing of it remains; leave it \
+         out, or free what shall move"
+    )]
+    VelocityImpossible {
+        /// Name of the node.
+        part: String,
+        /// Its velocities in words.
+        given: String,
+    },
+    /// Drives or joints ask for different velocities.
+    #[error(
+        "at the start {violated} contradict each other: no velocities satisfy them all; two drives may prescribe the \
+         same motion differently, or one prescribes what the joints exclude"
+    )]
+    RatesContradict {
+        /// Names of the constraints.
+        violated: String,
+    },
+    /// A beam is turned too far within an element.
+    #[error("at the start: {0}")]
+    Wrapped(Box<super::StepError>),
     /// A number is not finite.
     #[error("initial accelerations are not finite, first for the {unknown}")]
     NotFinite {
@@ -230,6 +253,19 @@ impl Initial {
             coordinate.rate += right[row as usize];
         }
         Ok(largest)
+    }
+
+    /// Rates of the constraints at the velocities of `state`, by multiplier, with the linearisation made last.
+    pub(crate) fn constraint_rates(&self, system: &System, state: &State) -> Vec<f64> {
+        let layout = system.layout();
+        let count = layout.coordinate_count();
+        let mut speeds = vec![0.0; layout.size()];
+        gather_rates(layout, &state.kinematics, &mut speeds);
+        let mut rates = vec![0.0; layout.size()];
+        self.subtract_product(system, &speeds, &mut rates);
+        let mut explicit = vec![0.0; layout.multiplier_count];
+        system.constraint_velocities(&state.kinematics, &mut explicit);
+        rates[count..].iter().zip(&explicit).map(|(product, rate)| rate - product).collect()
     }
 
     /// Accelerations and multipliers in equilibrium with places and velocities.

@@ -19,6 +19,7 @@ pub mod phase;
 mod secants;
 mod sensitivity;
 pub(crate) mod snapshot_parts;
+mod stability;
 mod step_error;
 mod workspace;
 

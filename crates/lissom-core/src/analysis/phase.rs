@@ -24,6 +24,11 @@ impl Phase {
 pub trait Stopwatch {
     /// A phase begins.
     fn begin(&mut self, phase: Phase);
+
+    /// Whether somebody wants the step to be given up; asked after every attempt that failed. Default: nobody does.
+    fn is_cancelled(&self) -> bool {
+        false
+    }
 }
 
 /// A stopwatch that is not looked at.

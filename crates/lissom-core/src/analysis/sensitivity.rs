@@ -109,7 +109,8 @@ impl Simulation {
         std::mem::swap(&mut self.work.equilibration, &mut base.work.equilibration);
         if !(last <= FOUND || correction == 0.0) {
             let time = self.state.kinematics.time + size;
-            return Err(StepError::NotConverged { time, iterations: made, correction, worst });
+            let hint = "the neighbouring model has no solution near this one";
+            return Err(StepError::NotConverged { time, iterations: made, correction, worst, hint });
         }
         self.finish_attempt()?;
         self.accept_step();

@@ -7,7 +7,7 @@ pub enum StepError {
     /// Newton's iterations did not converge.
     #[error(
         "step to t = {time:.6e} s did not converge in {iterations} iterations: last correction {correction:.1e}, \
-         worst equation: {worst}; try a smaller step, or a larger `max_iterations`"
+         worst equation: {worst}; {hint}"
     )]
     NotConverged {
         /// End of the step [s].
@@ -18,6 +18,8 @@ pub enum StepError {
         correction: f64,
         /// Name of the unknown whose equation is worst.
         worst: String,
+        /// What to try.
+        hint: &'static str,
     },
     /// Numbers that are not finite appeared.
     #[error(
@@ -46,6 +48,65 @@ pub enum StepError {
     /// A signal is not finite.
     #[error("{0}")]
     Signal(crate::signals::SignalError),
+    /// Constraints are not held, though the equations were solved.
+    #[error(
+        "at t = {time:.6e} s constraints contradict each other: violated are {violated}; a drive asks for a place that \
+         the joints do not allow, or two of them ask for different ones: remove one, or change what is prescribed"
+    )]
+    Contradiction {
+        /// End of the step [s].
+        time: f64,
+        /// Names and violations of the constraints that are violated most.
+        violated: String,
+    },
+    /// A node turns further than a step resolves.
+    #[error(
+        "step to t = {time:.6e} s: node `{node}` turns by {angle:.2} rad in it, and angles beyond a quarter of a turn a \
+         step are not resolved; take a smaller step, or set `relative_tolerance`"
+    )]
+    TurnsTooFar {
+        /// End of the step [s].
+        time: f64,
+        /// Name of the node.
+        node: String,
+        /// Angular velocity times step [rad].
+        angle: f64,
+    },
+    /// Nodes of an element are turned against each other by nearly half a turn.
+    #[error(
+        "at t = {time:.6e} s the beam element between `{}` and `{}` turns by {turns:.2} of half a turn or more: beyond \
+         half a turn it would be taken for a turn the other way; use more elements", nodes[0], nodes[1]
+    )]
+    ElementTurns {
+        /// Time [s].
+        time: f64,
+        /// Names of the two nodes.
+        nodes: [String; 2],
+        /// Angle between them over π, at most 1.
+        turns: f64,
+    },
+    /// Energy that nothing put in.
+    #[error(
+        "step to t = {time:.6e} s: there are {surplus:.3e} J more than anything put in, where {turned_over:.3e} J are \
+         turned over; the step does not resolve the motion: make it smaller, set `relative_tolerance`, or choose \
+         `scheme = \"radau-iia\"`; `energy_check = false` lets such a run go on"
+    )]
+    EnergyFromNowhere {
+        /// End of the step [s].
+        time: f64,
+        /// Energy that nothing put in, since the start [J].
+        surplus: f64,
+        /// Energy turned over since the start [J].
+        turned_over: f64,
+        /// Whether most of it came in this step.
+        in_this_step: bool,
+    },
+    /// It was told to stop while a step was tried again.
+    #[error("interrupted after t = {time:.6e} s")]
+    Interrupted {
+        /// Where the simulation stands [s].
+        time: f64,
+    },
     /// The velocities at the end of the step could not be made consistent.
     #[error("step to t = {time:.6e} s, velocities at its end: {error}")]
     Velocities {
@@ -73,7 +134,25 @@ pub enum StepError {
 impl StepError {
     /// Whether a smaller step may have a solution where this one has none.
     pub fn may_need_a_smaller_step(&self) -> bool {
-        matches!(self, Self::NotConverged { .. } | Self::NotFinite { .. } | Self::Signal(_))
+        matches!(
+            self,
+            Self::NotConverged { .. }
+                | Self::NotFinite { .. }
+                | Self::Signal(_)
+                | Self::TurnsTooFar { .. }
+                | Self::ElementTurns { .. }
+                | Self::EnergyFromNowhere { in_this_step: true, .. }
+        )
+    }
+}
+
+/// What to try when a step, in motion or in statics, has no solution even in parts.
+pub(crate) fn convergence_hint(is_motion: bool) -> &'static str {
+    if is_motion {
+        "try a smaller step, or a larger `max_iterations`"
+    } else {
+        "even the smallest load steps from there find no equilibrium: the load may be at a limit point (snap-through or \
+         buckling), beyond which `kind = \"path\"` can follow it; or take a larger `max_iterations`"
     }
 }
 

@@ -63,6 +63,11 @@ impl DirectedLoad {
         Ok(Self { vector, scale: parameters.function_or("scale", 1.0)?, follower })
     }
 
+    /// Times at which it is not smooth [s].
+    pub(super) fn kinks(&self) -> Vec<f64> {
+        self.scale.kinks()
+    }
+
     /// The load in the node's axes.
     pub(super) fn in_body(&self, at: &Kinematics, node: NodeId) -> Vector3 {
         let load = self.scale.value(at.time) * self.vector;
@@ -98,6 +103,14 @@ impl Element for Force {
             add_block(&mut out.stiffness, 6, (0, 3), &-turning);
             add_block(&mut out.stiffness, 6, (3, 3), &(-skew(&self.point) * turning));
         }
+    }
+
+    fn kinks(&self) -> Vec<f64> {
+        self.load.kinks()
+    }
+
+    fn is_load(&self) -> bool {
+        true
     }
 
     fn energy(&self, _: &Kinematics) -> Energy {

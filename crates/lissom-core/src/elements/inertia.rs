@@ -13,20 +13,46 @@ use super::blocks::Blocks;
 use super::inertia_blocks::InertiaBlocks;
 use super::passage::{Passage, STAGES};
 use super::{Element, Energy, MOST_UNKNOWNS, Tangents, add_block};
+use crate::registry::Function;
 use crate::system::state::split;
 use crate::system::{Kinematics, NodeId};
 
+/// Acceleration of gravity, applied in full or by a factor that is a function of time.
+#[derive(Clone, Debug)]
+pub struct Gravity {
+    /// In full [m/s²].
+    pub acceleration: Vector3,
+    /// The part of it that acts; none for all of it.
+    pub factor: Option<Function>,
+}
+
+impl Gravity {
+    /// All of it, at all times.
+    pub fn constant(acceleration: Vector3) -> Self {
+        Self { acceleration, factor: None }
+    }
+
+    /// What acts at `time` [m/s²].
+    pub fn at(&self, time: f64) -> Vector3 {
+        self.factor.as_ref().map_or(self.acceleration, |factor| factor.value(time) * self.acceleration)
+    }
+
+    fn is_zero(&self) -> bool {
+        self.acceleration == Vector3::zeros()
+    }
+}
+
 /// Mass matrix of one node.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct Inertia {
     node: [NodeId; 1],
     mass: Matrix6,
-    pub(super) gravity: Vector3,
+    pub(super) gravity: Gravity,
 }
 
 impl Inertia {
-    /// Inertia `mass` (6x6, body axes, about the node) of `node` in the field `gravity` [m/s²].
-    pub fn new(node: NodeId, mass: Matrix6, gravity: Vector3) -> Self {
+    /// Inertia `mass` (6x6, body axes, about the node) of `node` in the field `gravity`.
+    pub fn new(node: NodeId, mass: Matrix6, gravity: Gravity) -> Self {
         Self { node: [node], mass, gravity }
     }
 
@@ -59,7 +85,7 @@ impl Inertia {
 
     /// Gravity in body axes, as a twist rate γ.
     fn gravity_in_body(&self, at: &Kinematics) -> Vector6 {
-        let g = at.nodes[self.node[0]].frame.rotation.apply_inverse(&self.gravity);
+        let g = at.nodes[self.node[0]].frame.rotation.apply_inverse(&self.gravity.at(at.time));
         Vector6::new(g.x, g.y, g.z, 0.0, 0.0, 0.0)
     }
 }
@@ -88,7 +114,7 @@ impl Element for Inertia {
         for (at, out) in passage.stages.iter().zip(out.iter_mut()) {
             self.forces(at, out);
         }
-        if self.gravity == Vector3::zeros() {
+        if self.gravity.is_zero() {
             return;
         }
         let node = self.node[0];
@@ -118,7 +144,7 @@ impl Element for Inertia {
             view -= coadjoint_times(twist, &momentum);
         }
         add_block(&mut out.damping, 6, (0, 0), &gyroscopic);
-        if self.gravity != Vector3::zeros() {
+        if !self.gravity.is_zero() {
             // δ(Rᵀ g) = (Rᵀ g)~ δθ
             let g = skew(&split(&self.gravity_in_body(at)).0);
             let columns = -(self.mass.fixed_view::<6, 3>(0, 0) * g);
@@ -133,7 +159,7 @@ impl Element for Inertia {
         Energy {
             kinetic: 0.5 * node.twist.dot(&(self.mass * node.twist)),
             strain: 0.0,
-            potential: -self.gravity.dot(&weight_moment),
+            potential: -self.gravity.acceleration.dot(&weight_moment),
         }
     }
 }

@@ -10,6 +10,7 @@ use pulp::{Simd, WithSimd};
 use super::blocks::{Blocks, block_of, nodes_of};
 use super::inertia::Inertia;
 use crate::lanes::{Frames, Part, Screws, gather_accelerations, gather_frames, gather_twists, parts};
+use crate::registry::Function;
 use crate::system::{Kinematics, NodeId};
 
 /// Inertias eight to a block.
@@ -22,6 +23,8 @@ struct InertiaBlock {
     /// Row after row.
     mass: [Screws; 6],
     gravity: [Block; 3],
+    /// The part of gravity that acts, the same for all.
+    factor: Option<Function>,
 }
 
 /// Node motions and forces of one block.
@@ -57,7 +60,8 @@ impl InertiaBlock {
             count: inertias.len(),
             nodes: nodes_of(inertias, Inertia::node),
             mass: std::array::from_fn(|i| std::array::from_fn(|j| mass(i, j))),
-            gravity: std::array::from_fn(|i| block_of(inertias, |inertia| inertia.gravity[i])),
+            gravity: std::array::from_fn(|i| block_of(inertias, |inertia| inertia.gravity.acceleration[i])),
+            factor: inertias.first().and_then(|inertia| inertia.gravity.factor.clone()),
         }
     }
 
@@ -69,9 +73,13 @@ impl InertiaBlock {
         gather_frames(at, nodes, lanes, frames);
         gather_twists(at, nodes, lanes, twists);
         gather_accelerations(at, nodes, lanes, accelerations);
+        let acting = self.factor.as_ref().map(|factor| {
+            let factor = factor.value(at.time);
+            self.gravity.map(|component| component.map(|value| factor * value))
+        });
         for index in 0..parts {
             let part = Part { simd, index };
-            let [x, y, z] = &self.gravity;
+            let [x, y, z] = acting.as_ref().unwrap_or(&self.gravity);
             let gravity = Triple::new(part.number(x), part.number(y), part.number(z));
             let twist = part.screw(twists);
             let acceleration = part.screw(accelerations);

@@ -76,6 +76,14 @@ impl Element for JointLoad {
 
     fn linearize(&self, _: &Kinematics, _: &mut Tangents) {}
 
+    fn kinks(&self) -> Vec<f64> {
+        self.size.kinks()
+    }
+
+    fn is_load(&self) -> bool {
+        true
+    }
+
     fn energy(&self, _: &Kinematics) -> Energy {
         Energy::default()
     }

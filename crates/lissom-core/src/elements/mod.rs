@@ -194,6 +194,29 @@ pub trait Element: Send + Sync + 'static {
 
     /// Kinetic, elastic and potential energy.
     fn energy(&self, at: &Kinematics) -> Energy;
+
+    /// Whether its forces put energy in or take it out, so that their work is counted. Default: they do not, what they
+    /// store is told by [`energy`](Self::energy), and what they take away is lost.
+    fn is_load(&self) -> bool {
+        false
+    }
+
+    /// Times at which its forces are known not to be smooth [s]. Default: none.
+    fn kinks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// How fast it deforms [1/s]: the largest speed of its nodes relative to each other, over their distance, and one of
+    /// the two nodes, for elements that can be bent. Default: none.
+    fn deformation_rate(&self, _at: &Kinematics) -> Option<(f64, NodeId)> {
+        None
+    }
+
+    /// The two of its nodes that are turned most against each other, and the cosine of half the angle between them,
+    /// for elements that cannot tell a turn from one the other way. Default: none.
+    fn least_aligned(&self, _at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+        None
+    }
 }
 
 /// What a springlike or loadlike kind is attached to.

@@ -50,6 +50,14 @@ impl Element for Moment {
         }
     }
 
+    fn kinks(&self) -> Vec<f64> {
+        self.load.kinks()
+    }
+
+    fn is_load(&self) -> bool {
+        true
+    }
+
     fn energy(&self, _: &Kinematics) -> Energy {
         Energy::default()
     }

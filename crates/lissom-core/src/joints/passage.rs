@@ -67,7 +67,11 @@ impl AttachedJoint {
         let (relative, own) = self.configuration(&increments[STAGES]);
         let change = self.joint().violation_change(&relative, &own);
         let missed = SVector::<f64, MOST_EQUATIONS>::from_column_slice(&change) - passage.whole(rates);
-        let (inverse, mut shares) = passage.shares(squares);
+        let (mut inverse, mut shares) = passage.shares(squares);
+        if self.is_rigid() {
+            // No relative motion is left: the rates are round-off, and so is what they miss.
+            inverse = 0.0;
+        }
         let whole: f64 = passage.lasting.iter().sum();
         if inverse == 0.0 {
             shares = [1.0 / whole; STAGES];
@@ -83,6 +87,11 @@ impl AttachedJoint {
             share: shares[j],
             violation: violations[j],
         })
+    }
+
+    /// Whether it leaves no relative motion: six equations and no coordinate of its own.
+    fn is_rigid(&self) -> bool {
+        self.joint().equations().len() == 6 && self.joint().coordinates().is_empty()
     }
 
     /// Velocities of the local unknowns.

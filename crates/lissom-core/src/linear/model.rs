@@ -19,6 +19,9 @@ const UNEQUAL: f64 = 1e-9;
 /// … and by more than this part of the largest entries of their rows, below which they are round-off.
 const ROUND_OFF: f64 = 1e-11;
 
+/// Squares of rates below this part of the small one that stands for zero are zero.
+const NEUTRAL: f64 = 1e-6;
+
 /// A linear model that does not exist.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -142,6 +145,18 @@ impl<'a> LinearModel<'a> {
     /// Whether it has neither damping nor gyroscopic terms and a symmetric stiffness: squares of eigenvalues are real.
     pub fn is_conservative(&self) -> bool {
         self.is_conservative
+    }
+
+    /// Directions in which the energy falls and which the constraints leave, at rest; none where the stiffness belongs to
+    /// no energy or cannot be factored.
+    pub fn unstable_directions(&self) -> Option<usize> {
+        if !self.is_at_rest || !is_symmetric(&self.pattern(), &self.parts.stiffness, &self.parts.mass) {
+            return None;
+        }
+        let mut shifted = RealShift::new(self.system, &self.representative);
+        // Just below zero, so that directions in which nothing holds are no unstable ones.
+        let shift = -NEUTRAL * shifted.small_square();
+        shifted.factor(&self.parts, shift).ok()
     }
 
     /// Whether all velocities are zero.

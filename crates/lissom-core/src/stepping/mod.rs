@@ -21,6 +21,7 @@ pub(crate) use parts::Parts;
 pub use snapshot::{Snapshot, SnapshotError};
 
 use crate::analysis::{Phase, Simulation, StepError, StepReport, Stopwatch, Unwatched};
+use crate::judge::Ledger;
 use crate::newton::{Memory, Outcome};
 use crate::scaling::ScaleBy;
 use crate::system::State;
@@ -32,6 +33,8 @@ const MOST_REJECTED: usize = 60;
 const SHARE_OF_STEP: f64 = 0.1;
 /// A node may turn by so much in a step of controlled size: what it turns further cannot be told from less [rad].
 const LARGEST_TURN: f64 = 1.0;
+/// Times closer than this part of the largest step are the same [-].
+const NEAR: f64 = 1e-9;
 /// Steps shorter than this part of the largest one are not tried [-].
 const SHORTEST: f64 = 1e-12;
 
@@ -93,7 +96,7 @@ impl Simulation {
         watch: &mut dyn Stopwatch,
         report: &mut StepReport,
     ) -> Result<(), StepError> {
-        let mut start: Option<State> = None;
+        let mut start: Option<(State, Ledger)> = None;
         let mut first_error = None;
         self.parts.restart();
         loop {
@@ -101,11 +104,13 @@ impl Simulation {
             match self.attempt(share * whole, watch) {
                 Ok(outcome) => {
                     if share < 1.0 && start.is_none() {
-                        start = Some(self.state.clone());
+                        start = Some((self.state.clone(), self.ledger));
                     }
                     self.accept_step();
                     note(report, &outcome);
                     report.parts += 1;
+                    self.is_last_step_known = true;
+                    self.note_stability();
                     self.is_last_step_known = share == 1.0;
                     if self.parts.accept() {
                         return Ok(());
@@ -115,10 +120,13 @@ impl Simulation {
                     let may_help = error.may_need_a_smaller_step() && report.rejected < MOST_REJECTED;
                     // The first failure tells more than those of its parts.
                     let first = first_error.get_or_insert(error);
-                    if !(may_help && self.parts.refuse()) {
+                    if watch.is_cancelled() {
+                        *first = StepError::Interrupted { time: self.state.kinematics.time };
+                    }
+                    if watch.is_cancelled() || !(may_help && self.parts.refuse()) {
                         let error = first.clone();
                         if let Some(start) = start {
-                            self.state = start;
+                            (self.state, self.ledger) = start;
                         }
                         self.parts = Parts::whole();
                         return Err(error);
@@ -138,7 +146,14 @@ impl Simulation {
         report: &mut StepReport,
     ) -> Result<(), StepError> {
         let Some(control) = self.settings.control else { unreachable!("a controller has its settings") };
-        let rest = limit - (self.state.kinematics.time + self.state.time_remainder);
+        // A step across a kink of a load would see it late, and estimate its error from the wrong side of it. It ends as
+        // close before it as numbers allow, so that its last stage does not see a jump either.
+        let now = self.state.kinematics.time + self.state.time_remainder;
+        // Where it must end anyway at a kink, or has begun at one, nothing is to be gained by another tiny step.
+        let near = NEAR * control.max_step;
+        let ahead = |kink: &&f64| **kink > now + near && **kink < limit - near;
+        let limit = self.kinks.iter().find(ahead).map_or(limit, |kink| kink.next_down());
+        let rest = limit - now;
         loop {
             let size = controller.propose(rest).min(control.max_step).min(self.turning_limit());
             let error = match self.attempt(size, watch) {
@@ -161,6 +176,10 @@ impl Simulation {
                 }
             };
             report.rejected += 1;
+            if watch.is_cancelled() {
+                self.controller = Some(controller);
+                return Err(StepError::Interrupted { time: self.state.kinematics.time });
+            }
             let is_hopeless = error.as_ref().is_some_and(|error| !error.may_need_a_smaller_step());
             if is_hopeless
                 || report.rejected > MOST_REJECTED
@@ -186,7 +205,10 @@ impl Simulation {
         if size != self.scaled.step_size() {
             self.resize(size)?;
         }
-        self.solve_step(watch)
+        let outcome = self.solve_step(watch)?;
+        watch.begin(Phase::Rest);
+        self.judge_step()?;
+        Ok(outcome)
     }
 
     /// Goes over to steps of another size with all that is remembered.

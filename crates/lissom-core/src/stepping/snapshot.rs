@@ -10,12 +10,13 @@ use serde::{Deserialize, Serialize};
 use super::{Controller, MethodMemory, Parts};
 use crate::analysis::snapshot_parts::{Learned, TangentNumbers};
 use crate::analysis::{Simulation, Totals};
+use crate::judge::{Ledger, Warning};
 use crate::newton::Memory;
 use crate::scaling::Scaled;
 use crate::system::{CoordinateMotion, Kinematics, NodeMotion, State};
 
 /// Changes whenever what a snapshot holds does.
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,6 +35,8 @@ pub struct Snapshot {
     farthest: f64,
     totals: Totals,
     velocity_correction: f64,
+    ledger: Ledger,
+    warnings: Vec<Warning>,
     learned: Learned,
 }
 
@@ -159,6 +162,8 @@ impl Simulation {
             farthest: self.farthest,
             totals: self.totals,
             velocity_correction: self.velocity_correction,
+            ledger: self.ledger,
+            warnings: self.warnings.clone(),
             learned: self.work.learned(),
         }
     }
@@ -192,6 +197,8 @@ impl Simulation {
         self.farthest = from.farthest;
         self.totals = from.totals;
         self.velocity_correction = from.velocity_correction;
+        self.ledger = from.ledger;
+        self.warnings.clone_from(&from.warnings);
         self.work.note_scales(self.system.layout(), &self.scaled);
         self.is_last_step_known = false;
         Ok(())

@@ -3,7 +3,7 @@
 use std::any::Any;
 use std::ops::Range;
 
-use lissom_motion::{Block, Matrix6, WIDTH, lie_bracket_matrix};
+use lissom_motion::{Block, Matrix6, Vector3, WIDTH, lie_bracket_matrix};
 use lissom_solver::Pattern;
 
 use super::layout::{LOCKED, Layout};
@@ -70,6 +70,14 @@ pub(crate) trait AnyBatch: Send + Sync {
         add: &mut dyn FnMut(usize, usize, usize, f64),
     );
     fn energy(&self, at: &Kinematics) -> Energy;
+    /// Work of loads between two configurations [J].
+    fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64;
+    /// Times at which forces are known not to be smooth [s].
+    fn kinks(&self) -> Vec<f64>;
+    /// The largest rate at which an element deforms [1/s], with one of its nodes.
+    fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)>;
+    /// The two nodes of an element that are turned most against each other, and the cosine of half that angle.
+    fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])>;
     fn as_any_mut(&mut self) -> &mut dyn Any;
 }
 
@@ -293,6 +301,25 @@ impl<E: Element> AnyBatch for Batch<E> {
         sum
     }
 
+    fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
+        let loads = self.items.iter().filter(|item| item.is_load());
+        loads.map(|load| work(load, (from, to), [1.0; 2])).sum()
+    }
+
+    fn kinks(&self) -> Vec<f64> {
+        self.items.iter().flat_map(E::kinks).collect()
+    }
+
+    fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
+        let rates = self.items.iter().filter_map(|item| item.deformation_rate(at));
+        rates.reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
+    }
+
+    fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+        let pairs = self.items.iter().filter_map(|item| item.least_aligned(at));
+        pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
+    }
+
     fn as_any_mut(&mut self) -> &mut dyn Any {
         self
     }
@@ -319,6 +346,53 @@ pub(super) fn through(
             }
         }
     }
+}
+
+/// Work of an element's forces on its nodes and coordinates between two configurations, times `factors` there: forces in
+/// inertial axes over the way of their nodes, moments over the turn between, forces on coordinates over their change.
+pub(super) fn work<E: Element + ?Sized>(
+    element: &E,
+    (from, to): (&Kinematics, &Kinematics),
+    factors: [f64; 2],
+) -> f64 {
+    let elapsed = to.time - from.time;
+    let size = 6 * element.nodes().len() + element.coordinates().len();
+    let mut locals = [[0.0; MOST_UNKNOWNS]; 2];
+    for ((at, local), factor) in [from, to].into_iter().zip(&mut locals).zip(factors) {
+        element.forces(at, &mut local[..size]);
+        *local = local.map(|force| factor * force);
+    }
+    let mut sum = 0.0;
+    for (k, &node) in element.nodes().iter().enumerate() {
+        let motions = [from, to].map(|at| &at.nodes[node]);
+        let rotations = motions.map(|motion| motion.frame.rotation);
+        let inertial = |values: &[f64], side: usize| {
+            rotations[side].apply(&Vector3::new(values[0], values[1], values[2]))
+        };
+        let turn = (rotations[1] * rotations[0].inverse()).logarithm();
+        let way = motions[1].frame.position - motions[0].frame.position;
+        for (first, way) in [(0, way), (3, turn)] {
+            let forces = [0, 1].map(|side| inertial(&locals[side][6 * k + first..], side));
+            let speeds = [0, 1].map(|side| inertial(&motions[side].twist.as_slice()[first..], side));
+            sum += (0..3)
+                .map(|c| along(forces.map(|f| f[c]), way[c], speeds.map(|v| v[c]), elapsed))
+                .sum::<f64>();
+        }
+    }
+    for (k, &coordinate) in element.coordinates().iter().enumerate() {
+        let position = 6 * element.nodes().len() + k;
+        let [start, end] = [from, to].map(|at| at.coordinates[coordinate]);
+        let forces = [locals[0][position], locals[1][position]];
+        sum += along(forces, end.value - start.value, [start.rate, end.rate], elapsed);
+    }
+    // Forces stand on the left-hand side of the equations of motion.
+    -sum
+}
+
+/// ∫ f dx of a force that changes linearly in time along a cubic way of given ends and speeds at them:
+/// (f₀ + f₁)/2 Δx + (f₁ - f₀)(v₁ - v₀) T/12.
+pub(super) fn along(forces: [f64; 2], way: f64, speeds: [f64; 2], elapsed: f64) -> f64 {
+    0.5 * (forces[0] + forces[1]) * way + (forces[1] - forces[0]) * (speeds[1] - speeds[0]) * (elapsed / 12.0)
 }
 
 /// Adds local values to the rows that are free.

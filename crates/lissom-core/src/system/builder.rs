@@ -13,13 +13,13 @@ use super::places::{Places, free_rows, position_of};
 use super::state::{CoordinateId, CoordinateMotion, Kinematics, NodeId, NodeMotion, State};
 use super::{Drive, GROUND, System};
 use crate::elements::Element;
-use crate::elements::inertia::Inertia;
+use crate::elements::inertia::{Gravity, Inertia};
 use crate::joints::attached::{AttachedJoint, CarriedFrame};
 use crate::joints::blocks::Batches;
 use crate::joints::derivatives::{LOCAL, OWN, TIP};
 use crate::joints::prescribed::Prescribed;
 use crate::joints::{Build, Frames, Geometry, JointKind, Quantity, equation_quantity};
-use crate::registry::{ParameterError, Parameters};
+use crate::registry::{Function, ParameterError, Parameters};
 use crate::signals::measurement::Measurement;
 use crate::signals::{Argument, Graph, HeldId, MOST_ARGUMENTS, MeasurementId, Signal, SignalId};
 
@@ -76,7 +76,7 @@ pub struct Builder {
     drives: Vec<Drive>,
     multipliers: Vec<(String, &'static str)>,
     multiplier_quantities: Vec<Quantity>,
-    gravity: Vector3,
+    gravity: Gravity,
     states: Vec<(CoordinateId, f64)>,
     graph: Graph,
     targets: Vec<(Target, SignalId)>,
@@ -107,7 +107,7 @@ impl Builder {
             drives: Vec::new(),
             multipliers: Vec::new(),
             multiplier_quantities: Vec::new(),
-            gravity: Vector3::zeros(),
+            gravity: Gravity::constant(Vector3::zeros()),
             states: Vec::new(),
             graph: Graph::default(),
             targets: Vec::new(),
@@ -117,7 +117,12 @@ impl Builder {
 
     /// Sets gravity [m/s²], in inertial axes.
     pub fn set_gravity(&mut self, gravity: Vector3) {
-        self.gravity = gravity;
+        self.gravity.acceleration = gravity;
+    }
+
+    /// Lets gravity act by a factor that is a function of time.
+    pub fn set_gravity_factor(&mut self, factor: Function) {
+        self.gravity.factor = Some(factor);
     }
 
     /// Adds a node with its place at the start.
@@ -353,7 +358,7 @@ impl Builder {
             .nodes
             .iter()
             .enumerate()
-            .filter_map(|(node, spec)| spec.mass.map(|mass| Inertia::new(node, mass, self.gravity)))
+            .filter_map(|(node, spec)| spec.mass.map(|mass| Inertia::new(node, mass, self.gravity.clone())))
             .collect();
         if !inertias.is_empty() {
             let mut batch = Batch::<Inertia>::new();
@@ -419,7 +424,7 @@ impl Builder {
             joint_starts,
             joint_rows: joint_rows.concat(),
             inertias,
-            gravity: self.gravity,
+            gravity: self.gravity.acceleration,
             element_count,
             feedback,
         };

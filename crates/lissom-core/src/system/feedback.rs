@@ -13,7 +13,7 @@ use std::sync::Arc;
 
 use lissom_solver::Pattern;
 
-use super::batch::{AnyBatch, Chart, scatter, through};
+use super::batch::{AnyBatch, Chart, scatter, through, work};
 use super::layout::Layout;
 use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
@@ -313,6 +313,27 @@ impl AnyBatch for Arc<Feedback> {
 
     fn energy(&self, _: &Kinematics) -> Energy {
         Energy::default()
+    }
+
+    fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
+        let size = |driven: &Driven, at: &Kinematics| self.graph.evaluate(at, |values| values[driven.signal]);
+        let of = |driven: &Driven| match &driven.target {
+            Target::Load(element) => work(&**element, (from, to), [size(driven, from), size(driven, to)]),
+            Target::State(_) => 0.0,
+        };
+        self.driven.iter().map(of).sum()
+    }
+
+    fn kinks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    fn deformation_rate(&self, _: &Kinematics) -> Option<(f64, NodeId)> {
+        None
+    }
+
+    fn least_aligned(&self, _: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+        None
     }
 
     fn as_any_mut(&mut self) -> &mut dyn Any {

@@ -124,6 +124,11 @@ impl Layout {
         (joint, equation)
     }
 
+    /// Name of a node, as a person would call it.
+    pub fn name_of_node(&self, node: NodeId) -> &str {
+        &self.node_names[node]
+    }
+
     /// Name of the unknown in `row`, as a person would call it.
     pub fn name_of(&self, row: usize) -> String {
         const FREEDOMS: [&str; 6] =

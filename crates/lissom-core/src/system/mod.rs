@@ -144,6 +144,46 @@ impl System {
         sum
     }
 
+    /// Work of loads between two configurations [J], as if forces changed linearly in time between them and places as
+    /// cubic polynomials.
+    pub fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
+        self.batches.iter().map(|batch| batch.work_of_loads(from, to)).sum()
+    }
+
+    /// Work of prescribed motions between two configurations with their multipliers, likewise [J].
+    pub fn work_of_drives(&self, from: (&Kinematics, &[f64]), to: (&Kinematics, &[f64])) -> f64 {
+        let of_drive = |drive: &Drive| {
+            let coordinate = drive.prescribed.coordinate;
+            let [start, end] = [from.0, to.0].map(|at| at.coordinates[coordinate]);
+            let forces = [from.1, to.1].map(|multipliers| -multipliers[drive.multiplier]);
+            batch::along(forces, end.value - start.value, [start.rate, end.rate], to.0.time - from.0.time)
+        };
+        self.drives.iter().map(of_drive).sum()
+    }
+
+    /// Times at which loads and prescribed motions are known not to be smooth [s], in ascending order.
+    pub fn kinks(&self) -> Vec<f64> {
+        let of_drives = self.drives.iter().flat_map(|drive| drive.prescribed.value.kinks());
+        let mut kinks: Vec<f64> =
+            self.batches.iter().flat_map(|batch| batch.kinks()).chain(of_drives).collect();
+        kinks.sort_by(f64::total_cmp);
+        kinks.dedup();
+        kinks
+    }
+
+    /// The largest rate at which an element deforms [1/s], with one of its nodes; none where nothing can be bent.
+    pub fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
+        let rates = self.batches.iter().filter_map(|batch| batch.deformation_rate(at));
+        rates.reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
+    }
+
+    /// The two nodes of an element that are turned most against each other, and the cosine of half the angle between
+    /// them; none where no element turns with two nodes.
+    pub fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+        let pairs = self.batches.iter().filter_map(|batch| batch.least_aligned(at));
+        pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
+    }
+
     /// Momentum [N s] and angular momentum about the origin [N m s], in inertial axes.
     pub fn momentum(&self, at: &Kinematics) -> (Vector3, Vector3) {
         let mut linear = Vector3::zeros();

@@ -103,6 +103,7 @@ pub enum Scaling {
 
 /// What is computed, and how.
 #[derive(Clone, Debug)]
+#[expect(clippy::struct_excessive_bools, reason = "each is a switch of its own in the model file")]
 pub struct Analysis {
     /// Dynamics or statics.
     pub kind: AnalysisKind,
@@ -132,6 +133,10 @@ pub struct Analysis {
     pub output_every: usize,
     /// Frames of the motion file per second of simulated time; none for a number that suits the run [1/s].
     pub frames_per_second: Option<f64>,
+    /// Whether a motion with much more energy than anything put in fails.
+    pub energy_check: bool,
+    /// Whether constant loads of statics grow from nothing over the load steps.
+    pub ramp: bool,
     /// The word `analysis`.
     pub span: Span,
 }
@@ -207,6 +212,8 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         } else {
             None
         },
+        energy_check: !dynamics || reader.flag("energy_check").is_none_or(|flag| flag.value),
+        ramp: word == "statics" && reader.flag("ramp").is_none_or(|flag| flag.value),
         span: name,
         start: start.as_ref()?.value,
         end: end.as_ref()?.value,

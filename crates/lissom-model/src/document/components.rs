@@ -88,6 +88,9 @@ fn two_nodes(reader: &Reader<'_, '_>) -> Option<(Located<NodeReference>, Located
 
 type Axes = (Option<Located<Vector3>>, Option<Located<Vector3>>);
 
+/// Cosine between axes that count as perpendicular: digits of a text.
+const PERPENDICULAR: f64 = 1e-5;
+
 /// The directions the frame rule asks for; `None` where one of them is wrong or missing.
 fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
     match rule {
@@ -101,6 +104,24 @@ fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
                 let problem =
                     Problem::error(second.span, message).label("parallel").also(first.span, "first axis");
                 reader.context.tell(problem.help("give two directions that differ"));
+                return None;
+            }
+            let cosine = first.value.normalize().dot(&second.value.normalize());
+            if cosine.abs() > PERPENDICULAR {
+                let across = second.value
+                    - first.value * (first.value.dot(&second.value) / first.value.norm_squared());
+                let message = format!(
+                    "the two axes of {} stand at {:.3} degrees to each other, not at 90",
+                    reader.what,
+                    cosine.acos().to_degrees()
+                );
+                let problem = Problem::error(second.span, message)
+                    .label("not perpendicular")
+                    .also(first.span, "first axis");
+                reader.context.tell(problem.help(format!(
+                    "the nearest perpendicular direction is [{}, {}, {}]",
+                    across.x, across.y, across.z
+                )));
                 return None;
             }
             Some((Some(first), Some(second)))

@@ -427,6 +427,12 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
             "time from record to record where steps are chosen; default every step",
         ),
     ]);
+    dynamics.push(optional(
+        "energy_check",
+        Shape::Flag,
+        "",
+        "whether a run with much more energy than anything put in fails, default true",
+    ));
     for parameter in registry.schemes.iter().flat_map(|scheme| scheme.parameters) {
         if !dynamics.iter().any(|key| key.name == parameter.name) {
             let mut key = of_parameter(parameter);
@@ -438,6 +444,12 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
     let mut statics = common();
     statics.push(optional("end", Shape::Number, "s", "last time, default 1"));
     statics.push(optional("steps", Shape::Count(1, 1_000_000), "", "load steps, default 10"));
+    statics.push(optional(
+        "ramp",
+        Shape::Flag,
+        "",
+        "whether gravity and loads that are constant grow from nothing over the load steps, default true",
+    ));
     let mut variants = vec![
         Variant { word: "dynamics", summary: "Motion in time.", keys: dynamics },
         Variant { word: "statics", summary: "Equilibrium in load steps.", keys: statics },

@@ -6,6 +6,7 @@
 mod compile;
 mod formula;
 mod jet;
+mod kinks;
 mod token;
 
 use std::collections::BTreeMap;
@@ -75,6 +76,12 @@ impl Expression {
             [Step::Constant(value)] => Some(*value),
             _ => None,
         }
+    }
+
+    /// Values of the variable at which the expression is not smooth, as far as they can be told: where a function that is
+    /// not smooth takes an argument that is a straight line of the variable. In ascending order.
+    pub fn kinks(&self) -> Vec<f64> {
+        kinks::of(&self.steps)
     }
 
     /// Value and derivatives at `x`.
@@ -180,6 +187,24 @@ mod tests {
         {
             let jet = parse(text).unwrap().jet(0.0);
             assert_eq!((jet.first, jet.second), (first, second), "{text}");
+        }
+    }
+
+    #[test]
+    fn kinks_are_found_where_arguments_are_straight_lines() {
+        for (text, wanted) in [
+            ("step(t - 3)", vec![3.0]),
+            ("step(10 - 2*t)*sin(t) + abs(t/2 + 1)", vec![-2.0, 5.0]),
+            ("smoothstep((t - 1)/4)", vec![1.0, 5.0]),
+            ("min(2*t, 6) + max(t, T)", vec![1.6, 3.0]),
+            ("sign(-(t - 2))*step(t - 2)", vec![2.0]),
+            ("sin(t)*t^2 + step(1)", vec![]),
+            // The root of a curved argument is not looked for.
+            ("abs(sin(t))", vec![]),
+        ] {
+            let found = parse(text).unwrap().kinks();
+            assert_eq!(found.len(), wanted.len(), "{text}: {found:?}");
+            assert!(found.iter().zip(&wanted).all(|(a, b)| (a - b).abs() < 1e-14), "{text}: {found:?}");
         }
     }
 

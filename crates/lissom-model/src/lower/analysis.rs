@@ -66,6 +66,7 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
         solver,
         threads: 1,
         from_equilibrium,
+        energy_check: analysis.energy_check,
     };
     let plan = Plan {
         start: analysis.start,

@@ -1,12 +1,16 @@
 //! Joints, drives, springs and loads, by way of the registry.
 
+use std::sync::Arc;
+
 use lissom_core::elements::{self, Attached, ElementKind, LOADS, SPRINGS};
 use lissom_core::joints::{self, Build, JointKind, Quantity};
+use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Value};
 use lissom_core::system::{Builder, CoordinateId, NodeId, Placement};
 use lissom_motion::Vector3;
 
 use super::{Names, parameter_problem};
 use crate::document::{Attachment, Component, Document};
+use crate::functions::Ramp;
 use crate::report::{Located, Problem};
 
 /// Adds all connections: joints between nodes first, then drives of their coordinates.
@@ -34,13 +38,16 @@ pub(super) fn add(
         // Whatever names a signal that could not be read would be wrong as well.
         return;
     }
-    for (components, kinds) in [(&document.springs, SPRINGS), (&document.loads, LOADS)] {
+    for (components, kinds, is_load) in [(&document.springs, SPRINGS, false), (&document.loads, LOADS, true)]
+    {
         for component in components {
             let Some(kind) = kinds.iter().find(|kind| kind.name == component.kind.value) else {
                 problems.push(unknown_kind(component));
                 continue;
             };
-            if let Err(problem) = element(document, component, kind, builder, names) {
+            let ramp = document.analysis.ramp.then_some((document.analysis.start, document.analysis.end));
+            let ramp = ramp.filter(|_| is_load);
+            if let Err(problem) = element(document, (component, kind), (&mut *builder, &mut *names), ramp) {
                 problems.push(problem);
             }
         }
@@ -132,10 +139,9 @@ fn coordinate(
 
 fn element(
     document: &Document,
-    component: &Component,
-    kind: &ElementKind,
-    builder: &mut Builder,
-    names: &mut Names,
+    (component, kind): (&Component, &ElementKind),
+    (builder, names): (&mut Builder, &mut Names),
+    ramp: Option<(f64, f64)>,
 ) -> Result<(), Problem> {
     let local = |builder: &Builder, node: NodeId, place: &Vector3| {
         builder.initial_frame(node).inverse_transform_point(place)
@@ -161,7 +167,11 @@ fn element(
             Attached::Coordinate(coordinate(component, joint, wanted, builder, names)?)
         }
     };
-    let build = |builder: &mut Builder| (kind.build)(builder, attached, &component.parameters);
+    // A size that depends on the motion is no constant load.
+    let ramp = ramp.filter(|_| component.signal.is_none());
+    let ramped = ramp.and_then(|span| ramped(kind, &component.parameters, span));
+    let parameters = ramped.as_ref().unwrap_or(&component.parameters);
+    let build = |builder: &mut Builder| (kind.build)(builder, attached, parameters);
     let built = match &component.signal {
         None => build(builder),
         Some((key, formula)) => {
@@ -171,4 +181,19 @@ fn element(
         }
     };
     built.map_err(|error| parameter_problem(component, &error))
+}
+
+/// The parameters of a load with its constant sizes growing from nothing over `span` [s]; none where nothing changes.
+fn ramped(kind: &ElementKind, given: &Parameters, span: (f64, f64)) -> Option<Parameters> {
+    let mut parameters: Option<Parameters> = None;
+    let holds_size =
+        |parameter: &&Parameter| matches!(parameter.holds, ParameterType::Function | ParameterType::Size);
+    for parameter in kind.parameters.iter().filter(holds_size) {
+        let constant = given.function_or(parameter.name, 1.0).ok().filter(|function| function.is_constant());
+        if let Some(constant) = constant {
+            let ramp: Function = Arc::new(Ramp { value: constant.value(span.0), span });
+            parameters.get_or_insert_with(|| given.clone()).insert(parameter.name, Value::Function(ramp));
+        }
+    }
+    parameters
 }

@@ -2,6 +2,7 @@
 //! does no mechanics of its own.
 
 mod analysis;
+mod beginning;
 mod connections;
 mod measurements;
 mod parts;
@@ -9,15 +10,18 @@ pub mod registry;
 mod signals;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use lissom_core::analysis::Settings;
 use lissom_core::elements::beam::line::BeamLine;
+use lissom_core::judge::Warning;
 use lissom_core::registry::ParameterError;
 use lissom_core::signals::{Argument, MeasurementId};
 use lissom_core::system::{Builder, CoordinateId, NodeId, State, System};
 
 use crate::channels::{self, Channel};
 use crate::document::{Component, Document, NodeReference};
+use crate::functions::Ramp;
 use crate::report::{Located, Problem, Report};
 
 pub use analysis::Plan;
@@ -36,6 +40,8 @@ pub struct Lowered {
     pub channels: Vec<Channel>,
     /// Where the parts of the model are among the nodes and coordinates, and its signals.
     pub names: Names,
+    /// What is worth knowing of the model before it runs.
+    pub warnings: Vec<Warning>,
 }
 
 /// Nodes, coordinates and signals by the names of the model.
@@ -100,6 +106,10 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
     let mut builder = Builder::new();
     builder.set_gravity(document.gravity);
     let mut names = Names::default();
+    if document.analysis.ramp {
+        let span = (document.analysis.start, document.analysis.end);
+        builder.set_gravity_factor(Arc::new(Ramp { value: 1.0, span }));
+    }
     parts::add(document, &mut builder, &mut names, &mut problems);
     stop_at(document, &mut problems)?;
     connections::add(document, &mut builder, &mut names, &mut problems);
@@ -112,9 +122,10 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
         .build(document.analysis.start)
         .map_err(|error| document.report(vec![Problem::error(document.analysis.span, error.to_string())]));
     let (system, state) = built?;
+    let warnings = beginning::drives(document, &system, &state, &mut problems);
     let channels = channels::of(document, &system, &state, &names.resolver(), &mut problems);
     stop_at(document, &mut problems)?;
-    Ok(Lowered { system, state, settings, plan, channels, names })
+    Ok(Lowered { system, state, settings, plan, channels, names, warnings })
 }
 
 impl Names {

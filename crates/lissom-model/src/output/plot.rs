@@ -69,6 +69,12 @@ pub fn figures(record: &Record, title: &str) -> Vec<Figure> {
         let known = figures.iter().position(|(known, _)| *known == output);
         let index = known.unwrap_or_else(|| {
             let name = output.replace(|c: char| !c.is_alphanumeric() && c != '-', "_");
+            // Names that differ in characters which no file name takes get a number.
+            let alike = |name: &str| figures.iter().any(|(_, figure)| figure.name == name);
+            let name = std::iter::once(name.clone())
+                .chain((2..figures.len() + 3).map(|number| format!("{name}_{number}")))
+                .find(|name| !alike(name))
+                .unwrap_or(name);
             let title = if title.is_empty() { output.to_owned() } else { format!("{title}: {output}") };
             figures.push((output, Figure { name, title, panels: Vec::new() }));
             figures.len() - 1

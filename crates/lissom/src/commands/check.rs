@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use clap::Args;
-use lissom::Document;
+use lissom::{Document, Session};
 use lissom_core::analysis::mobility::{Mobility, Redundant, mobility};
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, lower};
@@ -33,6 +33,11 @@ impl Check {
         terminal::print(&told(model.name(), &document, &lowered, &freedom));
         for redundant in &freedom.redundant {
             terminal::complain(&warning(redundant));
+        }
+        // What a run would refuse before its first step is refused here.
+        let session = Session::start(lowered).map_err(|error| Failure::new(Exit::BadModel, error))?;
+        for warning in session.warnings() {
+            terminal::complain(&format!("warning: {warning}\n"));
         }
         Ok(Exit::Done)
     }

@@ -58,6 +58,7 @@ impl Gradient {
         let path = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-gradient")));
         let unwritable = |error: lissom::FileError| Failure::folder(Exit::Failed, &FolderError::from(error));
         let folder = ResultFolder::create(&path).map_err(unwritable)?;
+        folder.clear().map_err(unwritable)?;
         let found = match found {
             Ok(found) => found,
             Err(error) => {

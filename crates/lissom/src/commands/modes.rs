@@ -96,6 +96,7 @@ pub(super) fn report(
     };
     let unwritable = |error: lissom::FileError| Failure::folder(Exit::Failed, &FolderError::from(error));
     let folder = ResultFolder::create(folder).map_err(unwritable)?;
+    folder.clear().map_err(unwritable)?;
     let found = match found {
         Ok(found) => found,
         Err(error) => {

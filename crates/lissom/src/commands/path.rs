@@ -37,13 +37,15 @@ pub(super) fn run(
     let mut session = match started {
         Ok(session) => session,
         Err(error) => {
-            // A text can be said in JSON.
-            let _ = summary.insert("error", json!(error.to_string()));
-            folder.write_summary(&summary).map_err(|error| unwritable(error.into()))?;
+            if !folder.has_results() {
+                // A text can be said in JSON.
+                let _ = summary.insert("error", json!(error.to_string()));
+                folder.write_summary(&summary).map_err(|error| unwritable(error.into()))?;
+            }
             return Err(Failure::new(Exit::Failed, error));
         }
     };
-    let mut history = folder.history().map_err(|error| unwritable(error.into()))?;
+    let mut history = folder.begin().map_err(|error| unwritable(error.into()))?;
     let mut record = Record::default();
     let mut writers: Vec<&mut dyn Writer> = vec![&mut history];
     if wanted.plots {

@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 use std::fs::File;
+use std::io;
 use std::num::NonZero;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -10,11 +11,11 @@ use clap::Args;
 use lissom::modes::ModeRequest;
 use lissom::motion::MotionRecorder;
 use lissom::{
-    Checkpoint, CheckpointEvery, CheckpointFile, Document, FolderError, Model, Override, Progress, Record,
+    Checkpoint, CheckpointEvery, CheckpointFile, FolderError, Model, Override, Progress, Record,
     ResultFolder, RunReport, Session, Stopped, Summary, Writer, summary,
 };
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::{Lowered, lower};
+use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
 
 use super::{Exit, Failure, show_warnings};
@@ -126,30 +127,42 @@ impl Run {
             None => (ResultFolder::create(&task.folder).map_err(unwritable)?, Record::default()),
             Some(checkpoint) => ResultFolder::resume(&task.folder, checkpoint).map_err(unwritable)?,
         };
-        let mut history = match &task.resumed {
-            None => {
-                CheckpointFile::remove(&task.folder);
-                folder.history().map_err(unwritable)?
-            }
-            Some(checkpoint) => folder.resumed_history(checkpoint).map_err(unwritable)?,
-        };
-        let motion = if task.plots { Some(task.motion(&folder, &document, &lowered)?) } else { None };
+        let recorder = task
+            .plots
+            .then(|| MotionRecorder::new(&lowered, document.analysis.frames_per_second, io::sink()));
+        let scene = task.plots.then(|| Scene::of(&document, &lowered));
         let mut summary = summary::of_model(task.model.name(), &task.overrides, &document, &lowered);
         let mut session = match Session::start(lowered) {
             Ok(session) => session,
             Err(error) => {
-                summary::of_failed_start(&mut summary, &error);
-                folder.write_summary(&summary).map_err(unwritable)?;
-                return Err(Failure::new(Exit::Failed, error));
+                let kept = if folder.has_results() {
+                    format!("\n  the former results in `{}` are left as they were", folder.path().display())
+                } else {
+                    summary::of_failed_start(&mut summary, &error);
+                    folder.write_summary(&summary).map_err(unwritable)?;
+                    String::new()
+                };
+                return Err(Failure::new(Exit::Failed, format!("{error}{kept}")));
             }
+        };
+        session.cancel_by(interrupt.flag());
+        let mut history = match &task.resumed {
+            None => {
+                CheckpointFile::remove(&task.folder);
+                folder.begin().map_err(unwritable)?
+            }
+            Some(checkpoint) => folder.resumed_history(checkpoint).map_err(unwritable)?,
         };
         if let Some(checkpoint) = &task.resumed {
             session.restore(&checkpoint.session).map_err(|error| Failure::new(Exit::Failed, error))?;
             record.columns = session.columns().to_vec();
         }
-        if let Some(motion) = motion {
-            session.write_states_to(Box::new(motion));
+        if let Some((recorder, scene)) = recorder.zip(scene) {
+            session.write_states_to(Box::new(task.motion(&folder, recorder, &scene)?));
         }
+        // What a run that is killed leaves.
+        summary::of_beginning(&mut summary);
+        folder.write_summary(&summary).map_err(unwritable)?;
         let mut bar = Bar::new(session.progress().planned, !self.quiet);
         let mut writers: Vec<&mut dyn Writer> = vec![&mut history];
         if task.plots {
@@ -169,12 +182,17 @@ impl Run {
         bar.clear();
         let title = document.title.as_deref().unwrap_or_default();
         summary::of_run(&mut summary, &session, &report);
+        let noted = folder.write_telemetry(&session.telemetry().to_json());
+        for warning in session.warnings() {
+            terminal::complain(&format!("warning: {warning}\n"));
+        }
         let kept = self.keep(&folder, &summary, (&record, task.plots), title);
         if !self.quiet {
             let heading = if title.is_empty() { task.model.name() } else { title };
             terminal::print(&told(heading, &session, &report, folder.path()));
         }
         kept?;
+        noted.map_err(unwritable)?;
         if report.is_complete() {
             CheckpointFile::remove(&task.folder);
         }
@@ -249,20 +267,19 @@ impl Task {
     fn motion(
         &self,
         folder: &ResultFolder,
-        document: &Document,
-        lowered: &Lowered,
+        recorder: MotionRecorder<io::Sink>,
+        scene: &Scene,
     ) -> Result<MotionRecorder<File>, Failure> {
-        let rate = document.analysis.frames_per_second;
         if let Some(checkpoint) = &self.resumed {
             let (file, last) = folder.resumed_motion(checkpoint).map_err(unwritable)?;
-            let mut recorder = MotionRecorder::new(lowered, rate, file);
+            let mut recorder = recorder.writing_to(file);
             if let Some(last) = last {
                 recorder.resume_after(last);
             }
             return Ok(recorder);
         }
-        folder.write_scene(&Scene::of(document, lowered)).map_err(unwritable)?;
-        Ok(MotionRecorder::new(lowered, rate, folder.motion().map_err(unwritable)?))
+        folder.write_scene(scene).map_err(unwritable)?;
+        Ok(recorder.writing_to(folder.motion().map_err(unwritable)?))
     }
 
     /// Where checkpoints go, if any are wanted.

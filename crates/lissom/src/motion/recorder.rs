@@ -59,6 +59,12 @@ impl<W: Write + Send> MotionRecorder<W> {
         }
     }
 
+    /// The same recorder, writing to `to`.
+    pub fn writing_to<V: Write + Send>(self, to: V) -> MotionRecorder<V> {
+        let Self { buffer, flushed, header, reference, probes, start, interval, last, between, .. } = self;
+        MotionRecorder { to, buffer, flushed, header, reference, probes, start, interval, last, between }
+    }
+
     /// Goes on after the frame of the time `last` [s], which has been written already.
     pub fn resume_after(&mut self, last: f64) {
         self.last = Some(last);

@@ -350,7 +350,8 @@ impl PathEquations<'_> {
         };
         match *failure {
             Failure::NotConverged { iterations, correction } => {
-                StepError::NotConverged { time, iterations, correction, worst: worst() }
+                let hint = "take a smaller `step`";
+                StepError::NotConverged { time, iterations, correction, worst: worst(), hint }
             }
             Failure::NotFinite { iterations } => StepError::NotFinite { time, iterations, worst: worst() },
             Failure::Factor(FactorError::ZeroPivot { unknown, pivot, .. }) => StepError::ZeroPivot {

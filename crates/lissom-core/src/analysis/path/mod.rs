@@ -263,6 +263,7 @@ impl EquilibriumPath {
                     iterations: 0,
                     correction: 0.0,
                     worst: "the path turns at once".to_owned(),
+                    hint: "take a smaller `step`",
                 };
                 return Err(PathError::Lost { load_factor, arc, error: error.unwrap_or(bent) });
             }

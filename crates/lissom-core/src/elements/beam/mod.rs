@@ -41,6 +41,7 @@ use super::passage::{Passage, STAGES, Variation};
 use super::quadrature::gauss_legendre;
 use super::shape::lagrange;
 use super::{Element, Energy, MOST_UNKNOWNS, Tangents, add_block};
+use crate::system::state::split;
 use crate::system::{Kinematics, NodeId};
 
 /// Elastic law of a beam's cross section: forces (axial, shear 2, shear 3) and moments (torsion,
@@ -355,6 +356,33 @@ impl<const N: usize> Element for Beam<N> {
         out: &mut [[Vec<f64>; STAGES]; STAGES],
     ) {
         self.add_integrated(passage, variations, out);
+    }
+
+    fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
+        let relative = self.relative(at);
+        let twists = self.relative_twists(at, &relative);
+        let length = self.length();
+        let rate = |i: usize| {
+            let (velocity, angular) = split(&twists[i]);
+            (velocity.norm() / length + angular.norm(), self.nodes[i])
+        };
+        (0..N).map(rate).reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
+    }
+
+    fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+        // With unit quaternions of the two frames, their scalar product is the cosine of half the angle between them.
+        let quaternion = |i: usize| {
+            let rotation = at.nodes[self.nodes[i]].frame.rotation;
+            let offset = self.offsets[i].as_ref().map(|offset| offset.rotation);
+            offset.map_or(rotation, |offset| rotation * offset).quaternion()
+        };
+        let reference = quaternion(Self::REFERENCE);
+        let pair = |i: usize| {
+            let cosine: f64 = reference.iter().zip(quaternion(i)).map(|(a, b)| a * b).sum();
+            (cosine.abs(), [self.nodes[Self::REFERENCE], self.nodes[i]])
+        };
+        let pairs = (0..N).filter(|&i| i != Self::REFERENCE).map(pair);
+        pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {

@@ -16,6 +16,11 @@ use crate::system::Kinematics;
 /// formulas for small changes are good to round-off.
 const SMALL: f64 = 1e-3;
 
+/// Strains that rates miss are noise below this part of the way that the nodes come, in element lengths. Where an
+/// element moves nearly as a rigid body its relative rates are round-off of the nodes' twists, through which strains of
+/// a thousand roundings are divided.
+const ROUND_OFF: f64 = 4096.0 * f64::EPSILON;
+
 /// Two Gauss points on 0 … 1.
 const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
@@ -123,7 +128,7 @@ impl<const N: usize> Beam<N> {
         let [from, to] = [passage.start, passage.end].map(|at| self.relative(at));
         let (inverse, shares) = passage.shares([visits[0].square, visits[1].square]);
         let moved = self.coordinate_changes(passage, &from, &to);
-        let round_off = 4.0 * f64::EPSILON * self.way(passage) / length;
+        let round_off = ROUND_OFF * self.way(passage) / length;
         for station in &self.stations {
             let strain = |relative: &Relative<N>| {
                 station.strain(&combine(&station.shape, relative), &combine(&station.slope, relative))

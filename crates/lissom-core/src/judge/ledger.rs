@@ -1,0 +1,149 @@
+//! Where energy goes: energy of the model beside the work of loads and drives. What dampers and schemes take away
+//! lowers the balance; nothing may raise it.
+//!
+//! ```text
+//! D = E - W,     surplus = D - (least D so far)
+//! ```
+//!
+//! E kinetic, elastic and potential energy, W work of loads and drives (see
+//! `System::work_of_loads`). In statics weight is a load, for it may be
+//! applied in steps, and nothing takes energy away.
+
+use serde::{Deserialize, Serialize};
+
+use crate::analysis::StepError;
+use crate::elements::Energy;
+use crate::scaling::Representative;
+use crate::system::{Kinematics, State, System};
+
+/// A surplus of this part of the energy turned over is told.
+const NOTEWORTHY: f64 = 0.05;
+/// A surplus of this part of the energy turned over, over a run or in a single step, makes the motion unbelievable.
+const GROSS: f64 = 0.25;
+/// Places are known to this part of the representative length: energies below are round-off.
+const PLACE: f64 = 1e-7;
+/// Part of the largest single energy that its round-off may reach.
+const ROUND_OFF: f64 = 1e-10;
+
+/// A state as the ledger sees it.
+pub(crate) struct Entry<'a> {
+    at: &'a Kinematics,
+    multipliers: &'a [f64],
+}
+
+impl<'a> From<&'a State> for Entry<'a> {
+    fn from(state: &'a State) -> Self {
+        Self { at: &state.kinematics, multipliers: &state.multipliers }
+    }
+}
+
+/// Energy and work since the start of a simulation [J].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Ledger {
+    /// Energy now.
+    pub energy: Energy,
+    /// Work of forces, moments and other loads since the start, in statics that of weight included.
+    pub loads: f64,
+    /// Work of prescribed motions since the start.
+    pub drives: f64,
+    /// The largest surplus so far: energy that nothing put in.
+    pub surplus: f64,
+    /// Energy turned over so far: the largest sum of kinetic and elastic energy, the range of the potential one, and
+    /// what loads and drives have moved to and fro.
+    pub turned_over: f64,
+    least_balance: f64,
+    /// The largest sum of kinetic and elastic energy.
+    most: f64,
+    potential: [f64; 2],
+    moved: f64,
+    floor: f64,
+}
+
+impl Ledger {
+    /// At the start of a simulation.
+    pub(crate) fn new(
+        system: &System,
+        at: &Kinematics,
+        representative: &Representative,
+        is_motion: bool,
+    ) -> Self {
+        let energy = system.energy(at);
+        let place = PLACE * representative.length;
+        let mut ledger = Self {
+            energy,
+            most: energy.kinetic + energy.strain,
+            potential: [energy.potential; 2],
+            floor: representative.stiffness * place * place,
+            ..Self::default()
+        };
+        ledger.least_balance = ledger.balance(is_motion);
+        ledger
+    }
+
+    /// Surplus relative to the energy turned over.
+    pub fn relative_surplus(&self) -> f64 {
+        self.surplus / (self.turned_over + self.least_known())
+    }
+
+    /// Whether the surplus is worth a warning.
+    pub fn is_noteworthy(&self) -> bool {
+        self.relative_surplus() > NOTEWORTHY
+    }
+
+    fn least_known(&self) -> f64 {
+        let largest = self.most.max(self.potential[0].abs()).max(self.potential[1].abs());
+        self.floor + ROUND_OFF * largest + f64::MIN_POSITIVE
+    }
+
+    fn balance(&self, is_motion: bool) -> f64 {
+        let energy = if is_motion { self.energy.total() } else { self.energy.strain };
+        energy - self.loads - self.drives
+    }
+
+    /// After a step.
+    pub(crate) fn after(&self, system: &System, start: &Entry<'_>, end: &Entry<'_>, is_motion: bool) -> Self {
+        let energy = system.energy(end.at);
+        let mut loads = system.work_of_loads(start.at, end.at);
+        if !is_motion {
+            loads -= energy.potential - self.energy.potential;
+        }
+        let drives = system.work_of_drives((start.at, start.multipliers), (end.at, end.multipliers));
+        let mut after = Self {
+            energy,
+            loads: self.loads + loads,
+            drives: self.drives + drives,
+            most: self.most.max(energy.kinetic + energy.strain),
+            potential: [self.potential[0].min(energy.potential), self.potential[1].max(energy.potential)],
+            moved: self.moved + loads.abs() + drives.abs(),
+            ..*self
+        };
+        let balance = after.balance(is_motion);
+        after.surplus = self.surplus.max(balance - self.least_balance);
+        after.least_balance = self.least_balance.min(balance);
+        after.turned_over = after.most + (after.potential[1] - after.potential[0]) + after.moved;
+        after
+    }
+
+    /// Fails where this ledger, one step after `before`, shows more energy than can be there.
+    pub(crate) fn refuse_gain(&self, before: &Self, time: f64) -> Result<(), StepError> {
+        let allowed = GROSS * (self.turned_over + self.least_known());
+        if self.surplus <= allowed || self.surplus <= before.surplus {
+            return Ok(());
+        }
+        let gain = self.balance(true) - before.balance(true);
+        Err(StepError::EnergyFromNowhere {
+            time,
+            surplus: self.surplus,
+            turned_over: self.turned_over,
+            in_this_step: gain > 0.5 * self.surplus,
+        })
+    }
+
+    /// In statics, what the last load step lost or won relative to the work done in it: a path that was followed loses
+    /// nothing but what the trapezoidal rule misses.
+    pub(crate) fn missing_work(&self, before: &Self) -> f64 {
+        let stored = self.energy.strain - before.energy.strain;
+        let done = self.loads + self.drives - before.loads - before.drives;
+        (stored - done).abs() / (stored.abs() + done.abs() + self.least_known())
+    }
+}

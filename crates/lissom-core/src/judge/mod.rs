@@ -1,0 +1,133 @@
+//! The one place that judges a finished step: whether its equations were solved in a way that the motion can be
+//! believed. Knows no scheme and no step size.
+//!
+//! A solution of the discrete equations can be wrong: constraints that contradict each other leave a violation, angles
+//! beyond half a turn stand for others, and energy that nothing put in shows that the step left its branch or that the
+//! scheme feeds motions which it does not resolve.
+
+mod ledger;
+pub(crate) mod start;
+mod warning;
+
+pub use ledger::Ledger;
+pub use warning::Warning;
+
+use std::f64::consts::PI;
+
+use crate::analysis::StepError;
+use crate::joints::Quantity;
+use crate::scaling::Representative;
+use crate::system::{Kinematics, State, System};
+
+/// Violation of a constraint at which it is not held, relative to the representative length, or in radians. Solutions
+/// and redundant constraints that agree leave some 1e-10.
+const LARGEST_VIOLATION: f64 = 1e-5;
+/// A node that turns further in one step than a quarter of a turn is not resolved by any of the schemes [rad].
+const LARGEST_TURN: f64 = 0.5 * PI;
+/// Nodes of an element that are turned against each other by more than this cannot be told from the other way round:
+/// part of half a turn.
+const LARGEST_RELATIVE_TURN: f64 = 0.9;
+/// Constraints named in a message.
+const MOST_NAMED: usize = 4;
+
+/// Judges steps of one simulation.
+pub(crate) struct Judge<'a> {
+    pub(crate) system: &'a System,
+    pub(crate) representative: &'a Representative,
+    /// Whether there is a motion, not a sequence of equilibria.
+    pub(crate) is_motion: bool,
+    /// Whether energy out of nothing fails the step.
+    pub(crate) checks_energy: bool,
+}
+
+impl Judge<'_> {
+    /// Judges the step from `start` to `end`; gives the ledger after it.
+    ///
+    /// # Errors
+    /// If the end of the step cannot be believed.
+    pub(crate) fn examine(&self, start: &State, end: &State, ledger: &Ledger) -> Result<Ledger, StepError> {
+        self.constraints(end)?;
+        if self.is_motion {
+            self.turns(start, end)?;
+        }
+        relative_turns(self.system, &end.kinematics)?;
+        let after = ledger.after(self.system, &start.into(), &end.into(), self.is_motion);
+        if self.checks_energy && self.is_motion {
+            after.refuse_gain(ledger, end.kinematics.time)?;
+        }
+        Ok(after)
+    }
+
+    /// Fails where constraints are violated by more than solving leaves: they contradict each other, or a drive asks
+    /// for more than the others leave.
+    fn constraints(&self, end: &State) -> Result<(), StepError> {
+        let layout = self.system.layout();
+        let quantities = &layout.quantities()[layout.coordinate_count()..];
+        let length = if self.representative.length > 0.0 { self.representative.length } else { 1.0 };
+        let relative = |(violation, quantity): (&f64, &Quantity)| match quantity {
+            Quantity::Length => violation.abs() / length,
+            Quantity::Angle | Quantity::State => violation.abs(),
+        };
+        let worst = end.violations.iter().zip(quantities).map(relative).fold(0.0_f64, f64::max);
+        if worst <= LARGEST_VIOLATION {
+            return Ok(());
+        }
+        let mut named: Vec<(f64, usize)> = end
+            .violations
+            .iter()
+            .zip(quantities)
+            .map(relative)
+            .enumerate()
+            .map(|(k, size)| (size, k))
+            .collect();
+        named.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let mut words: Vec<String> = Vec::new();
+        for &(_, k) in named.iter().filter(|(size, _)| *size > 0.1 * worst).take(MOST_NAMED) {
+            let (joint, equation) = layout.constraint_name(k);
+            let unit = match quantities[k] {
+                Quantity::Length => "m",
+                Quantity::Angle => "rad",
+                Quantity::State => "",
+            };
+            words.push(format!("`{joint}` ({equation}) by {:.3e} {unit}", end.violations[k].abs()));
+        }
+        Err(StepError::Contradiction { time: end.kinematics.time, violated: words.join(", ") })
+    }
+
+    /// Fails where a node turns so far that what it turns beyond would pass unseen.
+    fn turns(&self, start: &State, end: &State) -> Result<(), StepError> {
+        let elapsed = end.kinematics.time - start.kinematics.time;
+        let fastest = |state: &State| {
+            let speed = |twist: &lissom_motion::Vector6| twist.fixed_rows::<3>(3).norm_squared();
+            let of = |(node, motion): (usize, &crate::system::NodeMotion)| (speed(&motion.twist), node);
+            state
+                .kinematics
+                .nodes
+                .iter()
+                .enumerate()
+                .map(of)
+                .fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
+        };
+        let (square, node) = fastest(end);
+        let angle = square.sqrt() * elapsed;
+        if angle <= LARGEST_TURN {
+            return Ok(());
+        }
+        let node = self.system.layout().name_of_node(node).to_owned();
+        Err(StepError::TurnsTooFar { time: end.kinematics.time, node, angle })
+    }
+}
+
+/// Fails where two nodes of an element are turned against each other by nearly half a turn or more.
+pub(crate) fn relative_turns(system: &System, at: &Kinematics) -> Result<(), StepError> {
+    let Some((cosine, [one, other])) = system.least_aligned(at) else { return Ok(()) };
+    if cosine >= (0.5 * LARGEST_RELATIVE_TURN * PI).cos() {
+        return Ok(());
+    }
+    let layout = system.layout();
+    Err(StepError::ElementTurns {
+        time: at.time,
+        nodes: [one, other].map(|node| layout.name_of_node(node).to_owned()),
+        turns: 2.0 * cosine.clamp(0.0, 1.0).acos() / PI,
+    })
+}

@@ -1,0 +1,114 @@
+//! Whether a motion starts as it was told to.
+
+use lissom_motion::Vector3;
+
+use super::Warning;
+use crate::analysis::InitialError;
+use crate::joints::Quantity;
+use crate::scaling::Representative;
+use crate::system::state::split;
+use crate::system::{Kinematics, NodeMotion, System};
+
+/// Changes of given velocities below this part of the largest are round-off of given numbers.
+const NOTEWORTHY: f64 = 1e-3;
+/// Where less than this part of the given kinetic energy remains, nothing of what was given does.
+const NOTHING: f64 = 1e-4;
+/// Rates of constraints that stay above this part of the largest rate contradict each other.
+const LARGEST_RATE: f64 = 1e-6;
+/// Deformation rates below this part of the largest speed over the representative length are not worth telling.
+const JOLT: f64 = 1e-3;
+
+/// Deformation rates below are round-off of a model at rest [1/s].
+const STILL: f64 = 1e-9;
+
+/// Speed of a node, a turn counting as that of an arc at `length`.
+fn speed(twist: &lissom_motion::Vector6, length: f64) -> f64 {
+    let (velocity, angular) = split(twist);
+    velocity.norm() + length * angular.norm()
+}
+
+/// Compares the given velocities with those that agree with the constraints.
+///
+/// # Errors
+/// If nothing of the given velocities remains.
+pub(crate) fn velocities(
+    system: &System,
+    representative: &Representative,
+    given: &[NodeMotion],
+    used: &Kinematics,
+) -> Result<Vec<Warning>, InitialError> {
+    let length = representative.length;
+    let mut warnings = Vec::new();
+    let largest = given.iter().chain(&used.nodes).map(|node| speed(&node.twist, length)).fold(0.0, f64::max);
+    let changed = |node: usize| {
+        let is_given = given[node].twist.norm_squared() > 0.0;
+        if is_given { speed(&(used.nodes[node].twist - given[node].twist), length) } else { 0.0 }
+    };
+    let worst = (0..given.len()).max_by(|&a, &b| changed(a).total_cmp(&changed(b))).unwrap_or(0);
+    if changed(worst) > NOTEWORTHY * largest {
+        let part = system.layout().name_of_node(worst).to_owned();
+        let energy = |nodes: &[NodeMotion]| -> f64 {
+            let of = |inertia: &crate::elements::inertia::Inertia| {
+                let twist = nodes[inertia.node()].twist;
+                twist.dot(&(inertia.mass() * twist))
+            };
+            system.inertias().iter().map(of).sum()
+        };
+        let (given_words, used_words) = (words(&given[worst]), words(&used.nodes[worst]));
+        if energy(&used.nodes) < NOTHING * energy(given) {
+            return Err(InitialError::VelocityImpossible { part, given: given_words });
+        }
+        warnings.push(Warning::VelocityReplaced { part, given: given_words, used: used_words });
+    }
+    let before = Kinematics { nodes: given.to_vec(), ..used.clone() };
+    let rate = system.deformation_rate(used).zip(system.deformation_rate(&before));
+    if let Some(((rate, node), (known, _))) = rate
+        && rate - known > (JOLT * largest / length).max(STILL)
+    {
+        warnings.push(Warning::StartsWithJolt { part: system.layout().name_of_node(node).to_owned(), rate });
+    }
+    Ok(warnings)
+}
+
+/// Velocity in inertial axes and angular velocity in body axes, as the model file has them.
+fn words(node: &NodeMotion) -> String {
+    let vector = |v: Vector3| format!("({:.6}, {:.6}, {:.6})", v.x, v.y, v.z);
+    let (velocity, angular) = split(&node.twist);
+    format!("{} m/s, {} rad/s", vector(node.frame.rotation.apply(&velocity)), vector(angular))
+}
+
+/// Fails where the rates of constraints cannot vanish together.
+pub(crate) fn rates(
+    system: &System,
+    representative: &Representative,
+    (rates, largest): (&[f64], f64),
+) -> Result<(), InitialError> {
+    let layout = system.layout();
+    let quantities = &layout.quantities()[layout.coordinate_count()..];
+    let relative = |k: usize| match quantities[k] {
+        Quantity::Length | Quantity::State => rates[k].abs(),
+        Quantity::Angle => rates[k].abs() * representative.length,
+    };
+    let worst = (0..rates.len()).map(relative).fold(0.0, f64::max);
+    if worst <= LARGEST_RATE * largest {
+        return Ok(());
+    }
+    let mut violated: Vec<String> = Vec::new();
+    for k in (0..rates.len()).filter(|&k| relative(k) > 0.1 * worst) {
+        let (joint, equation) = layout.constraint_name(k);
+        let name = format!("`{joint}` ({equation})");
+        if violated.len() < super::MOST_NAMED && !violated.contains(&name) {
+            violated.push(name);
+        }
+    }
+    Err(InitialError::RatesContradict { violated: violated.join(", ") })
+}
+
+impl Representative {
+    /// Speed of the fastest node, a turn counting as that of an arc at the representative length [m/s].
+    pub(crate) fn largest_speed(&self, system: &System, at: &Kinematics) -> f64 {
+        let is_motion = |&(k, _): &(usize, _)| system.layout().coordinate_quantity(k) != Quantity::State;
+        let coordinates = at.coordinates.iter().enumerate().filter(is_motion).map(|(_, own)| own.rate.abs());
+        at.nodes.iter().map(|node| speed(&node.twist, self.length)).chain(coordinates).fold(0.0, f64::max)
+    }
+}

@@ -1,0 +1,95 @@
+//! What is worth knowing of a result that was reached: told on the terminal and in the summary.
+
+use serde::{Deserialize, Serialize};
+
+/// A reason to doubt a result. Each kind is told once, with where it first showed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
+#[non_exhaustive]
+pub enum Warning {
+    /// Energy has grown by more than loads and drives have put in.
+    #[error(
+        "from t = {time:.6e} s on there is more energy than anything put in: a surplus of {surplus:.3e} J where \
+         {turned_over:.3e} J are turned over; the step does not resolve the motion: make it smaller, or set \
+         `relative_tolerance`"
+    )]
+    EnergySurplus {
+        /// When the surplus was first worth telling [s].
+        time: f64,
+        /// The largest surplus [J].
+        surplus: f64,
+        /// Energy turned over until then [J].
+        turned_over: f64,
+    },
+    /// An equilibrium is unstable.
+    #[error(
+        "the equilibrium at t = {time:.6e} is unstable in {directions} direction(s){onset}: the model would leave it \
+         by itself (buckling, or a place of most energy); disturb it to find where it goes, or hold what is free"
+    )]
+    Unstable {
+        /// Time, or load parameter, of the first unstable equilibrium [s].
+        time: f64,
+        /// Number of negative eigenvalues of the stiffness.
+        directions: usize,
+        /// Words on what went before, may be empty.
+        onset: String,
+    },
+    /// An equilibrium path was left by a jump.
+    #[error(
+        "between t = {start:.6e} and {time:.6e} the model jumps: loads do {work:.3e} J more than it stores, so a limit \
+         point of the load lies between them, beyond which no equilibrium is near; take more load steps to find it, or \
+         follow the path beyond it with `kind = \"path\"`"
+    )]
+    Jump {
+        /// Load parameter before the jump [s].
+        start: f64,
+        /// Load parameter after it [s].
+        time: f64,
+        /// Work that nothing stored [J].
+        work: f64,
+    },
+    /// Given initial velocities do not agree with the constraints.
+    #[error(
+        "the initial velocity of `{part}` was given as {given} and does not agree with the joints and drives: the run \
+         starts with {used}; give velocities that the joints allow, for instance by `[initial] angular_velocity` and \
+         `about`"
+    )]
+    VelocityReplaced {
+        /// Name of the node.
+        part: String,
+        /// Velocity and angular velocity as given, in words.
+        given: String,
+        /// As used.
+        used: String,
+    },
+    /// A drive sets a flexible part into motion by a jolt.
+    #[error(
+        "drives and joints set `{part}` into motion at once and bend it by that: at the start it deforms at {rate:.3e} \
+         1/s; give it the velocity it shall start with, or let the drive start from rest"
+    )]
+    StartsWithJolt {
+        /// Name of a node of the part.
+        part: String,
+        /// Largest relative speed of neighbouring nodes over their distance [1/s].
+        rate: f64,
+    },
+    /// A warning from the model file.
+    #[error("{message}")]
+    Model {
+        /// What it says.
+        message: String,
+    },
+}
+
+impl Warning {
+    /// A short name for scripts.
+    pub fn code(&self) -> &'static str {
+        match self {
+            Self::EnergySurplus { .. } => "energy-surplus",
+            Self::Unstable { .. } => "unstable-equilibrium",
+            Self::Jump { .. } => "jump",
+            Self::VelocityReplaced { .. } => "velocity-replaced",
+            Self::StartsWithJolt { .. } => "starts-with-jolt",
+            Self::Model { .. } => "model",
+        }
+    }
+}

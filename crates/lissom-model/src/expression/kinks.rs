@@ -1,0 +1,64 @@
+//! Where an expression is not smooth: roots of straight lines under functions that have a kink or a jump.
+
+use super::{Function, STACK, Step};
+
+/// a + b x, or none for what is no straight line.
+type Line = Option<(f64, f64)>;
+
+/// Values of the variable at which steps of a stack machine have a kink or a jump, in ascending order.
+pub(super) fn of(steps: &[Step]) -> Vec<f64> {
+    let mut found = Vec::new();
+    let mut stack: [Line; STACK] = [None; STACK];
+    let mut top = 0;
+    for step in steps {
+        let first = top - step.operands().min(top);
+        let operands = [stack[first], stack[(first + 1).min(STACK - 1)]];
+        stack[first] = line(*step, operands, &mut found);
+        top = first + 1;
+    }
+    found.sort_by(f64::total_cmp);
+    found.dedup();
+    found
+}
+
+/// The line a step leaves, and the kinks it makes.
+fn line(step: Step, [one, other]: [Line; 2], found: &mut Vec<f64>) -> Line {
+    let mut root = |line: (f64, f64), value: f64| {
+        let root = (value - line.0) / line.1;
+        if line.1 != 0.0 && root.is_finite() {
+            found.push(root);
+        }
+    };
+    match step {
+        Step::Constant(value) => Some((value, 0.0)),
+        Step::Variable => Some((0.0, 1.0)),
+        Step::Negate => one.map(|(a, b)| (-a, -b)),
+        Step::Add => one.zip(other).map(|((a, b), (c, d))| (a + c, b + d)),
+        Step::Subtract => one.zip(other).map(|((a, b), (c, d))| (a - c, b - d)),
+        Step::Multiply => match (one, other) {
+            (Some((a, b)), Some((c, 0.0))) | (Some((c, 0.0)), Some((a, b))) => Some((a * c, b * c)),
+            _ => None,
+        },
+        Step::Divide => match (one, other) {
+            (Some((a, b)), Some((c, 0.0))) => Some((a / c, b / c)),
+            _ => None,
+        },
+        Step::Call(function) => {
+            if let Some(line) = one {
+                match function {
+                    Function::Abs | Function::Sign | Function::Step => root(line, 0.0),
+                    Function::Smoothstep => [0.0, 1.0].map(|value| root(line, value)).into_iter().collect(),
+                    _ => {}
+                }
+            }
+            None
+        }
+        Step::Call2(Function::Min | Function::Max) => {
+            if let Some(((a, b), (c, d))) = one.zip(other) {
+                root((a - c, b - d), 0.0);
+            }
+            None
+        }
+        Step::Argument(_) | Step::Power | Step::Call2(_) => None,
+    }
+}

@@ -1,0 +1,303 @@
+//! Models that once ended with a wrong answer and exit code 0, or cost far too much: each is refused, told, or right.
+
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use crate::support::{self, Ended, Folder, Run, lissom, summary};
+
+fn model(name: &str) -> String {
+    let path =
+        Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/command_line/silent").join(format!("{name}.toml"));
+    path.to_str().expect("a path is a text").to_owned()
+}
+
+/// Runs a model, without plots and with nothing but warnings and errors told.
+fn run(name: &str, folder: &Folder) -> Ended {
+    lissom(&["run", &model(name), "--out", "out", "--no-plots", "--quiet"], folder.path())
+}
+
+/// The run and its check are refused with these words.
+fn refused(name: &str, code: i32, words: &[&str]) {
+    let folder = Folder::new(name);
+    let run = run(name, &folder);
+    assert_eq!(run.code, code, "{name}: {}", run.errors);
+    for word in words {
+        assert!(run.errors.contains(word), "{name} lacks `{word}`: {}", run.errors);
+    }
+    let check = lissom(&["check", &model(name)], folder.path());
+    assert_eq!(check.code, 2, "{name}: what a run refuses at its start, the check refuses: {}", check.errors);
+}
+
+/// The run fails on the way with these words.
+fn fails(name: &str, words: &[&str]) {
+    let folder = Folder::new(name);
+    let run = run(name, &folder);
+    assert_eq!(run.code, 3, "{name}: {}", run.errors);
+    for word in words {
+        assert!(run.errors.contains(word), "{name} lacks `{word}`: {}", run.errors);
+    }
+}
+
+/// The run ends well, with a warning of this code that has these words, on the terminal and in the summary.
+fn warned(name: &str, code: &str, words: &[&str]) {
+    let folder = Folder::new(name);
+    let run = run(name, &folder);
+    assert_eq!(run.code, 0, "{name}: {}", run.errors);
+    let facts = summary(&folder.path().join("out"));
+    let warnings: Vec<&str> =
+        facts["warnings"].as_array().unwrap().iter().map(|w| w.as_str().unwrap()).collect();
+    let warning = warnings.iter().find(|warning| warning.starts_with(&format!("{code}: ")));
+    let warning = warning.unwrap_or_else(|| panic!("{name}: {warnings:?}"));
+    for word in words {
+        assert!(warning.contains(word), "{name} lacks `{word}`: {warning}");
+        assert!(run.errors.contains(word), "{name}: the terminal lacks `{word}`: {}", run.errors);
+    }
+}
+
+/// Facts of a run that ends well, without a warning.
+fn right(name: &str) -> serde_json::Value {
+    let folder = Folder::new(name);
+    let run = run(name, &folder);
+    assert_eq!(run.code, 0, "{name}: {}", run.errors);
+    let facts = summary(&folder.path().join("out"));
+    assert_eq!(facts["warnings"], serde_json::json!([]), "{name}");
+    facts
+}
+
+fn last_row(folder: &Folder) -> Vec<f64> {
+    let text = std::fs::read_to_string(folder.path().join("out/history.csv")).unwrap();
+    text.lines().last().unwrap().split(',').map(|value| value.parse().unwrap()).collect()
+}
+
+#[test]
+fn contradicting_constraints_are_refused_by_name() {
+    refused("contradicting-drives", 3, &["`d1` (rotation)", "`d2` (rotation)", "contradict each other"]);
+    refused("drive-beyond-reach", 3, &["`S`", "`A`", "contradict each other"]);
+}
+
+#[test]
+fn a_drive_that_asks_for_more_than_the_links_reach_fails_on_the_way() {
+    // The links of 1 m stand at a right angle: the slider, at 1.414 m, is pulled beyond 2 m.
+    let folder = Folder::new("reach");
+    let text = std::fs::read_to_string(model("drive-beyond-reach")).unwrap();
+    let half = std::f64::consts::FRAC_1_SQRT_2;
+    let text = text
+        .replace("position=[0.5, 0.0, 0]", &format!("position=[{}, {}, 0]", half / 2.0, half / 2.0))
+        .replace("position=[1.5, 0.0, 0]", &format!("position=[{}, {}, 0]", 1.5 * half, half / 2.0))
+        .replace("position=[2, 0, 0]", &format!("position=[{}, 0, 0]", 2.0 * half))
+        .replace("at=[1, 0, 0]", &format!("at=[{half}, {half}, 0]"))
+        .replace("at=[2, 0, 0]", &format!("at=[{}, 0, 0]", 2.0 * half))
+        .replace("0.5*t", "t");
+    std::fs::write(folder.path().join("reach.toml"), text).unwrap();
+    let run = lissom(&["run", "reach.toml", "--out", "out", "--no-plots", "--quiet"], folder.path());
+    assert_eq!(run.code, 3, "{}", run.errors);
+    let time = last_row(&folder)[0];
+    assert!((0.57..0.59).contains(&time), "the links are straight at 0.5858 s, it ended at {time}");
+}
+
+#[test]
+fn drives_start_where_their_joints_are() {
+    refused(
+        "drive-jumps-at-start",
+        2,
+        &["`d1` starts at 0.5 rad", "its joint stands at 0 rad", "let it start at 0"],
+    );
+    refused("prescribed-offset", 2, &["`d` starts at 0.5 rad"]);
+}
+
+#[test]
+fn given_velocities_that_are_replaced_are_told() {
+    warned(
+        "given-velocity-replaced",
+        "velocity-replaced",
+        &["`top`", "(0.000000, 150.000000, -4.615380)", "133.56"],
+    );
+    warned("silent-velocity-jump", "starts-with-jolt", &["rod", "bend it"]);
+}
+
+#[test]
+fn beams_that_turn_too_far_within_an_element_fail() {
+    fails(
+        "twist-wraps",
+        &["beam element between `c.start` and `c@0.2500`", "half a turn", "use more elements"],
+    );
+}
+
+#[test]
+fn energy_from_nowhere_is_told_or_fails() {
+    warned(
+        "mass-ratio-energy",
+        "energy-surplus",
+        &["more energy than anything put in", "relative_tolerance"],
+    );
+    warned("random-chain-energy-1", "energy-surplus", &["more energy than anything put in"]);
+    warned("energy-spike-generalized-alpha", "energy-surplus", &["more energy than anything put in"]);
+}
+
+#[test]
+fn steps_too_long_for_the_rotation_are_divided() {
+    let facts = right("radau-many-turns-per-step");
+    let (start, end) = (facts["energy"]["start"]["total"].as_f64(), facts["energy"]["end"]["total"].as_f64());
+    assert!((end.unwrap() / start.unwrap() - 1.0).abs() < 1e-9, "{facts}");
+    let facts = right("pendulum-too-large-step");
+    let energy = &facts["energy"];
+    assert!(
+        energy["largest_change"].as_f64().unwrap() < 0.1 * energy["turned_over"].as_f64().unwrap(),
+        "{energy}"
+    );
+}
+
+#[test]
+fn the_angle_of_many_turns_is_right() {
+    let folder = Folder::new("turns");
+    assert_eq!(run("radau-many-turns-per-step", &folder).code, 0);
+    assert!((last_row(&folder)[1] - 3150.0).abs() < 1e-6);
+}
+
+#[test]
+fn unstable_equilibria_and_jumps_are_told() {
+    warned("equilibrium-upside-down", "unstable-equilibrium", &["1 direction"]);
+    warned("column-beyond-euler", "unstable-equilibrium", &["t = 1.5", "the one at t = 1.0", "buckling"]);
+    fails("limit-point-jump", &["limit point", "kind = \"path\""]);
+}
+
+#[test]
+fn an_equilibrium_with_a_free_direction_is_refused_by_the_check() {
+    refused("equilibrium-free-spin", 3, &["initial equilibrium", "rotation 3 of node `load`"]);
+}
+
+#[test]
+fn constant_loads_of_statics_are_applied_in_steps() {
+    let folder = Folder::new("ramp");
+    assert_eq!(run("statics-constant-load-not-ramped", &folder).code, 0);
+    let text = std::fs::read_to_string(folder.path().join("out/history.csv")).unwrap();
+    let deflections: Vec<f64> =
+        text.lines().skip(1).map(|row| row.split(',').next_back().unwrap().parse().unwrap()).collect();
+    // EI = 100: 30/(3 EI) = 0.1 at the end, a quarter of it after the first of four steps.
+    assert!((deflections[1] - 0.025).abs() < 1e-3 && (deflections[4] - 0.1).abs() < 2e-3, "{deflections:?}");
+    let all = ["run", &model("statics-constant-load-not-ramped"), "--out", "all", "--no-plots", "--quiet"];
+    let run = lissom(&[&all[..], &["--set", "analysis.ramp=false"]].concat(), folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let text = std::fs::read_to_string(folder.path().join("all/history.csv")).unwrap();
+    let first: f64 = text.lines().nth(2).unwrap().split(',').next_back().unwrap().parse().unwrap();
+    assert!((first - deflections[4]).abs() < 1e-9, "{first}");
+}
+
+#[test]
+fn weight_of_statics_is_applied_in_steps() {
+    let folder = Folder::new("weight");
+    let text = std::fs::read_to_string(model("statics-constant-load-not-ramped")).unwrap();
+    let text = text
+        .replace("lissom = 1", "lissom = 1\ngravity = [0, 0, -40]")
+        .replace("vector = [0,0,30]", "vector = [0,0,0]");
+    std::fs::write(folder.path().join("m.toml"), text).unwrap();
+    let run = lissom(&["run", "m.toml", "--out", "out", "--no-plots", "--quiet"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let text = std::fs::read_to_string(folder.path().join("out/history.csv")).unwrap();
+    let deflections: Vec<f64> =
+        text.lines().skip(1).map(|row| row.split(',').next_back().unwrap().parse().unwrap()).collect();
+    // q l⁴/(8 EI) = 0.05 at the end.
+    assert!(
+        (deflections[1] + 0.0125).abs() < 5e-4 && (deflections[4] + 0.05).abs() < 1e-3,
+        "{deflections:?}"
+    );
+}
+
+#[test]
+fn speeds_that_jump_are_told() {
+    warned("linear-table-drive-rings", "model", &["`d`", "t = 0.5 s", "spline"]);
+}
+
+#[test]
+fn axes_that_are_not_perpendicular_are_refused() {
+    refused("universal-not-perpendicular", 2, &["45.000 degrees", "[1, 0, 0]"]);
+}
+
+#[test]
+fn the_energy_decaying_scheme_runs_what_radau_runs() {
+    for name in [
+        "energy-decaying-clamp-stagnates",
+        "energy-decaying-two-beams-clamped",
+        "energy-decaying-free-beam",
+        "satellite-stalls",
+    ] {
+        let folder = Folder::new(name);
+        let end = if name == "satellite-stalls" { "10" } else { "0.2" };
+        let set = format!("analysis.end={end}");
+        let model = model(name);
+        let of = |scheme: &str| {
+            let scheme = format!("analysis.scheme={scheme}");
+            let run = lissom(
+                &["run", &model, "--out", "out", "--no-plots", "--quiet", "--set", &set, "--set", &scheme],
+                folder.path(),
+            );
+            assert_eq!(run.code, 0, "{name}: {}", run.errors);
+            summary(&folder.path().join("out"))
+        };
+        let (own, radau) = (of("energy-decaying"), of("radau-iia"));
+        let count = |facts: &serde_json::Value, what: &str| facts[what].as_f64().unwrap();
+        let surplus = own["energy"]["surplus"].as_f64().unwrap();
+        assert!(surplus <= 1e-9 * own["energy"]["turned_over"].as_f64().unwrap(), "{name}: {surplus}");
+        if name == "satellite-stalls" {
+            continue;
+        }
+        assert!(
+            count(&own, "newton_iterations") <= 2.5 * count(&radau, "newton_iterations") + 20.0,
+            "{name}: {own:#}"
+        );
+        assert!(count(&own, "stagnated_steps") <= 0.01 * count(&own, "steps"), "{name}: {own:#}");
+    }
+}
+
+#[test]
+fn a_step_that_has_no_solution_costs_little() {
+    let folder = Folder::new("costly");
+    let args = ["run", &model("step-that-costs-seconds"), "--out", "out", "--no-plots", "--quiet"];
+    let mut run = Run::start(&args, folder.path());
+    support::wait_for(|| folder.path().join("out/history.csv").exists());
+    let began = Instant::now();
+    run.interrupt();
+    let ended = run.finish();
+    // One attempt at a step is all that may go on after Ctrl-C.
+    assert!([130, 0, 3].contains(&ended.code), "{}", ended.errors);
+    assert!(began.elapsed() < Duration::from_secs(20), "{:?}", began.elapsed());
+}
+
+#[test]
+fn plots_of_names_that_files_do_not_tell_apart_are_all_there() {
+    let folder = Folder::new("names");
+    let run = lissom(&["run", &model("plot-names-collide"), "--out", "out", "--quiet"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    for name in ["a_b.svg", "a_b_2.svg"] {
+        assert!(folder.path().join("out").join(name).is_file(), "{name}");
+    }
+}
+
+#[test]
+fn a_failed_start_leaves_former_results_and_two_runs_do_not_share_a_folder() {
+    let folder = Folder::new("former");
+    assert_eq!(run("plot-names-collide", &folder).code, 0);
+    let history = folder.path().join("out/history.csv");
+    let former = std::fs::read(&history).unwrap();
+    let failed = run("contradicting-drives", &folder);
+    assert_eq!(failed.code, 3);
+    assert!(failed.errors.contains("are left as they were"), "{}", failed.errors);
+    assert_eq!(std::fs::read(&history).unwrap(), former);
+    assert_eq!(summary(&folder.path().join("out"))["stopped"], "end");
+
+    let lock = std::fs::File::options().write(true).open(folder.path().join("out/.lock")).unwrap();
+    lock.lock().unwrap();
+    let second = run("plot-names-collide", &folder);
+    assert_eq!(second.code, 3, "{}", second.errors);
+    assert!(second.errors.contains("another run"), "{}", second.errors);
+    assert_eq!(std::fs::read(&history).unwrap(), former);
+}
+
+#[test]
+fn plots_of_a_former_run_do_not_stay_beside_new_results() {
+    let folder = Folder::new("stale");
+    let first = lissom(&["run", &model("plot-names-collide"), "--out", "out", "--quiet"], folder.path());
+    assert_eq!(first.code, 0);
+    assert_eq!(run("energy-decaying-clamp-stagnates", &folder).code, 0);
+    assert!(!folder.path().join("out/a_b.svg").exists());
+}
