@@ -200,3 +200,11 @@ fn questions_without_sense_are_refused() {
     assert!(matches!(refuse("lower.z", "springs.elbow.damping", &still), GradientError::Number(_)));
     assert!("lower.z@often".parse::<Target>().is_err());
 }
+
+#[test]
+fn a_flexible_mechanism_is_differentiated() {
+    let text = include_str!("../../../examples/tip-crank.toml");
+    let set = set(&[("analysis.end", "0.02"), ("analysis.output_every", "1")]);
+    let numbers = [("materials.aluminium.E", 73e9), ("materials.aluminium.density", 2700.0)];
+    agrees(text, "root.f3", ("root", "f3"), &numbers, &set, 1e-5);
+}

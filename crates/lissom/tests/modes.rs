@@ -404,3 +404,55 @@ fn what_means_nothing_is_refused() {
     let report = find(&text, About::Time(0.3), 1);
     assert!(report.warnings[0].contains("not steady"), "{:?}", report.warnings);
 }
+
+/// A planar four-bar of parallel revolutes on a spring: three of its constraints repeat others.
+fn four_bar() -> String {
+    let revolute = |name: &str, base: &str, tip: &str, at: &str| {
+        format!(
+            "[joints.{name}]\nkind = \"revolute\"\nbase = \"{base}\"\ntip = \"{tip}\"\nat = {at}\naxis = [0, 0, 1]\n"
+        )
+    };
+    let body = |name: &str, position: &str| {
+        format!("[bodies.{name}]\nmass = 1.5\ninertia = [0.01, 0.02, 0.02]\nposition = {position}\n")
+    };
+    [
+        "lissom = 1\n".to_owned(),
+        body("crank", "[0, 0.5, 0]"),
+        body("coupler", "[1, 1, 0]"),
+        body("rocker", "[2, 0.5, 0]"),
+        revolute("A", "ground", "crank", "[0, 0, 0]"),
+        revolute("B", "crank", "coupler", "[0, 1, 0]"),
+        revolute("C", "coupler", "rocker", "[2, 1, 0]"),
+        revolute("D", "ground", "rocker", "[2, 0, 0]"),
+        "[springs.s]\nkind = \"torsional\"\njoint = \"A\"\nstiffness = 50.0\n".to_owned(),
+        MODES.to_owned(),
+    ]
+    .concat()
+}
+
+#[test]
+fn redundant_constraints_leave_the_modes_there_are() {
+    // The least multipliers cost a part in 1e6: constraints that repeat each other have a compliance.
+    // A parallelogram: crank and rocker turn by φ, the coupler moves with the crank's end.
+    let inertia = 2.0 * (0.02 + 1.5 * 0.25) + 1.5;
+    let exact = (50.0_f64 / inertia).sqrt();
+    let report = find(&four_bar(), About::Static, 10);
+    assert_eq!(
+        (report.modes.len(), report.completeness),
+        (1, Completeness::Counted),
+        "{:?}",
+        frequencies(&report)
+    );
+    near(report.modes[0].frequency, exact / TAU, 1e-5);
+    // With a damper nothing counts them, and what is found is not trusted.
+    let damped = four_bar().replace("stiffness = 50.0", "stiffness = 50.0\ndamping = 2.0");
+    assert!(matches!(try_find(&damped, About::Static, 10), Err(ModesError::Mode(_))));
+}
+
+#[test]
+fn a_mechanism_that_is_driven_has_no_modes() {
+    let drive = "[joints.drive]\nkind = \"prescribed_rotation\"\njoint = \"pivot\"\nrotation = 0.0\n";
+    let report =
+        find(&pendulum(REVOLUTE, "position = [0, 0, -0.7]", &format!("{drive}{MODES}")), About::Static, 3);
+    assert_eq!(report.modes.len(), 0);
+}

@@ -20,6 +20,8 @@ use crate::newton::Equations;
 const MOST: usize = 12;
 /// A correction below this part of what the step finds out is round-off.
 const ROUND_OFF: f64 = 1e-13;
+/// A correction below this is round-off whatever the step finds out [-, rad].
+const LEAST: f64 = 1e-13;
 /// A neighbour whose last correction is larger has not found its solution.
 const FOUND: f64 = 1e-9;
 
@@ -89,15 +91,15 @@ impl Simulation {
         };
         equations.update_motions();
         let mut made = 0;
-        let mut last = f64::INFINITY;
+        let (mut last, mut size_of_last) = (f64::INFINITY, f64::INFINITY);
         while made < MOST {
             let correction = equations.correct();
             made += 1;
             let relative = correction.size / correction.reference.max(f64::MIN_POSITIVE);
+            let is_found = relative <= FOUND || correction.size <= LEAST;
             // What no longer shrinks is round-off.
-            let is_done =
-                relative <= ROUND_OFF || (relative >= last && last <= FOUND) || correction.size == 0.0;
-            last = relative;
+            let is_done = relative <= ROUND_OFF || correction.size == 0.0 || (is_found && relative >= last);
+            (last, size_of_last) = (relative, correction.size);
             if is_done || !relative.is_finite() {
                 break;
             }
@@ -107,7 +109,7 @@ impl Simulation {
         equations.final_violations(&mut self.next.violations);
         std::mem::swap(&mut self.work.factorization, &mut base.work.factorization);
         std::mem::swap(&mut self.work.equilibration, &mut base.work.equilibration);
-        if !(last <= FOUND || correction == 0.0) {
+        if !(last <= FOUND || size_of_last <= LEAST) {
             let time = self.state.kinematics.time + size;
             let hint = "the neighbouring model has no solution near this one";
             return Err(StepError::NotConverged { time, iterations: made, correction, worst, hint });

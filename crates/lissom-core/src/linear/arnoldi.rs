@@ -13,18 +13,22 @@ use nalgebra::{DMatrix, Schur};
 use num_complex::Complex64;
 
 use super::krylov::{Krylov, Operator};
-use super::lanczos::round_off;
+use super::lanczos::{VIOLATED, round_off};
 use super::mode::{Completeness, Mode, ModeError, ModeOptions, Modes};
 use super::model::LinearModel;
 use super::shifted::{ComplexShift, small_square};
 use crate::joints::Quantity;
 
 const BLOCK: usize = 6;
-const TOLERANCE: f64 = 1e-9;
+const TOLERANCE: f64 = 1e-8;
+/// The same where the basis has become large against the number of modes: round-off is then what is left.
+const LOOSE: f64 = 1e-6;
 const BETWEEN: usize = 12;
 const BEYOND: usize = 4;
+/// A basis with so many vectors, and three times as many as eigenvalues are wanted, is large.
+const LARGE_BASIS: usize = 100;
 /// Eigenvalues of the operator below this part of the largest one are round-off.
-const NOTHING: f64 = 1e-13;
+const NOTHING: f64 = 1e-9;
 /// Eigenvalues whose imaginary part is below this part of their size are real.
 const REAL: f64 = 1e-9;
 /// Zero eigenvalues come in defective pairs, whose round-off is larger than that of single ones.
@@ -110,7 +114,7 @@ struct Estimate {
 /// Finds the modes nearest to the shift.
 pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Modes, ModeError> {
     let mut solver = ComplexShift::new(model.system, &model.representative);
-    let (shift, wanted) = match options.shift {
+    let (shift, mut wanted) = match options.shift {
         Some(frequency) if frequency > 0.0 => {
             (Complex64::new(0.0, std::f64::consts::TAU * frequency), options.count + BEYOND)
         }
@@ -119,12 +123,26 @@ pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Mod
     };
     let mut operator = inverse(model, &mut solver, shift)?;
     let mut krylov = Krylov::new(operator.size());
-    let estimates = search(&mut krylov, &mut operator, wanted)?;
-    let mut modes: Vec<Mode> = Vec::new();
-    for estimate in &estimates {
-        modes.extend(mode(model, &mut operator, &krylov, estimate));
+    let mut is_exhausted = krylov.start(&mut operator, BLOCK, 2) == 0;
+    let mut modes: Vec<Mode>;
+    loop {
+        let estimates = search(&mut krylov, &mut operator, wanted, &mut is_exhausted)?;
+        let found = estimates.iter().filter_map(|estimate| mode(model, &mut operator, &krylov, estimate));
+        modes = found.collect();
+        keep_independent_rigid_modes(&mut modes);
+        if modes.len() >= options.count || is_exhausted {
+            break;
+        }
+        wanted += 2 * BLOCK;
     }
-    keep_independent_rigid_modes(&mut modes);
+    // No pivots count modes here, but there are at most two eigenvalues for each freedom that the constraints leave.
+    let eigenvalues: usize = modes.iter().map(|mode| if mode.eigenvalue.im == 0.0 { 1 } else { 2 }).sum();
+    let layout = model.system.layout();
+    let freedoms = layout.coordinate_count().saturating_sub(layout.multiplier_rows().len());
+    let is_empty = modes.is_empty() && krylov.order() > 0;
+    if is_empty || (freedoms > 0 && eigenvalues > 2 * freedoms) {
+        return Err(ModeError::NotConverged);
+    }
     modes.truncate(options.count);
     modes.sort_by(|a, b| a.frequency.total_cmp(&b.frequency));
     Ok(Modes { modes, completeness: Completeness::NotCounted })
@@ -186,25 +204,27 @@ fn search(
     krylov: &mut Krylov<Complex64>,
     operator: &mut Inverse<'_, '_, '_>,
     wanted: usize,
+    is_exhausted: &mut bool,
 ) -> Result<Vec<Estimate>, ModeError> {
-    let mut is_exhausted = krylov.start(operator, BLOCK, 2) == 0;
     let mut since = 0;
     loop {
-        if !is_exhausted && !krylov.step(operator) {
-            is_exhausted = krylov.start(operator, BLOCK, 2) == 0;
+        if !*is_exhausted && !krylov.step(operator) {
+            *is_exhausted = krylov.start(operator, BLOCK, 2) == 0;
         }
         since += 1;
-        if !is_exhausted && since < BETWEEN.max(krylov.order() / 8) {
+        if !*is_exhausted && since < BETWEEN.max(krylov.order() / 8) {
             continue;
         }
         since = 0;
         let mut estimates = estimates(krylov)?;
-        let converged = |estimate: &Estimate| estimate.residual <= TOLERANCE * estimate.value.norm();
+        *is_exhausted |= krylov.order() >= operator.size();
+        let tolerance = if krylov.order() > LARGE_BASIS + 3 * wanted { LOOSE } else { TOLERANCE };
+        let converged = |estimate: &Estimate| estimate.residual <= tolerance * estimate.value.norm();
         let are_enough = estimates.len() >= wanted && estimates.iter().take(wanted).all(converged);
-        if are_enough || is_exhausted {
+        if are_enough || *is_exhausted {
             let largest = estimates.first().map_or(0.0, |estimate| estimate.value.norm());
             estimates.retain(|estimate| {
-                estimate.value.norm() > NOTHING * largest && (is_exhausted || converged(estimate))
+                estimate.value.norm() > NOTHING * largest && (*is_exhausted || converged(estimate))
             });
             return Ok(estimates);
         }
@@ -214,6 +234,9 @@ fn search(
 /// Eigenvalues of the operator among the known vectors, the largest first.
 fn estimates(krylov: &Krylov<Complex64>) -> Result<Vec<Estimate>, ModeError> {
     let order = krylov.order();
+    if order == 0 {
+        return Ok(Vec::new());
+    }
     let matrix = DMatrix::from_fn(order, order, |row, column| krylov.entry(row, column));
     let schur = Schur::try_new(matrix, f64::EPSILON, 100 * order.max(10)).ok_or(ModeError::NotConverged)?;
     let (vectors, triangle) = schur.unpack();
@@ -268,6 +291,9 @@ fn mode(
     let of_solve = (SOLVED * operator.shift.norm()).powi(2);
     if eigenvalue.norm_sqr() <= DEFECTIVE * round_off(model, &sizes, 1.0) + of_solve {
         eigenvalue = Complex64::default();
+    }
+    if model.violation(&shape) >= VIOLATED {
+        return None;
     }
     (eigenvalue.im >= 0.0).then(|| Mode::new(eigenvalue, shape, estimate.residual / estimate.value.norm()))
 }

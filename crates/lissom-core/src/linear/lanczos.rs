@@ -25,8 +25,12 @@ const CLUSTER: f64 = 1e-5;
 const BEYOND: usize = 4;
 /// Times the search is started again with new vectors.
 const MOST_RESTARTS: usize = 6;
+/// Where modes are counted if none is found, in units of the shift.
+const FAR_AWAY: [f64; 3] = [1e2, 1e5, 1e8];
 /// Round-off of a solve, relative to the eigenvalue's distance from the shift.
 const SOLVED: f64 = 1e-10;
+/// A shape that violates a constraint by this part of the terms of the constraints is no mode.
+pub(super) const VIOLATED: f64 = 1e-5;
 /// Eigenvalues of the operator below this part of the largest one are round-off.
 const NOTHING: f64 = 1e-14;
 /// Round-off of a stiffness over the terms it is the sum of.
@@ -87,6 +91,9 @@ impl Operator<f64> for Inverse<'_, '_, '_> {
 /// Eigenvalues of the operator among the known vectors: 1/(λ - σ), coefficients and residuals, the largest first.
 pub(super) fn ritz(krylov: &Krylov<f64>) -> Vec<(f64, Vec<f64>, f64)> {
     let order = krylov.order();
+    if order == 0 {
+        return Vec::new();
+    }
     let matrix = DMatrix::from_fn(order, order, |row, column| {
         0.5 * (krylov.entry(row, column) + krylov.entry(column, row))
     });
@@ -169,8 +176,12 @@ fn shift_below<'a>(model: &LinearModel<'a>, solver: &mut RealShift<'a>) -> Resul
         });
         elastic.fold(f64::INFINITY, f64::min)
     };
-    if !lowest.is_finite() || lowest >= square {
+    if !lowest.is_finite() {
         return Ok((-square, 0));
+    }
+    if lowest >= square {
+        // So near to zero a mode would be as stiff as a constraint.
+        return factor_near(model, solver, -lowest);
     }
     // Unstable modes stay above the shift.
     let mut nearer = lowest;
@@ -197,7 +208,7 @@ fn search<'a>(
     below_shift: usize,
 ) -> Result<Found, LinearError> {
     let mut krylov = Krylov::new(model.coordinate_count());
-    let wanted = options.count + BEYOND;
+    let mut wanted = options.count + BEYOND;
     let mut is_exhausted = krylov.start(&mut inverse(model, &mut solver), BLOCK, 2) == 0;
     let mut restarts = 0;
     loop {
@@ -209,6 +220,7 @@ fn search<'a>(
                 if !more && krylov.start(&mut operator, BLOCK, 2) == 0 {
                     is_exhausted = true;
                 }
+                is_exhausted |= krylov.order() >= model.coordinate_count();
                 since += 1;
                 if !is_exhausted && since < BETWEEN.max(krylov.order() / 8) {
                     continue;
@@ -221,22 +233,26 @@ fn search<'a>(
                 }
             }
         };
-        // The nearest ones, as far as no cluster is cut in two.
-        let found: Vec<&(f64, Vec<f64>, f64)> = estimates
+        // The nearest ones, as far as no cluster is cut in two; shapes that violate the constraints belong to infinite
+        // eigenvalues.
+        let mut pairs: Vec<Pair> = estimates
             .iter()
             .filter(|estimate| estimate.0.abs() > NOTHING * estimates[0].0.abs())
             .filter(|estimate| is_exhausted || is_converged(estimate))
-            .collect();
-        let keep =
-            whole_clusters(&found.iter().map(|(value, ..)| value.abs()).collect::<Vec<_>>(), options.count);
-        let mut pairs: Vec<Pair> = found[..keep]
-            .iter()
             .map(|(value, weights, residual)| {
                 pair(model, &mut solver, &krylov, shift, (*value, weights, *residual))
             })
+            .filter(|pair| model.violation(&pair.shape) < VIOLATED)
+            .take(wanted)
             .collect();
-        pairs.sort_by(|a, b| a.square.total_cmp(&b.square));
-        let next = found.get(keep).map(|(value, ..)| value.abs());
+        if pairs.len() < options.count && !is_exhausted {
+            wanted += BLOCK;
+            continue;
+        }
+        let distances: Vec<f64> = pairs.iter().map(|pair| (pair.square - shift).abs().recip()).collect();
+        let keep = whole_clusters(&distances, options.count);
+        let next = distances.get(keep).copied();
+        pairs.truncate(keep);
         let missing = missing(model, &pairs, shift, below_shift, next);
         let completeness = match missing {
             Count::None => Completeness::Counted,
@@ -280,10 +296,16 @@ fn missing(
     below_shift: usize,
     next: Option<f64>,
 ) -> Count {
-    let Some(farthest) = pairs.iter().map(|pair| (pair.square - shift).abs()).reduce(f64::max) else {
-        return Count::None;
-    };
     let mut solver = RealShift::new(model.system, &model.representative);
+    let Some(farthest) = pairs.iter().map(|pair| (pair.square - shift).abs()).reduce(f64::max) else {
+        // No mode at all: then none lies below any frequency.
+        let counts = FAR_AWAY.map(|far| solver.factor(&model.parts, shift + far * shift.abs()).ok());
+        return match counts.iter().flatten().max() {
+            Some(0) => Count::None,
+            Some(&count) => Count::Some(count),
+            None => Count::Unknown,
+        };
+    };
     let mut count = |side: f64| {
         // Half way to the next eigenvalue, or well beyond the last one there is; elsewhere if a pivot vanishes there.
         [0.5, 0.4, 0.6, 0.3, 0.7].iter().find_map(|part| {

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
-use lissom_solver::{FactorError, Pattern, SolverKind};
+use lissom_solver::{FactorError, Pattern, Scalar, SolverKind};
 
 use super::shifted::RealShift;
 use crate::analysis::InitialError;
 use crate::analysis::initial::Initial;
+use crate::joints::Quantity;
 use crate::joints::attached::Increments;
 use crate::scaling::Representative;
 use crate::system::{
@@ -184,6 +185,31 @@ impl<'a> LinearModel<'a> {
         self.system.layout().coordinate_count()
     }
 
+    /// Largest violation of a constraint by a displacement, relative to what displacements of its largest size could do.
+    pub(super) fn violation<S: Scalar>(&self, shape: &[S]) -> f64 {
+        let pattern = self.pattern();
+        let count = self.coordinate_count();
+        let quantities = self.system.layout().quantities();
+        let unit = |row: usize| match quantities[row] {
+            Quantity::Length | Quantity::State => 1.0,
+            Quantity::Angle => self.representative.length,
+        };
+        let sizes = shape.iter().enumerate().map(|(row, value)| value.magnitude() * unit(row));
+        let largest = sizes.fold(0.0, f64::max);
+        let mut violation = 0.0_f64;
+        for column in count..pattern.size() {
+            let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+            let (mut sum, mut possible) = (S::zero(), 0.0);
+            let entries = pattern.row_indices()[range.clone()].iter().zip(&self.parts.constraint[range]);
+            for (&row, &entry) in entries.filter(|&(&row, _)| row < count) {
+                sum += S::from_real(entry) * shape[row];
+                possible += entry.abs() * largest / unit(row);
+            }
+            violation = violation.max(sum.magnitude() / possible.max(f64::MIN_POSITIVE));
+        }
+        violation
+    }
+
     /// An error of a factorisation, with the unknown's name.
     pub(super) fn stopped(&self, error: &FactorError) -> LinearError {
         stopped(self.system, self.at.time, error)
@@ -251,8 +277,8 @@ fn hold(
         let quantities = layout.quantities();
         imbalance = residual[..count].iter().enumerate().fold(0.0_f64, |most, (row, value)| {
             let unit = match quantities[row] {
-                crate::joints::Quantity::Length | crate::joints::Quantity::State => 1.0,
-                crate::joints::Quantity::Angle => length,
+                Quantity::Length | Quantity::State => 1.0,
+                Quantity::Angle => length,
             };
             most.max((value * unit / length).abs())
         });

@@ -3,7 +3,7 @@
 //! With time in units of 1/|s| it is the tangent of a scheme whose rate and curvature are s/|s| and s²/|s|² times the
 //! increment: the same scaling, augmented term and equilibration serve.
 
-use lissom_solver::{FactorError, LinearSolver, Multifrontal, Symmetric};
+use lissom_solver::{FactorError, FactorReport, LinearSolver, Multifrontal, Symmetric};
 use num_complex::Complex64;
 
 use crate::analysis::compliance::Compliance;
@@ -14,6 +14,9 @@ use crate::system::{Linearization, System};
 
 /// The square of the rate from which the search for modes starts, relative to that of the stiffest parts.
 const SMALL: f64 = 1e-6;
+
+/// The pivot of a redundant constraint's multiplier is this part of the terms it is made of, or less.
+const REDUNDANT: f64 = 1e-12;
 
 /// Solves with K - λ M and the constraints, symmetric, for a real λ = s².
 pub(super) struct RealShift<'a> {
@@ -58,9 +61,7 @@ impl<'a> RealShift<'a> {
         let count = self.system.layout().coordinate_count();
         self.equilibration.apply(pattern, &mut self.values);
         let mut report = self.solver.factor(&self.values);
-        if let Err(FactorError::ZeroPivot { unknown, .. }) = report
-            && unknown >= count
-        {
+        if repeats(&report, count) {
             let mut compliance = Compliance::new(pattern, count);
             compliance.enter(self.scaled.scale(), Some(&self.equilibration), &mut self.values);
             report = self.solver.factor(&self.values);
@@ -123,9 +124,7 @@ impl<'a> ComplexShift<'a> {
         let count = self.system.layout().coordinate_count();
         self.equilibration.apply(pattern, &mut self.values);
         let mut report = self.solver.factor(&self.values);
-        if let Err(FactorError::ZeroPivot { unknown, .. }) = report
-            && unknown >= count
-        {
+        if repeats(&report, count) {
             let mut compliance = Compliance::new(pattern, count);
             compliance.enter(self.scaled.scale(), Some(&self.equilibration), &mut self.values);
             report = self.solver.factor(&self.values);
@@ -146,6 +145,16 @@ impl<'a> ComplexShift<'a> {
         for (value, factor) in right.iter_mut().zip(self.equilibration.factors()) {
             *value *= factor;
         }
+    }
+}
+
+/// Whether a constraint repeats others: the pivot of its multiplier, after those of the coordinates in the rows before `count`,
+/// is nothing but round-off.
+fn repeats(report: &Result<FactorReport, FactorError>, count: usize) -> bool {
+    match report {
+        Ok(report) => report.worst_cancellation < REDUNDANT && report.worst_cancellation_unknown >= count,
+        Err(FactorError::ZeroPivot { unknown, .. }) => *unknown >= count,
+        Err(FactorError::NotFinite { .. }) => false,
     }
 }
 
