@@ -565,7 +565,7 @@ impl Session {
         let tally = &mut self.tally;
         self.simulation.system().violations(at, &mut tally.violations);
         tally.violation = tally.violations.iter().fold(tally.violation, |most, value| most.max(value.abs()));
-        let now = self.simulation.ledger().energy;
+        let now = self.simulation.system().energy(at);
         if tally.records == 0 {
             tally.energy.start = now;
         }

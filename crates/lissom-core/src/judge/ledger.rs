@@ -37,10 +37,13 @@ impl<'a> From<&'a State> for Entry<'a> {
     }
 }
 
+/// In smooth motion energy is looked at after so many steps, so that it costs about one part in a hundred.
+const STRIDE: u32 = 8;
+
 /// Energy and work since the start of a simulation [J].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Ledger {
-    /// Energy now.
+    /// Energy when it was looked at last, at most eight steps ago.
     pub energy: Energy,
     /// Work of forces, moments and other loads since the start, in statics that of weight included.
     pub loads: f64,
@@ -57,6 +60,8 @@ pub struct Ledger {
     potential: [f64; 2],
     moved: f64,
     floor: f64,
+    /// Steps since the energy was looked at.
+    unweighed: u32,
 }
 
 impl Ledger {
@@ -100,31 +105,49 @@ impl Ledger {
         energy - self.loads - self.drives
     }
 
-    /// After a step.
-    pub(crate) fn after(&self, system: &System, start: &Entry<'_>, end: &Entry<'_>, is_motion: bool) -> Self {
-        let energy = system.energy(end.at);
-        let mut loads = system.work_of_loads(start.at, end.at);
-        if !is_motion {
-            loads -= energy.potential - self.energy.potential;
-        }
+    /// After a step. The energy of every element costs a tenth of a step: without `weighs` only work is added up.
+    pub(crate) fn after(
+        &self,
+        system: &System,
+        (start, end): (&Entry<'_>, &Entry<'_>),
+        (weighs, is_motion): (bool, bool),
+    ) -> Self {
+        let loads = system.work_of_loads(start.at, end.at);
         let drives = system.work_of_drives((start.at, start.multipliers), (end.at, end.multipliers));
         let mut after = Self {
-            energy,
             loads: self.loads + loads,
             drives: self.drives + drives,
-            most: self.most.max(energy.kinetic + energy.strain),
-            potential: [self.potential[0].min(energy.potential), self.potential[1].max(energy.potential)],
             moved: self.moved + loads.abs() + drives.abs(),
+            unweighed: self.unweighed + 1,
             ..*self
         };
-        let balance = after.balance(is_motion);
-        after.surplus = self.surplus.max(balance - self.least_balance);
-        after.least_balance = self.least_balance.min(balance);
-        after.turned_over = after.most + (after.potential[1] - after.potential[0]) + after.moved;
+        if weighs {
+            after.weigh(system.energy(end.at), is_motion);
+        }
         after
     }
 
-    /// Fails where this ledger, one step after `before`, shows more energy than can be there.
+    /// Takes note of the energy.
+    fn weigh(&mut self, energy: Energy, is_motion: bool) {
+        if !is_motion {
+            self.loads -= energy.potential - self.energy.potential;
+        }
+        self.energy = energy;
+        self.unweighed = 0;
+        self.most = self.most.max(energy.kinetic + energy.strain);
+        self.potential = [self.potential[0].min(energy.potential), self.potential[1].max(energy.potential)];
+        let balance = self.balance(is_motion);
+        self.surplus = self.surplus.max(balance - self.least_balance);
+        self.least_balance = self.least_balance.min(balance);
+        self.turned_over = self.most + (self.potential[1] - self.potential[0]) + self.moved;
+    }
+
+    /// Whether the energy is to be looked at after the next step, however smooth it is.
+    pub(crate) fn is_due(&self) -> bool {
+        self.unweighed + 1 >= STRIDE
+    }
+
+    /// Fails where this ledger, after `before`, shows more energy than can be there.
     pub(crate) fn refuse_gain(&self, before: &Self, time: f64) -> Result<(), StepError> {
         let allowed = GROSS * (self.turned_over + self.least_known());
         if self.surplus <= allowed || self.surplus <= before.surplus {

@@ -27,6 +27,8 @@ const LARGEST_TURN: f64 = 0.5 * PI;
 /// Nodes of an element that are turned against each other by more than this cannot be told from the other way round:
 /// part of half a turn.
 const LARGEST_RELATIVE_TURN: f64 = 0.9;
+/// Velocities that change by more than this part of the largest in a step are no smooth motion.
+const SMOOTH: f64 = 0.5;
 /// Constraints named in a message.
 const MOST_NAMED: usize = 4;
 
@@ -47,11 +49,12 @@ impl Judge<'_> {
     /// If the end of the step cannot be believed.
     pub(crate) fn examine(&self, start: &State, end: &State, ledger: &Ledger) -> Result<Ledger, StepError> {
         self.constraints(end)?;
-        if self.is_motion {
-            self.turns(start, end)?;
+        let is_smooth = self.is_motion && self.turns(start, end)?;
+        let weighs = !is_smooth || ledger.is_due();
+        if weighs {
+            relative_turns(self.system, &end.kinematics)?;
         }
-        relative_turns(self.system, &end.kinematics)?;
-        let after = ledger.after(self.system, &start.into(), &end.into(), self.is_motion);
+        let after = ledger.after(self.system, (&start.into(), &end.into()), (weighs, self.is_motion));
         if self.checks_energy && self.is_motion {
             after.refuse_gain(ledger, end.kinematics.time)?;
         }
@@ -94,24 +97,27 @@ impl Judge<'_> {
         Err(StepError::Contradiction { time: end.kinematics.time, violated: words.join(", ") })
     }
 
-    /// Fails where a node turns so far that what it turns beyond would pass unseen.
-    fn turns(&self, start: &State, end: &State) -> Result<(), StepError> {
+    /// Fails where a node turns so far that what it turns beyond would pass unseen. Tells whether the motion goes on
+    /// smoothly: no velocity changes by half of the largest.
+    fn turns(&self, start: &State, end: &State) -> Result<bool, StepError> {
         let elapsed = end.kinematics.time - start.kinematics.time;
-        let fastest = |state: &State| {
-            let speed = |twist: &lissom_motion::Vector6| twist.fixed_rows::<3>(3).norm_squared();
-            let of = |(node, motion): (usize, &crate::system::NodeMotion)| (speed(&motion.twist), node);
-            state
-                .kinematics
-                .nodes
-                .iter()
-                .enumerate()
-                .map(of)
-                .fold((0.0, 0), |a, b| if b.0 > a.0 { b } else { a })
-        };
-        let (square, node) = fastest(end);
-        let angle = square.sqrt() * elapsed;
+        let (mut fastest, mut node) = (0.0, 0);
+        let (mut largest, mut change) = ([0.0_f64; 2], [0.0_f64; 2]);
+        for (index, (from, to)) in start.kinematics.nodes.iter().zip(&end.kinematics.nodes).enumerate() {
+            let turning = to.twist.fixed_rows::<3>(3).norm_squared();
+            if turning > fastest {
+                (fastest, node) = (turning, index);
+            }
+            let difference = to.twist - from.twist;
+            largest = [largest[0].max(to.twist.fixed_rows::<3>(0).norm_squared()), largest[1].max(turning)];
+            change = [
+                change[0].max(difference.fixed_rows::<3>(0).norm_squared()),
+                change[1].max(difference.fixed_rows::<3>(3).norm_squared()),
+            ];
+        }
+        let angle = fastest.sqrt() * elapsed;
         if angle <= LARGEST_TURN {
-            return Ok(());
+            return Ok((0..2).all(|k| change[k] <= SMOOTH * SMOOTH * largest[k]));
         }
         let node = self.system.layout().name_of_node(node).to_owned();
         Err(StepError::TurnsTooFar { time: end.kinematics.time, node, angle })

@@ -16,7 +16,7 @@ Progress = Union[bool, Callable[[float, float], object]]
 
 
 class ModelWarning(UserWarning):
-    """Something in a model may not be meant as it is written."""
+    """Something in a model may not be meant as it is written, or its results are to be doubted."""
 
 
 class Model:
@@ -101,6 +101,10 @@ class Model:
             error = SolutionError(failure)
             error.result = result
             raise error
+        # Those of the model itself were told when it was made.
+        for words in result.summary.get("warnings", []):
+            if words not in self._facts["warnings"]:
+                warnings.warn(words, ModelWarning, stacklevel=2)
         return result
 
     def simulation(self) -> Simulation:

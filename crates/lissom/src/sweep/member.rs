@@ -113,7 +113,7 @@ pub(super) fn run(
         Stopped::Failed(error) => Err(error.to_string()),
     };
     let (state, values, diagnosis) = match collected {
-        Ok(values) => (MemberState::Solved, values, None),
+        Ok(values) => (MemberState::Solved, values, doubts(&session)),
         Err(diagnosis) => (MemberState::Failed, Vec::new(), Some(diagnosis)),
     };
     Some(MemberOutcome {
@@ -126,4 +126,10 @@ pub(super) fn run(
         diagnosis,
         seconds: report.wall.as_secs_f64(),
     })
+}
+
+/// Reasons to doubt a member that was solved, in words; none where there are none.
+fn doubts(session: &Session) -> Option<String> {
+    let doubts: Vec<String> = session.warnings().map(|warning| format!("warning: {warning}")).collect();
+    (!doubts.is_empty()).then(|| doubts.join("; "))
 }
