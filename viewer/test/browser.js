@@ -82,21 +82,27 @@ const plays = async (page) => {
     return lissom.drawn;
   });
   await page.keyboard.press("Space");
-  await page.waitForFunction((before) => lissom.drawn > before + 5 && lissom.player.time > lissom.player.start, before, { timeout: 20000 });
+  await page.waitForFunction((before) => lissom.drawn > before + 5 && lissom.player.time > lissom.player.start, before, { timeout: 60000 });
   await page.keyboard.press("Space");
   assert.equal(await page.evaluate(() => lissom.player.isPlaying), false);
 };
 
-/** A click on a part selects it, tells its name and marks its plots. */
+/** A click on a part selects it and tells its name. The page may still lay itself out: then the click is tried again. */
 const selects = async (page, part) => {
-  const [x, y] = await page.evaluate((part) => {
-    lissom.player.seek(lissom.player.start);
-    lissom.move();
-    return lissom.stage.pixel(lissom.kinematics.point(lissom.model.anchorOf(part)));
-  }, part);
-  const stage = await page.locator("#stage").boundingBox();
-  await page.mouse.click(stage.x + x, stage.y + y);
-  await page.waitForFunction((part) => document.querySelector("#selection h2")?.textContent.startsWith(part), part, { timeout: 15000 });
+  const heading = (part) => document.querySelector("#selection h2")?.textContent.startsWith(part);
+  for (let tries = 0; tries < 20 && !(await page.evaluate(heading, part)); tries++) {
+    const [x, y] = await page.evaluate(async (part) => {
+      lissom.player.seek(lissom.player.start);
+      await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
+      lissom.move();
+      const { left, top } = lissom.stage.renderer.domElement.getBoundingClientRect();
+      const [x, y] = lissom.stage.pixel(lissom.kinematics.point(lissom.model.anchorOf(part)));
+      return [left + x, top + y];
+    }, part);
+    await page.mouse.click(x, y);
+    await page.waitForFunction(heading, part, { timeout: 2000 }).catch(() => null);
+  }
+  assert.ok(await page.evaluate(heading, part), `a click on ${part} selects it`);
   await page.keyboard.press("Escape");
   assert.equal(await page.evaluate(() => lissom.model.selected), null);
 };
@@ -171,7 +177,7 @@ const tests = {
     const { page, complaints } = await open(browser, join(out, "view.html"));
     assert.equal(await page.locator("#modes li").count(), 5);
     await page.keyboard.press("n");
-    await page.waitForFunction(() => document.getElementById("clock").textContent.startsWith("mode 2:"), null, { timeout: 5000 });
+    await page.waitForFunction(() => document.getElementById("clock").textContent.startsWith("mode 2:"), null, { timeout: 60000 });
     await draws(page);
     await plays(page);
     assert.deepEqual(complaints(), []);
@@ -209,20 +215,20 @@ const tests = {
       page.on("pageerror", (error) => complaints.push(error.message));
       page.on("request", (request) => request.url().startsWith(address) || complaints.push(`asks ${request.url()}`));
       await page.goto(address);
-      const shown = (value) => page.waitForFunction((value) => lissom.result?.scene.beams[0].stations[0].outline.height === value, value, { timeout: 20000 });
+      const shown = (value) => page.waitForFunction((value) => lissom.result?.scene.beams[0].stations[0].outline.height === value, value, { timeout: 60000 });
       await shown(0.1);
       writeFileSync(model, text.replace("height = 0.1", "height = 0.12"));
       await shown(0.12);
       // A mistake is told beside the last picture, and is gone when it is mended.
       writeFileSync(model, text.replace("order = 3", "order = 9"));
-      await page.waitForFunction(() => document.querySelector("#notices .error")?.textContent.includes("order"), null, { timeout: 20000 });
+      await page.waitForFunction(() => document.querySelector("#notices .error")?.textContent.includes("order"), null, { timeout: 60000 });
       assert.ok(await page.evaluate(() => lissom.model !== null));
       writeFileSync(model, text);
       await shown(0.1);
       assert.equal(await page.locator("#notices p").count(), 0);
       const before = await page.evaluate(() => lissom.live.version);
       await page.locator("[data-parameter=T]").fill("2");
-      await page.waitForFunction((before) => lissom.live.version > before, before, { timeout: 20000 });
+      await page.waitForFunction((before) => lissom.live.version > before, before, { timeout: 60000 });
       assert.deepEqual(complaints, []);
       // Another page cannot read the results.
       const stranger = await browser.newPage();
@@ -238,13 +244,17 @@ const tests = {
 const browser = await launch();
 let failures = 0;
 for (const [name, test] of Object.entries(tests)) {
-  const began = Date.now();
-  try {
-    await test(browser);
-    console.log(`ok      ${name} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
-  } catch (error) {
-    failures++;
-    console.log(`FAILED  ${name}\n${error.stack}`);
+  // A browser that draws in software on a busy machine may be late for once: what fails twice is wrong.
+  for (const isLast of [false, true]) {
+    const began = Date.now();
+    try {
+      await test(browser);
+      console.log(`ok      ${name} (${((Date.now() - began) / 1000).toFixed(1)} s)`);
+      break;
+    } catch (error) {
+      if (isLast) failures++;
+      console.log(`${isLast ? "FAILED" : "again"}  ${name}\n${error.stack}`);
+    }
   }
 }
 await browser.close();
