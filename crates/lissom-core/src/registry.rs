@@ -71,6 +71,8 @@ pub enum ParameterType {
     Size,
     /// One of the listed words.
     Choice(&'static [&'static str]),
+    /// Some of the listed words, each at most once.
+    Choices(&'static [&'static str]),
 }
 
 /// One parameter of a kind.
@@ -129,6 +131,8 @@ pub enum Value {
     Flag(bool),
     /// A word.
     Text(String),
+    /// Several words.
+    Words(Vec<String>),
     /// A function of time.
     Function(Function),
 }
@@ -226,6 +230,17 @@ impl Parameters {
             None => Ok(default),
             Some(Value::Flag(value)) => Ok(*value),
             other => Err(wrong(name, "true or false", other)),
+        }
+    }
+
+    /// Several words that must be there.
+    ///
+    /// # Errors
+    /// If they are missing or something else.
+    pub fn words(&self, name: &str) -> Result<&[String], ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Words(words)) => Ok(words),
+            other => Err(wrong(name, "a list of words", other)),
         }
     }
 

@@ -220,7 +220,8 @@ fn joint_source(
         if coordinates.is_empty() {
             let message = format!("joint `{}` has no relative coordinate to record", name.value);
             return Err(Problem::error(name.span, message).help(
-                "name a revolute, universal, swing_arm, prismatic or cylindrical joint, or a drive of one",
+                "name a joint that has one, such as a revolute, screw, planar, prismatic or point_on_line joint, \
+                 or a drive of one",
             ));
         }
         return Ok(Source::Coordinates(coordinates));

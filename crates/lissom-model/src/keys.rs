@@ -30,6 +30,8 @@ pub(crate) enum Shape {
     Direction,
     /// One of the words.
     Choice(Cow<'static, [&'static str]>),
+    /// Some of these words, each at most once.
+    Choices(&'static [&'static str]),
     /// The name of an entry of a table.
     Name(&'static str),
     /// The name of a point, or three numbers.
@@ -155,6 +157,7 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
         ParameterType::Function => Shape::Function,
         ParameterType::Size => Shape::Size,
         ParameterType::Choice(words) => choice(words),
+        ParameterType::Choices(words) => Shape::Choices(words),
     };
     let Parameter { name, required, unit, summary, .. } = *parameter;
     Key { name, holds, required, unit, summary }

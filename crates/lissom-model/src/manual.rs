@@ -137,6 +137,10 @@ fn words(shape: &Shape) -> String {
             let quoted: Vec<String> = words.iter().map(|word| format!("`\"{word}\"`")).collect();
             return quoted.join(", ");
         }
+        Shape::Choices(words) => {
+            let quoted: Vec<String> = words.iter().map(|word| format!("`\"{word}\"`")).collect();
+            return format!("a list of {}", quoted.join(", "));
+        }
         Shape::Name(table) => return format!("the name of an entry of `[{table}]`"),
         Shape::Place => "a place",
         Shape::PlaceOrNode => "a place or a node",

@@ -159,6 +159,40 @@ impl<'c, 'a> Reader<'c, 'a> {
         None
     }
 
+    /// Some of the words its key allows, each at most once.
+    fn choices(&self, key: &str) -> Option<Vec<String>> {
+        let node = self.node(key)?;
+        let (context, words) = (self.context, self.words(key));
+        let Shape::Choices(known) = *self.shape(key) else { return None };
+        let Value::List(list) = &node.value else {
+            return context.wrong_type(node, &words, "a list of words");
+        };
+        let mut chosen: Vec<String> = Vec::new();
+        for entry in list {
+            let Value::Text(word) = &entry.value else {
+                return context.wrong_type(entry, &format!("each entry of {words}"), "a word");
+            };
+            if !known.contains(&word.as_str()) {
+                let help = suggest::help(word, known.iter().copied());
+                let problem = Problem::error(entry.span, format!("{words} cannot hold `{word}`"));
+                context.tell(problem.maybe_help(help));
+                return None;
+            }
+            if chosen.contains(word) {
+                return context.fail(entry.span, format!("{words} holds `{word}` twice"), "name it once");
+            }
+            chosen.push(word.clone());
+        }
+        if chosen.is_empty() {
+            return context.fail(
+                node.span,
+                format!("{words} is empty"),
+                format!("name some of {}", known.join(", ")),
+            );
+        }
+        Some(chosen)
+    }
+
     /// The name of an entry of the table its key names.
     pub(crate) fn name_in(&self, key: &str) -> Option<Located<String>> {
         let text = self.text(key)?;
@@ -243,6 +277,7 @@ impl<'c, 'a> Reader<'c, 'a> {
                     // The load of size one is multiplied.
                     Size::Signal(_) => Held::Number(1.0),
                 }),
+                ParameterType::Choices(_) => self.choices(name).map(Held::Words),
                 ParameterType::Choice(_) => self.choice(name).map(|word| Held::Text(word.value.to_owned())),
             };
             if let (Some(value), Some(node)) = (value, self.node(name)) {

@@ -13,6 +13,8 @@ pub enum FrameRule {
     Axis,
     /// Two directions: `axis` and `second_axis`, perpendicular or made so.
     TwoAxes,
+    /// Two directions, or none of both: then global x and y.
+    GivenOrGlobal,
 }
 
 /// What a kind is attached to.

@@ -112,6 +112,9 @@ fn of_shape(shape: &Shape) -> Value {
         Shape::Flag => json!({ "type": "boolean" }),
         Shape::Vector | Shape::Direction | Shape::Curve => vector(),
         Shape::Choice(words) => json!({ "enum": words }),
+        Shape::Choices(words) => {
+            json!({ "type": "array", "minItems": 1, "uniqueItems": true, "items": { "enum": words } })
+        }
         Shape::Name(_) | Shape::Node => text(),
         Shape::Place | Shape::PlaceOrNode => any_of(&[text(), vector()]),
         Shape::Function | Shape::Size => any_of(&[plain(), of_keys(&table_keys())]),

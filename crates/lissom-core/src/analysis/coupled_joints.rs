@@ -12,7 +12,7 @@ use super::coupled::{Coupled, STAGES};
 use crate::joints::attached::{AttachedJoint, Increments, LocalGradient};
 use crate::joints::derivatives::{LOCAL, OWN, TIP};
 use crate::joints::passage::Visit;
-use crate::joints::{Equations, MOST_EQUATIONS, equation_quantity};
+use crate::joints::{Equations, MOST_EQUATIONS};
 use crate::scaling::Scaled;
 use crate::schemes::Tableau;
 use crate::system::places::Run;
@@ -112,7 +112,7 @@ impl Coupled {
             let rows = &visits[stage].rows;
             let mut weighted = *rows;
             for k in 0..joint.equations() {
-                let relative = course.augmentation.relative(equation_quantity(k));
+                let relative = course.augmentation.relative(joint.joint().equation_quantity(k));
                 weighted.row_mut(k).scale_mut(scaled.augmented_factor() * relative);
             }
             for (other, derivative) in derivatives[stage].iter().enumerate() {

@@ -15,7 +15,7 @@ use pulp::{Simd, WithSimd};
 use super::attached::AttachedJoint;
 use super::derivatives::{Derivatives, LOCAL, OWN, TIP};
 use super::moved::{Angle, Axes, FrameChange, Moved, OwnMoved};
-use super::{Equations, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Quantity, equation_quantity};
+use super::{Equations, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Quantity};
 use crate::lanes::{Frames, Part, gather, gather_frames, parts, processor_for};
 use crate::system::{Chart, Kinematics, Point};
 
@@ -268,7 +268,6 @@ impl<J: Joint> JointBatch for Batch<J> {
         scratch: &mut Derivatives,
         take: &mut dyn FnMut(usize, &mut Derivatives),
     ) {
-        let weights = std::array::from_fn(|k| point.augmentation.relative(equation_quantity(k)));
         for (item, (joint, &index)) in self.joints.iter().zip(&self.indices).enumerate() {
             let attached = &joints[index as usize];
             let start = match starts {
@@ -285,6 +284,8 @@ impl<J: Joint> JointBatch for Batch<J> {
                 Chart::Increments(tangents) => Some(attached.frames.map(|frame| &tangents[frame.node])),
                 Chart::Body | Chart::Departures(_) => None,
             };
+            let weights =
+                std::array::from_fn(|k| point.augmentation.relative(attached.joint().equation_quantity(k)));
             attached.linearize_as(joint, &configuration, &mu, &weights, charts, scratch);
             take(index as usize, scratch);
         }
@@ -395,6 +396,11 @@ impl Pack {
                     gathered.multipliers[k][lane] = multipliers[k];
                     gathered.violations[k][lane] = violations[k];
                 }
+                // Nothing is left over of other joints, which may not have been numbers.
+                for k in multipliers.len()..J::MOST {
+                    gathered.multipliers[k][lane] = 0.0;
+                    gathered.violations[k][lane] = 0.0;
+                }
             }
         }
     }
@@ -428,7 +434,7 @@ impl Pack {
         for k in 0..J::MOST {
             let violation = part.number(&gathered.violations[k]) + change[k];
             violation.store(&mut out[LOCAL + k], part.index);
-            let weight = if k < 3 { weights[0] } else { weights[1] };
+            let weight = if k < J::LENGTHS { weights[0] } else { weights[1] };
             mu[k] = part.number(&gathered.multipliers[k]) + violation.scaled(weight);
         }
         if wanted == Wanted::Violations {

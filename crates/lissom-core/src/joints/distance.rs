@@ -43,7 +43,9 @@ impl Joint for Distance {
 
     /// One over the length.
     fn numbers(&self) -> [f64; MOST_NUMBERS] {
-        [1.0 / self.length, 0.0, 0.0, 0.0]
+        let mut numbers = [0.0; MOST_NUMBERS];
+        numbers[0] = 1.0 / self.length;
+        numbers
     }
 
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {

@@ -5,13 +5,22 @@
 //! not even where it is. `attached` turns its answers into rows of the system.
 
 pub mod attached;
+pub mod base_axes;
 pub mod blocks;
 pub mod clamp;
+pub mod constant_velocity;
 pub mod cylindrical;
 pub mod derivatives;
 pub mod distance;
+pub mod generic;
+pub mod inline;
 pub mod moved;
+pub mod parallel_axes;
 pub(crate) mod passage;
+pub mod perpendicular_axes;
+pub mod planar;
+pub mod point_in_plane;
+pub mod point_on_line;
 pub mod prescribed;
 pub mod prescribed_displacement;
 pub mod prescribed_rotation;
@@ -19,11 +28,12 @@ pub mod primitives;
 pub mod prismatic;
 pub mod revolute;
 pub mod rigid_link;
+pub mod screw;
 pub mod spherical;
 pub mod swing_arm;
 pub mod universal;
 
-use lissom_motion::{Matrix3, Motion, Real, Screw, Vector3, Vector6};
+use lissom_motion::{Matrix3, Motion, Real, Rotation, Screw, Vector3, Vector6};
 use nalgebra::{SMatrix, SVector};
 
 use attached::AttachedJoint;
@@ -38,7 +48,7 @@ pub const MOST_EQUATIONS: usize = 6;
 pub const MOST_COORDINATES: usize = 2;
 
 /// Most numbers of its own that the equations of a joint hold.
-pub const MOST_NUMBERS: usize = 4;
+pub const MOST_NUMBERS: usize = 10;
 
 /// What an equation or a coordinate of a joint is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -146,17 +156,14 @@ impl Gradient {
 /// Derivatives of (∂c/∂(η, φ))ᵀ μ with respect to (η, φ).
 pub type Curvature = SMatrix<f64, 8, 8>;
 
-/// What an equation of a joint is: the first three are lengths.
-pub fn equation_quantity(equation: usize) -> Quantity {
-    if equation < 3 { Quantity::Length } else { Quantity::Angle }
-}
-
 /// The equations of a joint. What is evaluated often is written over one number or several side by side.
 pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// Its algebraic coordinates.
     const COORDINATES: &'static [Coordinate] = &[];
     /// Most equations that a joint of the kind has; what is said of further ones is not looked at.
     const MOST: usize = MOST_EQUATIONS;
+    /// How many equations are lengths; they come first, angles follow.
+    const LENGTHS: usize = 3;
 
     /// Name of each equation.
     fn equations(&self) -> &'static [&'static str];
@@ -201,6 +208,8 @@ pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
 pub trait AnyJoint: Send + Sync + std::fmt::Debug {
     /// See [`Joint::equations`].
     fn equations(&self) -> &'static [&'static str];
+    /// What an equation is: see [`Joint::LENGTHS`].
+    fn equation_quantity(&self, equation: usize) -> Quantity;
     /// See [`Joint::COORDINATES`].
     fn coordinates(&self) -> &'static [Coordinate];
     /// See [`Joint::initial`].
@@ -227,6 +236,10 @@ pub trait AnyJoint: Send + Sync + std::fmt::Debug {
 impl<J: Joint> AnyJoint for J {
     fn equations(&self) -> &'static [&'static str] {
         Joint::equations(self)
+    }
+
+    fn equation_quantity(&self, equation: usize) -> Quantity {
+        if equation < J::LENGTHS { Quantity::Length } else { Quantity::Angle }
     }
 
     fn coordinates(&self) -> &'static [Coordinate] {
@@ -277,6 +290,8 @@ pub enum Frames {
     Axis,
     /// Both at one point, first axis along `axis`, second along `second_axis`.
     TwoAxes,
+    /// The same; along the global axes where none is given.
+    GivenOrGlobalAxes,
     /// One at the base's point, one at the tip node; third axis along `axis`.
     SpanWithAxis,
     /// One at the base's point, one at the tip node; their direction does not matter.
@@ -290,6 +305,8 @@ pub struct Geometry {
     pub span: Vector3,
     /// Whether the tip node can only move in the joint frame's plane of the first two axes.
     pub planar: bool,
+    /// The base's joint frame at the start, in inertial axes.
+    pub axes: Rotation,
 }
 
 /// Makes the equations of a joint.
@@ -322,13 +339,22 @@ pub struct JointKind {
 /// All kinds of joints, one line each.
 pub static KINDS: &[JointKind] = &[
     clamp::KIND,
+    constant_velocity::KIND,
     cylindrical::KIND,
     distance::KIND,
+    generic::KIND,
+    inline::KIND,
+    parallel_axes::KIND,
+    perpendicular_axes::KIND,
+    planar::KIND,
+    point_in_plane::KIND,
+    point_on_line::KIND,
     prescribed_displacement::KIND,
     prescribed_rotation::KIND,
     prismatic::KIND,
     revolute::KIND,
     rigid_link::KIND,
+    screw::KIND,
     spherical::KIND,
     swing_arm::KIND,
     universal::KIND,

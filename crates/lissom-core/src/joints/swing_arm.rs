@@ -67,7 +67,10 @@ impl Joint for SwingArm {
 
     /// The arm, and 1 where there is a third equation.
     fn numbers(&self) -> [f64; MOST_NUMBERS] {
-        [self.arm.x, self.arm.y, self.arm.z, if self.equations == 3 { 1.0 } else { 0.0 }]
+        let mut numbers = [0.0; MOST_NUMBERS];
+        numbers[..3].copy_from_slice(self.arm.as_slice());
+        numbers[3] = if self.equations == 3 { 1.0 } else { 0.0 };
+        numbers
     }
 
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {

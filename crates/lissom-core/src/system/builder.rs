@@ -18,7 +18,7 @@ use crate::joints::attached::{AttachedJoint, CarriedFrame};
 use crate::joints::blocks::Batches;
 use crate::joints::derivatives::{LOCAL, OWN, TIP};
 use crate::joints::prescribed::Prescribed;
-use crate::joints::{Build, Frames, Geometry, JointKind, Quantity, equation_quantity};
+use crate::joints::{Build, Frames, Geometry, JointKind, Quantity};
 use crate::registry::{Function, ParameterError, Parameters};
 use crate::signals::measurement::Measurement;
 use crate::signals::{Argument, Graph, HeldId, MOST_ARGUMENTS, MeasurementId, Signal, SignalId};
@@ -188,7 +188,8 @@ impl Builder {
         let base = Motion::new(joint_rotation(frames, placement)?, placement.at);
         let tip = placement.at_tip.unwrap_or(self.nodes[placement.nodes[1]].motion.frame.position);
         let span = base.inverse_transform_point(&tip);
-        let joint = build(parameters, &Geometry { span, planar: self.moves_in_plane(placement, &base) })?;
+        let geometry = Geometry { span, planar: self.moves_in_plane(placement, &base), axes: base.rotation };
+        let joint = build(parameters, &geometry)?;
         let (values, relative) = joint.initial();
         let places = [base, base * relative];
         let carried = [0, 1].map(|side| {
@@ -211,7 +212,7 @@ impl Builder {
         let first_multiplier = self.multipliers.len();
         for (k, &equation) in joint.equations().iter().enumerate() {
             self.multipliers.push((name.to_owned(), equation));
-            self.multiplier_quantities.push(equation_quantity(k));
+            self.multiplier_quantities.push(joint.equation_quantity(k));
         }
         self.joints.push(AttachedJoint {
             name: name.to_owned(),
@@ -569,7 +570,10 @@ fn joint_rotation(frames: Frames, placement: &Placement) -> Result<Rotation, Par
             Rotation::from_columns(&first, &third.cross(&first), &third)
                 .ok_or_else(|| unusable("axis", "has no usable direction"))
         }
-        Frames::TwoAxes => {
+        Frames::GivenOrGlobalAxes if placement.axis.is_none() && placement.second_axis.is_none() => {
+            Ok(Rotation::identity())
+        }
+        Frames::TwoAxes | Frames::GivenOrGlobalAxes => {
             let first = placement.axis.ok_or_else(|| missing("axis"))?;
             let second = placement.second_axis.ok_or_else(|| missing("second_axis"))?;
             Rotation::from_axis_and_reference(&first, &second)

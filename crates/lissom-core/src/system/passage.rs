@@ -8,7 +8,7 @@ use super::{Augmentation, Chart, Drive, Kinematics, Linearization, Point, Receiv
 use crate::elements::passage::{Passage, STAGES, Variation};
 use crate::joints::attached::{AttachedJoint, Increments};
 use crate::joints::derivatives::LOCAL;
-use crate::joints::{Equations, MOST_EQUATIONS, equation_quantity};
+use crate::joints::{Equations, MOST_EQUATIONS};
 
 /// Where the residuals of a passage are evaluated.
 #[derive(Clone, Copy, Debug)]
@@ -102,7 +102,7 @@ fn joint_residuals(joint: &AttachedJoint, rows: &[u32], course: &Course<'_>, out
     for (stage, visit) in visits.iter().enumerate() {
         let mut mu = SVector::<f64, MOST_EQUATIONS>::zeros();
         for (k, multiplier) in course.multipliers[stage][own.clone()].iter().enumerate() {
-            let relative = course.augmentation.relative(equation_quantity(k));
+            let relative = course.augmentation.relative(joint.joint().equation_quantity(k));
             mu[k] = multiplier + course.augmentation.weight * relative * visit.violation[k];
         }
         let forces = visit.rows.tr_mul(&mu);

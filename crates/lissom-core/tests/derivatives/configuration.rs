@@ -63,6 +63,14 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
                 Value::Function(if flag { Arc::new(Wave) } else { Arc::new(Constant(0.6)) })
             }
             ParameterType::Choice(words) => Value::Text(words[0].to_owned()),
+            ParameterType::Choices(words) => {
+                let chosen = words.iter().filter(|_| random.number() > 0.0);
+                let mut chosen: Vec<String> = chosen.map(|&word| word.to_owned()).collect();
+                if chosen.is_empty() {
+                    chosen.push(words[0].to_owned());
+                }
+                Value::Words(chosen)
+            }
         };
         result.insert(parameter.name, value);
     }

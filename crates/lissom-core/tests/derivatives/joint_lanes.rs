@@ -2,7 +2,7 @@
 
 use lissom_core::joints::blocks::JointStarts;
 use lissom_core::joints::derivatives::LOCAL;
-use lissom_core::joints::{self, Build, equation_quantity};
+use lissom_core::joints::{self, Build};
 use lissom_core::system::{Builder, Freedoms, LOCKED, Placement, Point, State, System};
 use lissom_motion::{Motion, Vector3};
 
@@ -52,7 +52,8 @@ fn one_by_one(system: &System, point: &Point<'_>) -> Vec<f64> {
         for k in 0..joint.equations() {
             let multiplier = joint.first_multiplier + k;
             let violation = point.violations[multiplier] + change[k];
-            let weight = point.augmentation.weight * point.augmentation.relative(equation_quantity(k));
+            let weight =
+                point.augmentation.weight * point.augmentation.relative(joint.joint().equation_quantity(k));
             mu[k] = point.multipliers[multiplier] + weight * violation;
             out[layout.multiplier_rows().start + multiplier] = violation;
         }

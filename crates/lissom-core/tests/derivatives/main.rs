@@ -3,6 +3,7 @@
 mod configuration;
 mod feedback;
 mod joint_lanes;
+mod locks;
 
 use configuration::{Configuration, Random, difference, sample_parameters};
 use lissom_core::elements::beam::{Beam, SectionLaw};

@@ -96,7 +96,18 @@ fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
     match rule {
         FrameRule::None => Some((None, None)),
         FrameRule::Axis => Some((Some(reader.vector("axis")?), None)),
-        FrameRule::TwoAxes => {
+        FrameRule::GivenOrGlobal if reader.node("axis").is_none() && reader.node("second_axis").is_none() => {
+            Some((None, None))
+        }
+        FrameRule::TwoAxes | FrameRule::GivenOrGlobal => {
+            for (key, other) in [("axis", "second_axis"), ("second_axis", "axis")] {
+                if let (FrameRule::GivenOrGlobal, None, Some(given)) =
+                    (rule, reader.node(key), reader.node(other))
+                {
+                    let message = format!("{} has `{other}`, but not `{key}`", reader.what);
+                    return reader.context.fail(given.span, message, "give both axes, or none");
+                }
+            }
             let (first, second) = (reader.vector("axis"), reader.vector("second_axis"));
             let (first, second) = (first?, second?);
             if are_parallel(&first.value, &second.value) {

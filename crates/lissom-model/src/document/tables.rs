@@ -274,7 +274,12 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
         ActsOn::TwoNodes(rule) => {
             let mut keys = nodes();
             keys.push(optional("at", Shape::Place, "m", "location; default: the tip node's place"));
-            if rule != FrameRule::None {
+            if rule == FrameRule::GivenOrGlobal {
+                let axis = |name, words| optional(name, Shape::Direction, "", words);
+                keys.push(axis("axis", "direction of x at the start, global axes; default: global x"));
+                keys.push(axis("second_axis", "direction of y at the start, global axes; default: global y"));
+            }
+            if matches!(rule, FrameRule::Axis | FrameRule::TwoAxes) {
                 keys.push(axis("axis", "direction at the start, global axes"));
             }
             if rule == FrameRule::TwoAxes {

@@ -117,8 +117,10 @@ fn coordinate(
     let Some(first) = coordinates.iter().position(fits) else {
         let message = format!("joint `{}` has no relative {}", joint.value, wanted.relative());
         let kinds = match wanted {
-            Quantity::Angle => "a revolute, universal, swing_arm or cylindrical joint",
-            Quantity::Length | Quantity::State => "a prismatic or cylindrical joint",
+            Quantity::Angle => {
+                "a revolute, universal, swing_arm, cylindrical, screw, planar or parallel_axes joint"
+            }
+            Quantity::Length | Quantity::State => "a prismatic, cylindrical or point_on_line joint",
         };
         return Err(Problem::error(joint.span, message)
             .label("nothing to act on")

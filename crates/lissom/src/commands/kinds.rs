@@ -110,6 +110,7 @@ fn holds(holds: ParameterType) -> String {
         ParameterType::Function => "number or expression of t".to_owned(),
         ParameterType::Size => "number or expression of t, inputs, signals, states and outputs".to_owned(),
         ParameterType::Choice(words) => words.join(" | "),
+        ParameterType::Choices(words) => format!("list of {}", words.join(", ")),
     }
 }
 
@@ -122,6 +123,9 @@ fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
         ActsOn::TwoNodes(FrameRule::Axis) => ("base, tip, at (default: the tip's place), axis", TWO),
         ActsOn::TwoNodes(FrameRule::TwoAxes) => {
             ("base, tip, at (default: the tip's place), axis, second_axis", TWO)
+        }
+        ActsOn::TwoNodes(FrameRule::GivenOrGlobal) => {
+            ("base, tip, at (default: the tip's place), axis and second_axis (default: global x and y)", TWO)
         }
         ActsOn::TwoPlaces => ("base, tip, at_base, at_tip (default: the nodes' places)", PLACES),
         ActsOn::OneNode => ("on, at (default: the node's place)", "on = \"my_body\""),

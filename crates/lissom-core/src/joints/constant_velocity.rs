@@ -1,0 +1,114 @@
+//! Constant-velocity joint: two nodes share a point, and the shafts along the third axes turn by the same angle,
+//! whatever the angle between them: c = axial(R)·e₃.
+//!
+//! With the input turned by α, the output by β, and the tip's shaft bent by θ about any axis across,
+//! R_21 - R_12 = (1 + cos θ) sin(β - α): the equation holds with β = α up to θ = π.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
+
+use super::moved::{Moved, OwnMoved};
+use super::primitives::{
+    JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient,
+    coincident_wrench,
+};
+use super::{
+    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, MOST_EQUATIONS,
+    MOST_NUMBERS, Own, Relative,
+};
+use crate::registry::{Parameter, ParameterError, ParameterType};
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "constant_velocity",
+    summary: "Two shafts share a point, may bend against each other, and turn by the same angle.",
+    sample: "axis = [1.0, 0.0, 0.0]\ntip_axis = [0.9, 0.4, 0.0]",
+    parameters: &[Parameter::optional(
+        "tip_axis",
+        ParameterType::Direction,
+        "",
+        "Direction of the tip's shaft at the start, global axes; default `axis`, which is that of the base's shaft.",
+    )],
+    build: Build::Relative(Frames::Axis, |parameters, geometry| {
+        let shaft = geometry.axes.apply(&Vector3::z());
+        let tip = parameters.vector_or("tip_axis", shaft)?;
+        let tip = geometry.axes.apply_inverse(&tip).normalize();
+        // A shaft has no sense: of its two directions the one that bends less is meant.
+        let tip = tip * tip.z.signum();
+        if tip.z.abs() < 1e-6 {
+            return Err(ParameterError::new(
+                "tip_axis",
+                "is perpendicular to `axis`: no such joint can turn",
+            ));
+        }
+        Ok(Box::new(ConstantVelocity { tip }))
+    }),
+};
+
+/// A shared point, and a shared rotation of bent shafts.
+#[derive(Clone, Copy, Debug)]
+pub struct ConstantVelocity {
+    /// The tip's shaft at the start, of length one, in the base's joint frame.
+    tip: Vector3,
+}
+
+impl Joint for ConstantVelocity {
+    const MOST: usize = 4;
+
+    fn equations(&self) -> &'static [&'static str] {
+        &["position 1", "position 2", "position 3", "rotation 3"]
+    }
+
+    /// The tip's third axis is its shaft: turned there from the base's about an axis across both.
+    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+        let across = Vector3::z().cross(&self.tip);
+        let angle = across.norm().atan2(self.tip.z);
+        let axis = across.try_normalize(0.0).unwrap_or_else(Vector3::x);
+        ([0.0; MOST_COORDINATES], Motion::new(Rotation::exponential(&(angle * axis)), Vector3::zeros()))
+    }
+
+    fn violation(&self, relative: &Relative, _: &Own) -> Equations {
+        let mut out = Equations::default();
+        coincident(relative, 0, &mut out);
+        out[3] = 0.5 * (relative.rotation[(1, 0)] - relative.rotation[(0, 1)]);
+        out
+    }
+
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        _: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        let [a, b, c] = coincident_change(moved);
+        let zero = a.like(0.0);
+        [a, b, c, moved.rotation_change.axial().z, zero, zero]
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        _: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let zero = mu[0].like(0.0);
+        let shaft = Triple::new(zero, zero, mu[3]);
+        let (moment, own) = JointRotation::none(zero).matches_moments(moved, shaft);
+        let mut wrench = coincident_wrench(moved, Triple::new(mu[0], mu[1], mu[2]));
+        wrench.rotation = wrench.rotation + moment;
+        (wrench, own)
+    }
+
+    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+        coincident_gradient(relative, 0, out);
+        let mut all = Gradient::zeros();
+        JointRotation::none(0.0).matches_gradient(relative, 0, &mut all);
+        out.relative.set_row(3, &all.relative.row(2));
+    }
+
+    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
+        coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+        JointRotation::none(0.0).matches_curvature(relative, &(mu[3] * Vector3::z()), out);
+    }
+}

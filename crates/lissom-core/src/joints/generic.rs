@@ -1,0 +1,244 @@
+//! Generic joint: locks chosen translations and rotations of the tip in the joint frame's axes.
+//!
+//! ```text
+//! locked translation     x_i = 0, in the base's axes
+//! locked rotations       three: R_32 = R_13 = R_21 = 0;   all but that about c: the base's other axes are perpendicular
+//!                        to the tip's axis c;   about c alone: the base's axis c+1 is perpendicular to the tip's c+2
+//! ```
+//!
+//! Every rotational equation is an entry of R, with the sign that makes it the angle itself where angles are small.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use lissom_motion::{Real, Screw, Triple, Vector3};
+
+use super::base_axes::{
+    component_gradient, cosine_curvature, cosine_gradient, force_curvature, force_wrench, row,
+};
+use super::moved::{Moved, OwnMoved};
+use super::{
+    AnyJoint, Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
+    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+};
+use crate::registry::{Parameter, ParameterError, ParameterType};
+
+/// What may be locked: translations along the joint frame's axes, and rotations about them.
+const WORDS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "generic",
+    summary: "Locks chosen translations and rotations of the tip in the axes of the base.",
+    sample: "locked = [\"x\", \"y\", \"rz\"]",
+    parameters: &[Parameter::required(
+        "locked",
+        ParameterType::Choices(&WORDS),
+        "",
+        "What cannot move: x along `axis`, y along `second_axis`, z across both; rx, ry, rz about them.",
+    )],
+    build: Build::Relative(Frames::GivenOrGlobalAxes, |parameters, _| {
+        let words = parameters.words("locked")?;
+        if words.is_empty() {
+            return Err(ParameterError::new("locked", "is empty: the joint would hold nothing"));
+        }
+        Ok(locking(WORDS.map(|word| words.iter().any(|given| given == word))))
+    }),
+};
+
+/// The joint that locks these of [`WORDS`].
+pub(super) fn locking(locked: [bool; 6]) -> Box<dyn AnyJoint> {
+    match locked[..3].iter().filter(|&&locked| locked).count() {
+        0 => Box::new(Generic::<0>::new(locked)),
+        1 => Box::new(Generic::<1>::new(locked)),
+        2 => Box::new(Generic::<2>::new(locked)),
+        _ => Box::new(Generic::<3>::new(locked)),
+    }
+}
+
+/// Locks some of the six relative freedoms, `LENGTHS` of them translations.
+#[derive(Clone, Copy, Debug)]
+pub struct Generic<const LENGTHS: usize> {
+    locked: [bool; 6],
+}
+
+/// An equation of the rotation: `sign` R_ab = 0.
+#[derive(Clone, Copy, Debug)]
+struct Cosine {
+    axes: (usize, usize),
+    sign: f64,
+}
+
+impl<const LENGTHS: usize> Generic<LENGTHS> {
+    fn new(locked: [bool; 6]) -> Self {
+        Self { locked }
+    }
+
+    /// Axes along which translations are locked.
+    fn translations(self) -> impl Iterator<Item = usize> + use<LENGTHS> {
+        let locked = self.locked;
+        (0..3).filter(move |&axis| locked[axis])
+    }
+
+    /// The only rotation that is locked, or the only one that is not, with the number of locked ones.
+    fn rotations(self) -> (usize, Option<usize>) {
+        let locked = &self.locked[3..];
+        let count = locked.iter().filter(|&&locked| locked).count();
+        let single = match count {
+            1 => locked.iter().position(|&locked| locked),
+            2 => locked.iter().position(|&locked| !locked),
+            _ => None,
+        };
+        (count, single)
+    }
+
+    /// The equations of the rotation, by ascending axis.
+    fn cosines(self) -> impl Iterator<Item = Cosine> + use<LENGTHS> {
+        let (count, single) = self.rotations();
+        let locked = self.locked;
+        (0..3).filter(move |&axis| locked[3 + axis]).map(move |axis| {
+            let (next, last) = ((axis + 1) % 3, (axis + 2) % 3);
+            // A small rotation θ: R_(c+2, c+1) = θ_c, R_(c+1, c+2) = -θ_c.
+            let positive = Cosine { axes: (last, next), sign: 1.0 };
+            let negative = Cosine { axes: (next, last), sign: -1.0 };
+            match single {
+                _ if count == 3 => positive,
+                // The column is that of the tip's axis about which it may turn.
+                Some(free) if count == 2 && free == next => positive,
+                _ => negative,
+            }
+        })
+    }
+}
+
+const fn names() -> [[&'static str; 6]; 64] {
+    let of = ["position x", "position y", "position z", "rotation x", "rotation y", "rotation z"];
+    let mut all = [[""; 6]; 64];
+    let mut mask = 0;
+    while mask < 64 {
+        let (mut axis, mut count) = (0, 0);
+        while axis < 6 {
+            if mask >> axis & 1 == 1 {
+                all[mask][count] = of[axis];
+                count += 1;
+            }
+            axis += 1;
+        }
+        mask += 1;
+    }
+    all
+}
+
+/// Names of the equations by what is locked, as a binary number.
+static EQUATIONS: [[&str; 6]; 64] = names();
+
+impl<const LENGTHS: usize> Joint for Generic<LENGTHS> {
+    const LENGTHS: usize = LENGTHS;
+    const MOST: usize = LENGTHS + 3;
+
+    fn equations(&self) -> &'static [&'static str] {
+        let mask: usize = self.locked.iter().enumerate().map(|(k, &locked)| usize::from(locked) << k).sum();
+        &EQUATIONS[mask][..mask.count_ones() as usize]
+    }
+
+    /// 1 at the only locked translation, or the only free one where two are locked; likewise 1 at the only free
+    /// rotation, at the only locked one, and where all are locked.
+    fn numbers(&self) -> [f64; MOST_NUMBERS] {
+        let mut numbers = [0.0; MOST_NUMBERS];
+        for axis in 0..3 {
+            let is_single = self.locked[axis] == (LENGTHS == 1);
+            numbers[axis] = f64::from(is_single);
+        }
+        match self.rotations() {
+            (2, Some(free)) => numbers[3 + free] = 1.0,
+            (1, Some(locked)) => numbers[6 + locked] = 1.0,
+            (3, _) => numbers[9] = 1.0,
+            _ => {}
+        }
+        numbers
+    }
+
+    fn violation(&self, relative: &Relative, _: &Own) -> Equations {
+        let mut out = Equations::default();
+        let lengths = self.translations().map(|axis| relative.position[axis]);
+        let angles = self.cosines().map(|Cosine { axes, sign }| sign * relative.rotation[axes]);
+        for (value, equation) in out.iter_mut().zip(lengths.chain(angles)) {
+            *value = equation;
+        }
+        out
+    }
+
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        _: &OwnMoved<R>,
+        numbers: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        let Triple { x, y, z } = moved.position_change;
+        let [a, b, c, free_x, free_y, free_z, x_alone, y_alone, z_alone, all] = *numbers;
+        let zero = x.like(0.0);
+        let mut out = [zero; MOST_EQUATIONS];
+        match LENGTHS {
+            0 => {}
+            1 => out[0] = x * a + y * b + z * c,
+            2 => (out[0], out[1]) = (x * (b + c) + y * a, y * c + z * (a + b)),
+            _ => (out[0], out[1], out[2]) = (x, y, z),
+        }
+        let change = &moved.rotation_change;
+        let (first, second, third) = (row(change, 0), row(change, 1), row(change, 2));
+        out[LENGTHS] = third.y * (all + free_y)
+            - second.z * (free_z + x_alone)
+            - third.x * (free_x + y_alone)
+            - first.y * z_alone;
+        out[LENGTHS + 1] = first.z * (all + free_z) + second.x * free_x - first.y * free_y;
+        out[LENGTHS + 2] = second.x * all;
+        out
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        _: &OwnMoved<R>,
+        numbers: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let [a, b, c, free_x, free_y, free_z, x_alone, y_alone, z_alone, all] = *numbers;
+        let zero = mu[0].like(0.0);
+        let force = match LENGTHS {
+            0 => Triple::new(zero, zero, zero),
+            1 => Triple::new(mu[0] * a, mu[0] * b, mu[0] * c),
+            2 => Triple::new(mu[0] * (b + c), mu[0] * a + mu[1] * c, mu[1] * (a + b)),
+            _ => Triple::new(mu[0], mu[1], mu[2]),
+        };
+        let [p, q, r] = [mu[LENGTHS], mu[LENGTHS + 1], mu[LENGTHS + 2]];
+        // By rows a of R: the factors of e_b in Σ q_ab e_b × Rᵀ e_a.
+        let rotation = moved.rotation();
+        let first = Triple::new(zero, -(q * free_y + p * z_alone), q * (all + free_z));
+        let second = Triple::new(r * all + q * free_x, zero, -(p * (free_z + x_alone)));
+        let third = Triple::new(-(p * (free_x + y_alone)), p * (all + free_y), zero);
+        let mut wrench = force_wrench(moved, force);
+        wrench.rotation = first
+            .cross(row(&rotation, 0))
+            .plus_cross(second, row(&rotation, 1))
+            .plus_cross(third, row(&rotation, 2));
+        (wrench, [zero; MOST_COORDINATES])
+    }
+
+    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+        for (row, axis) in self.translations().enumerate() {
+            component_gradient(relative, axis, row, out);
+        }
+        for (row, Cosine { axes, sign }) in self.cosines().enumerate() {
+            cosine_gradient(relative, axes, sign, LENGTHS + row, out);
+        }
+    }
+
+    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
+        let mut force = Vector3::zeros();
+        for (row, axis) in self.translations().enumerate() {
+            force[axis] = mu[row];
+        }
+        force_curvature(relative, &force, out);
+        for (row, Cosine { axes, sign }) in self.cosines().enumerate() {
+            cosine_curvature(relative, axes, sign * mu[LENGTHS + row], out);
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! In-line: the tip's point stays on a line of the base, x·e₁ = x·e₂ = 0.
+
+use super::generic::locking;
+use super::{Build, Frames, JointKind};
+
+/// Registry entry: the generic joint that locks two translations. Unlike `point_on_line` it has no coordinate.
+pub const KIND: JointKind = JointKind {
+    name: "inline",
+    summary: "The tip's point moves along a line of the base; as `point_on_line`, without a coordinate.",
+    sample: "axis = [1.0, 0.0, 0.0]",
+    parameters: &[],
+    build: Build::Relative(Frames::Axis, |_, _| Ok(locking([true, true, false, false, false, false]))),
+};

@@ -1,0 +1,91 @@
+//! Parallel axes: an axis of the tip stays parallel to one of the base, R = Q(φ). The rotation about it is an algebraic
+//! coordinate; the tip's point moves freely.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
+
+use super::clamp::EQUATIONS;
+use super::moved::{Moved, OwnMoved};
+use super::primitives::{JointRotation, elementary};
+use super::{
+    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
+    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+};
+use crate::registry::{Parameter, ParameterType};
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "parallel_axes",
+    summary: "The tip turns about `axis` alone and moves freely; the relative rotation is a coordinate.",
+    sample: "axis = [0.0, 0.0, 1.0]",
+    parameters: &[Parameter::optional(
+        "angle",
+        ParameterType::Number,
+        "rad",
+        "Value of the relative rotation at the start; default 0.",
+    )],
+    build: Build::Relative(Frames::Axis, |parameters, _| {
+        Ok(Box::new(ParallelAxes { angle: parameters.number_or("angle", 0.0)? }))
+    }),
+};
+
+/// A shared direction.
+#[derive(Clone, Copy, Debug)]
+pub struct ParallelAxes {
+    /// Relative rotation at the start [rad].
+    angle: f64,
+}
+
+impl Joint for ParallelAxes {
+    const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
+    const LENGTHS: usize = 0;
+    const MOST: usize = 3;
+
+    fn equations(&self) -> &'static [&'static str] {
+        &EQUATIONS[3..]
+    }
+
+    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+        let rotation = Rotation::from_matrix(&elementary(2, self.angle));
+        ([self.angle, 0.0], Motion::new(rotation, Vector3::zeros()))
+    }
+
+    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+        let mut out = Equations::default();
+        JointRotation::about_third_axis(&own.angle(0)).matches(relative, 0, &mut out);
+        out
+    }
+
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        let [a, b, c] = JointRotation::about_third_axis(&own.angles[0]).matches_change(moved);
+        let zero = a.like(0.0);
+        [a, b, c, zero, zero, zero]
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let zero = mu[0].like(0.0);
+        let rotation = JointRotation::about_third_axis(&own.angles[0]);
+        let (moment, own) = rotation.matches_moments(moved, Triple::new(mu[0], mu[1], mu[2]));
+        (Screw::new(Triple::new(zero, zero, zero), moment), own)
+    }
+
+    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+        JointRotation::about_third_axis(&own.angle(0)).matches_gradient(relative, 0, out);
+    }
+
+    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
+        let mu = Vector3::new(mu[0], mu[1], mu[2]);
+        JointRotation::about_third_axis(&own.angle(0)).matches_curvature(relative, &mu, out);
+    }
+}

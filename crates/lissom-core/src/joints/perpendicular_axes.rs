@@ -1,0 +1,13 @@
+//! Perpendicular axes: an axis of the base and one of the tip stay at a right angle, -R_12 = 0.
+
+use super::generic::locking;
+use super::{Build, Frames, JointKind};
+
+/// Registry entry: the generic joint that locks the rotation about the third axis alone.
+pub const KIND: JointKind = JointKind {
+    name: "perpendicular_axes",
+    summary: "Keeps `axis`, carried by the base, perpendicular to `second_axis`, carried by the tip.",
+    sample: "axis = [1.0, 0.0, 0.0]\nsecond_axis = [0.0, 1.0, 0.0]",
+    parameters: &[],
+    build: Build::Relative(Frames::TwoAxes, |_, _| Ok(locking([false, false, false, false, false, true]))),
+};

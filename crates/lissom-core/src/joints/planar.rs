@@ -1,0 +1,96 @@
+//! Planar joint: the tip moves in a plane of the base and turns about its normal, x·e₃ = 0 and R = Q(φ). The rotation
+//! is an algebraic coordinate.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
+
+use super::base_axes::{component_gradient, force_curvature, force_wrench};
+use super::moved::{Moved, OwnMoved};
+use super::primitives::{JointRotation, elementary};
+use super::{
+    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
+    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+};
+use crate::registry::{Parameter, ParameterType};
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "planar",
+    summary: "The tip moves in the base's plane across `axis` and turns about it; the rotation is a coordinate.",
+    sample: "axis = [0.0, 0.0, 1.0]",
+    parameters: &[Parameter::optional(
+        "angle",
+        ParameterType::Number,
+        "rad",
+        "Value of the relative rotation at the start; default 0.",
+    )],
+    build: Build::Relative(Frames::Axis, |parameters, _| {
+        Ok(Box::new(Planar { angle: parameters.number_or("angle", 0.0)? }))
+    }),
+};
+
+/// A shared plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Planar {
+    /// Relative rotation at the start [rad].
+    angle: f64,
+}
+
+impl Joint for Planar {
+    const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
+    const LENGTHS: usize = 1;
+    const MOST: usize = 4;
+
+    fn equations(&self) -> &'static [&'static str] {
+        &["position 3", "rotation 1", "rotation 2", "rotation 3"]
+    }
+
+    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+        let rotation = Rotation::from_matrix(&elementary(2, self.angle));
+        ([self.angle, 0.0], Motion::new(rotation, Vector3::zeros()))
+    }
+
+    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+        let mut out = Equations::default();
+        out[0] = relative.position.z;
+        JointRotation::about_third_axis(&own.angle(0)).matches(relative, 1, &mut out);
+        out
+    }
+
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        let [a, b, c] = JointRotation::about_third_axis(&own.angles[0]).matches_change(moved);
+        let zero = a.like(0.0);
+        [moved.position_change.z, a, b, c, zero, zero]
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let zero = mu[0].like(0.0);
+        let rotation = JointRotation::about_third_axis(&own.angles[0]);
+        let (moment, own) = rotation.matches_moments(moved, Triple::new(mu[1], mu[2], mu[3]));
+        let mut wrench = force_wrench(moved, Triple::new(zero, zero, mu[0]));
+        wrench.rotation = wrench.rotation + moment;
+        (wrench, own)
+    }
+
+    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+        component_gradient(relative, 2, 0, out);
+        JointRotation::about_third_axis(&own.angle(0)).matches_gradient(relative, 1, out);
+    }
+
+    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
+        force_curvature(relative, &(mu[0] * Vector3::z()), out);
+        let mu = Vector3::new(mu[1], mu[2], mu[3]);
+        JointRotation::about_third_axis(&own.angle(0)).matches_curvature(relative, &mu, out);
+    }
+}

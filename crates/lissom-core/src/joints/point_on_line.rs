@@ -1,0 +1,89 @@
+//! Point on a line: the tip's point slides along a line of the base and the tip turns freely. The displacement along
+//! the line is an algebraic coordinate: x = d e₃ in the base's axes.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
+
+use super::base_axes::{component_gradient, force_curvature, force_wrench};
+use super::moved::{Moved, OwnMoved};
+use super::primitives::POINT_EQUATIONS;
+use super::{
+    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
+    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+};
+use crate::registry::{Parameter, ParameterType};
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "point_on_line",
+    summary: "The tip's point slides along a line of the base and the tip turns freely; the displacement is a coordinate.",
+    sample: "axis = [1.0, 0.0, 0.0]",
+    parameters: &[Parameter::optional(
+        "displacement",
+        ParameterType::Number,
+        "m",
+        "Value of the relative displacement at the start; default 0.",
+    )],
+    build: Build::Relative(Frames::Axis, |parameters, _| {
+        Ok(Box::new(PointOnLine { displacement: parameters.number_or("displacement", 0.0)? }))
+    }),
+};
+
+/// A point on a line.
+#[derive(Clone, Copy, Debug)]
+pub struct PointOnLine {
+    /// Relative displacement at the start [m].
+    displacement: f64,
+}
+
+impl Joint for PointOnLine {
+    const COORDINATES: &'static [Coordinate] = &[Coordinate::displacement("displacement")];
+    const MOST: usize = 3;
+
+    fn equations(&self) -> &'static [&'static str] {
+        &POINT_EQUATIONS
+    }
+
+    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+        let place = Motion::new(Rotation::identity(), self.displacement * Vector3::z());
+        ([self.displacement, 0.0], place)
+    }
+
+    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+        let mut out = Equations::default();
+        out[..3].copy_from_slice((relative.position - own.value[0] * Vector3::z()).as_slice());
+        out
+    }
+
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        let Triple { x, y, z } = moved.position_change;
+        let zero = x.like(0.0);
+        [x, y, z - own.change[0], zero, zero, zero]
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        _: &OwnMoved<R>,
+        _: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        (force_wrench(moved, Triple::new(mu[0], mu[1], mu[2])), [-mu[2], mu[2].like(0.0)])
+    }
+
+    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+        for axis in 0..3 {
+            component_gradient(relative, axis, axis, out);
+        }
+        out.own[(2, 0)] = -1.0;
+    }
+
+    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
+        force_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+    }
+}

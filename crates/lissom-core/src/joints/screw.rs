@@ -1,0 +1,118 @@
+//! Screw joint: the tip turns about an axis of the base and moves along it by `lead` per turn. The rotation is an
+//! algebraic coordinate: x = (lead/2π) φ e₃ in the joint frame, R = Q(φ).
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use std::f64::consts::TAU;
+
+use lissom_motion::{Motion, Real, Rotation, Screw as Wrench, Vector3};
+
+use super::clamp::EQUATIONS;
+use super::moved::{Moved, OwnMoved};
+use super::primitives::{
+    JointRotation, coincident_curvature, coincident_gradient, elementary, on_third_axis,
+};
+use super::{
+    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
+    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+};
+use crate::registry::{Parameter, ParameterType};
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "screw",
+    summary: "The tip turns about an axis and moves along it in proportion; the rotation is a coordinate.",
+    sample: "axis = [1.0, 0.0, 0.0]\nlead = 5e-3",
+    parameters: &[
+        Parameter::required(
+            "lead",
+            ParameterType::Number,
+            "m",
+            "Displacement along `axis` per turn; negative for a left-handed thread.",
+        ),
+        Parameter::optional(
+            "angle",
+            ParameterType::Number,
+            "rad",
+            "Value of the relative rotation at the start; default 0.",
+        ),
+    ],
+    build: Build::Relative(Frames::Axis, |parameters, _| {
+        Ok(Box::new(Screw {
+            pitch: parameters.number("lead")? / TAU,
+            angle: parameters.number_or("angle", 0.0)?,
+        }))
+    }),
+};
+
+/// A nut on a thread.
+#[derive(Clone, Copy, Debug)]
+pub struct Screw {
+    /// Displacement per radian [m/rad].
+    pitch: f64,
+    /// Relative rotation at the start [rad].
+    angle: f64,
+}
+
+impl Joint for Screw {
+    const COORDINATES: &'static [Coordinate] = &[Coordinate::rotation("angle")];
+
+    fn equations(&self) -> &'static [&'static str] {
+        &EQUATIONS
+    }
+
+    fn numbers(&self) -> [f64; MOST_NUMBERS] {
+        let mut numbers = [0.0; MOST_NUMBERS];
+        numbers[0] = self.pitch;
+        numbers
+    }
+
+    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+        let rotation = Rotation::from_matrix(&elementary(2, self.angle));
+        ([self.angle, 0.0], Motion::new(rotation, self.pitch * self.angle * Vector3::z()))
+    }
+
+    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+        let mut out = Equations::default();
+        on_third_axis(relative, self.pitch * own.value[0], 0, &mut out);
+        JointRotation::about_third_axis(&own.angle(0)).matches(relative, 3, &mut out);
+        out
+    }
+
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        numbers: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        let mut change = JointRotation::about_third_axis(&own.angles[0]).held_change(moved);
+        change[2] = change[2].minus_product(numbers[0], own.change[0]);
+        change
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        numbers: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Wrench<R>, [R; MOST_COORDINATES]) {
+        let (wrench, mut own) = JointRotation::about_third_axis(&own.angles[0]).held_wrench(moved, mu);
+        own[0] = own[0].minus_product(numbers[0], mu[2]);
+        (wrench, own)
+    }
+
+    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+        coincident_gradient(relative, 0, out);
+        out.own[(2, 0)] = -self.pitch;
+        JointRotation::about_third_axis(&own.angle(0)).matches_gradient(relative, 3, out);
+    }
+
+    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
+        coincident_curvature(relative, &Vector3::new(mu[0], mu[1], mu[2]), out);
+        JointRotation::about_third_axis(&own.angle(0)).matches_curvature(
+            relative,
+            &Vector3::new(mu[3], mu[4], mu[5]),
+            out,
+        );
+    }
+}

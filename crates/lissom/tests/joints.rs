@@ -1,0 +1,386 @@
+//! Kinds of joints against closed forms, and all of them with every scheme, with chosen steps and restarted.
+
+use lissom::{Model, Record, Session, SessionError};
+
+const EVERY_KIND: &str = include_str!("../../lissom-model/tests/every_kind.toml");
+const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
+
+fn set(path: &str, value: &str) -> (String, String) {
+    (path.to_owned(), value.to_owned())
+}
+
+fn run(text: &str, overrides: &[(String, String)]) -> Record {
+    let model = Model::from_text("model.toml", text);
+    let (record, report) = model.session(overrides).unwrap_or_else(|error| panic!("{error}")).record();
+    assert!(report.is_complete(), "{:?}", report.error());
+    record
+}
+
+fn column(record: &Record, output: &str, component: &str) -> Vec<f64> {
+    record.column(output, component).unwrap_or_else(|| panic!("{output}.{component}")).to_vec()
+}
+
+fn last(record: &Record, output: &str, component: &str) -> f64 {
+    *column(record, output, component).last().expect("steps")
+}
+
+/// What a wrong model is told.
+fn told(text: &str) -> String {
+    match Model::from_text("wrong.toml", text).session(&[]) {
+        Err(SessionError::Model(report)) => report.render(false),
+        Err(error) => panic!("{error}"),
+        Ok(_) => panic!("not refused"),
+    }
+}
+
+const OUTPUTS: &str = "
+[outputs.nut]
+kind = \"position\"
+of = \"nut\"
+[outputs.half_shaft]
+kind = \"position\"
+of = \"half_shaft\"
+[outputs.carriage]
+kind = \"position\"
+of = \"carriage\"
+[outputs.table]
+kind = \"reaction\"
+of = \"table\"
+";
+
+#[test]
+fn all_kinds_run_with_every_scheme_and_with_chosen_steps() {
+    let text = format!("{EVERY_KIND}{OUTPUTS}");
+    let reference = run(
+        &text,
+        &[set("analysis.end", "0.2"), set("analysis.step", "2e-4"), set("analysis.scheme", "radau-iia")],
+    );
+    let ends = |record: &Record| {
+        ["nut", "half_shaft", "carriage"]
+            .iter()
+            .flat_map(|body| ["x", "y", "z"].map(|axis| last(record, body, axis)))
+            .collect::<Vec<_>>()
+    };
+    let near = |record: &Record, tolerance: f64, what: &str| {
+        for (a, b) in ends(record).iter().zip(ends(&reference)) {
+            assert!((a - b).abs() < tolerance, "{what}: {a} {b}");
+        }
+    };
+    for scheme in SCHEMES {
+        let overrides =
+            [set("analysis.end", "0.2"), set("analysis.step", "1e-3"), set("analysis.scheme", scheme)];
+        near(&run(&text, &overrides), 2e-5, scheme);
+    }
+    let chosen = EVERY_KIND
+        .replace("step = 2e-3", "relative_tolerance = 1e-5")
+        .replace("scheme = \"energy-decaying\"\n", "");
+    near(&run(&format!("{chosen}{OUTPUTS}"), &[set("analysis.end", "0.2")]), 1e-4, "chosen steps");
+}
+
+#[test]
+fn all_kinds_go_on_from_a_snapshot_to_the_last_bit() {
+    let model = Model::from_text("every_kind.toml", &format!("{EVERY_KIND}{OUTPUTS}"));
+    for scheme in SCHEMES {
+        let overrides = [set("analysis.scheme", scheme)];
+        let mut session = model.session(&overrides).unwrap();
+        session.step_to(0.1).unwrap();
+        let snapshot = session.snapshot().to_bytes();
+        let go_on = |session: &mut Session| {
+            session.step_to(0.2).unwrap();
+            let mut values = Vec::new();
+            session.values(&mut values);
+            values
+        };
+        let straight = go_on(&mut session);
+        let mut other = model.session(&overrides).unwrap();
+        other.restore(&lissom::SessionSnapshot::from_bytes(&snapshot).unwrap()).unwrap();
+        assert_eq!(go_on(&mut other), straight, "{scheme}");
+    }
+}
+
+/// A nut on a thread, released: with p = lead/2π, d̈ = -g m / (m + J/p²).
+#[test]
+fn a_nut_falls_as_its_lead_lets_it() {
+    let record = run(
+        r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[bodies.nut]
+mass = 2
+inertia = [0.01, 0.01, 0.003]
+[joints.spindle]
+kind = "screw"
+base = "ground"
+tip = "nut"
+at = [0, 0, 0]
+axis = [0, 0, 1]
+lead = 0.1
+[outputs.nut]
+kind = "position"
+of = "nut"
+[outputs.spindle]
+kind = "relative"
+of = "spindle"
+[outputs.thread]
+kind = "reaction"
+of = "spindle"
+[analysis]
+kind = "dynamics"
+scheme = "radau-iia"
+end = 1.0
+step = 0.01
+"#,
+        &[],
+    );
+    let pitch = 0.1 / std::f64::consts::TAU;
+    let acceleration = -9.81 * 2.0 / (2.0 + 0.003 / (pitch * pitch));
+    let (z, angle) = (last(&record, "nut", "z"), last(&record, "spindle", "angle"));
+    assert!((z - 0.5 * acceleration).abs() < 1e-10, "{z} {}", 0.5 * acceleration);
+    assert!((z - pitch * angle).abs() < 1e-14, "{z} {angle}");
+    // On the nut: m (d̈ + g) along the axis, and J φ̈ about it.
+    let (force, moment) = (last(&record, "thread", "f3"), last(&record, "thread", "m3"));
+    assert!((force - 2.0 * (acceleration + 9.81)).abs() < 1e-8, "{force}");
+    assert!((moment - 0.003 * acceleration / pitch).abs() < 1e-8, "{moment}");
+}
+
+/// Two shafts bent by 0.6 rad: the output turns as the input, at any angle.
+#[test]
+fn a_constant_velocity_joint_keeps_the_velocity() {
+    let text = r#"
+lissom = 1
+[bodies.input]
+mass = 1
+inertia = [0.01, 0.01, 0.01]
+[bodies.output]
+mass = 1
+inertia = [0.01, 0.01, 0.01]
+[joints.bearing]
+kind = "revolute"
+base = "ground"
+tip = "input"
+at = [0, 0, 0]
+axis = [1, 0, 0]
+[joints.motor]
+kind = "prescribed_rotation"
+joint = "bearing"
+rotation = "3*t + 0.5*sin(5*t)"
+[joints.end_bearing]
+kind = "parallel_axes"
+base = "ground"
+tip = "output"
+axis = ["cos(0.6)", "sin(0.6)", 0]
+[joints.rzeppa]
+kind = "constant_velocity"
+base = "input"
+tip = "output"
+at = [0, 0, 0]
+axis = [1, 0, 0]
+tip_axis = ["-cos(0.6)", "-sin(0.6)", 0]
+[outputs.in]
+kind = "relative"
+of = "bearing"
+[outputs.out]
+kind = "relative"
+of = "end_bearing"
+[analysis]
+kind = "dynamics"
+scheme = "radau-iia"
+end = 2.0
+step = 0.01
+"#;
+    let record = run(text, &[]);
+    let (angles, turned) = (column(&record, "in", "angle"), column(&record, "out", "angle"));
+    assert!(angles.iter().zip(&turned).all(|(a, b)| (a - b).abs() < 1e-11));
+    assert!(turned.last().copied().unwrap_or(0.0) > 5.0);
+    let square = text.replace("tip_axis = [\"-cos(0.6)\", \"-sin(0.6)\", 0]", "tip_axis = [0, 0, 1]");
+    assert!(told(&square).contains("perpendicular"));
+}
+
+fn sliding(joint: &str, outputs: &str) -> Record {
+    run(
+        &format!(
+            r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[bodies.block]
+mass = 3
+inertia = [0.01, 0.02, 0.03]
+[joints.slide]
+base = "ground"
+tip = "block"
+at = [0, 0, 0]
+{joint}
+[outputs.block]
+kind = "position"
+of = "block"
+[outputs.slide]
+kind = "reaction"
+of = "slide"
+{outputs}
+[analysis]
+kind = "dynamics"
+scheme = "radau-iia"
+end = 1.0
+step = 0.01
+"#
+        ),
+        &[],
+    )
+}
+
+/// On a plane sloping by 0.3 rad: ½ g sin 0.3 t² along it, and the weight's part across it as reaction.
+#[test]
+fn blocks_slide_down_planes_and_lines() {
+    let (sine, cosine) = 0.3_f64.sin_cos();
+    let way = 0.5 * 9.81 * sine;
+    for kind in ["planar", "point_in_plane", "generic"] {
+        let axes = if kind == "generic" {
+            // z is across both axes.
+            "locked = [\"z\", \"rx\"]\naxis = [\"cos(0.3)\", 0, \"-sin(0.3)\"]\nsecond_axis = [0, 1, 0]"
+        } else {
+            "axis = [\"sin(0.3)\", 0, \"cos(0.3)\"]"
+        };
+        let record = sliding(&format!("kind = \"{kind}\"\n{axes}"), "");
+        for (axis, wanted) in [("x", way * cosine), ("y", 0.0), ("z", -way * sine)] {
+            let found = last(&record, "block", axis);
+            assert!((found - wanted).abs() < 1e-11, "{kind}: {axis} {found} {wanted}");
+        }
+        for (axis, wanted) in [("f1", sine), ("f2", 0.0), ("f3", cosine), ("m1", 0.0), ("m2", 0.0)] {
+            let (found, wanted) = (last(&record, "slide", axis), 3.0 * 9.81 * cosine * wanted);
+            assert!((found - wanted).abs() < 1e-8, "{kind}: {axis} {found} {wanted}");
+        }
+    }
+    let line = "axis = [\"cos(0.3)\", 0, \"-sin(0.3)\"]";
+    for kind in ["point_on_line", "inline"] {
+        let outputs = "[outputs.way]\nkind = \"relative\"\nof = \"slide\"";
+        let has_coordinate = kind == "point_on_line";
+        let record =
+            sliding(&format!("kind = \"{kind}\"\n{line}"), if has_coordinate { outputs } else { "" });
+        assert!((last(&record, "block", "x") - way * cosine).abs() < 1e-11, "{kind}");
+        if has_coordinate {
+            assert!((last(&record, "way", "displacement") - way).abs() < 1e-11);
+            assert!((last(&record, "way", "velocity") - 2.0 * way).abs() < 1e-10);
+        }
+    }
+}
+
+/// Thrown with a spin about all axes: of it the joint leaves what its axes allow.
+#[test]
+fn axes_stay_parallel_or_perpendicular() {
+    let thrown = |joint: &str| {
+        run(
+            &format!(
+                r#"
+lissom = 1
+[bodies.a]
+mass = 1
+inertia = [0.01, 0.02, 0.03]
+angular_velocity = [1, 2, 3]
+[joints.j]
+base = "ground"
+tip = "a"
+{joint}
+[outputs.spin]
+kind = "angular_velocity"
+of = "a"
+[outputs.centre]
+kind = "position"
+of = "a"
+[outputs.arm]
+kind = "position"
+of = "a"
+point = [0, 1, 0]
+[analysis]
+kind = "dynamics"
+scheme = "radau-iia"
+end = 1.0
+step = 0.005
+"#
+            ),
+            &[],
+        )
+    };
+    let parallel = thrown("kind = \"parallel_axes\"\naxis = [0, 0, 1]");
+    for (component, wanted) in [("w1", 0.0), ("w2", 0.0), ("w3", 3.0)] {
+        assert!((last(&parallel, "spin", component) - wanted).abs() < 1e-12, "{component}");
+    }
+    // The tip's y stays across global x: it has no x component, though it leaves y.
+    let perpendicular = thrown("kind = \"perpendicular_axes\"\naxis = [1, 0, 0]\nsecond_axis = [0, 1, 0]");
+    let along = |axis: &str| last(&perpendicular, "arm", axis) - last(&perpendicular, "centre", axis);
+    assert!(along("x").abs() < 1e-12, "{}", along("x"));
+    assert!(along("y") < 0.9, "{}", along("y"));
+}
+
+/// The generic joint with the freedoms of another one moves as that one.
+#[test]
+fn the_generic_joint_is_any_of_the_others() {
+    let pendulum = |joint: &str| {
+        let record = run(
+            &format!(
+                r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[bodies.a]
+mass = 1
+inertia = [0.01, 0.02, 0.03]
+position = [0.5, 0.1, 0]
+[joints.j]
+base = "ground"
+tip = "a"
+at = [0, 0, 0]
+{joint}
+[outputs.a]
+kind = "position"
+of = "a"
+[outputs.j]
+kind = "reaction"
+of = "j"
+[analysis]
+kind = "dynamics"
+scheme = "radau-iia"
+end = 1.0
+step = 0.002
+"#
+            ),
+            &[],
+        );
+        let places = ["x", "y", "z"].map(|axis| last(&record, "a", axis)).to_vec();
+        let forces = ["f1", "f2", "f3", "m1", "m2", "m3"].map(|axis| last(&record, "j", axis)).to_vec();
+        [places, forces]
+    };
+    let axes = "axis = [1, 0, 0.2]\nsecond_axis = [0, 1, 0]";
+    for (locked, other) in [
+        ("[\"x\", \"y\", \"z\", \"rx\", \"rz\"]", "kind = \"revolute\"\naxis = [0, 1, 0]"),
+        ("[\"x\", \"y\", \"z\"]", "kind = \"spherical\""),
+        ("[\"y\", \"z\", \"rx\", \"ry\", \"rz\"]", "kind = \"prismatic\"\naxis = [1, 0, 0.2]"),
+        ("[\"y\", \"z\", \"ry\", \"rz\"]", "kind = \"cylindrical\"\naxis = [1, 0, 0.2]"),
+        ("[\"x\", \"y\", \"z\", \"rz\"]", &format!("kind = \"universal\"\n{axes}")),
+    ] {
+        let generic = pendulum(&format!("kind = \"generic\"\nlocked = {locked}\n{axes}"));
+        for (a, b) in generic.iter().flatten().zip(pendulum(other).iter().flatten()) {
+            assert!((a - b).abs() < 1e-6 * (1.0 + b.abs()), "{locked}: {a}, {b} of {other}");
+        }
+    }
+}
+
+#[test]
+fn wrong_locks_are_told() {
+    let told_of = |lines: &str| {
+        let text = format!(
+            "lissom = 1\n[bodies.a]\nmass = 1\ninertia = [1, 1, 1]\n[joints.j]\nkind = \"generic\"\n\
+             base = \"ground\"\ntip = \"a\"\n{lines}\n[analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.1\n"
+        );
+        told(&text)
+    };
+    for (lines, words) in [
+        ("locked = []", "is empty"),
+        ("locked = [\"x\", \"x\"]", "twice"),
+        ("locked = [\"rw\"]", "cannot hold `rw`"),
+        ("locked = \"x\"", "list of words"),
+        ("locked = [\"x\"]\naxis = [1, 0, 0]", "give both axes"),
+        ("locked = [\"x\"]\naxis = [1, 0, 0]\nsecond_axis = [1, 1, 0]", "not at 90"),
+    ] {
+        let error = told_of(lines);
+        assert!(error.contains(words), "{lines}: {error}");
+    }
+}
