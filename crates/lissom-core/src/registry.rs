@@ -48,6 +48,29 @@ impl TimeFunction for Constant {
     }
 }
 
+/// A force, or moment, over two quantities such as an elongation and its rate, with exact derivatives.
+pub trait ForceFunction: Send + Sync + fmt::Debug {
+    /// The force and its derivatives by the first and by the second quantity.
+    fn evaluate(&self, first: f64, second: f64) -> [f64; 3];
+    /// Whether it depends on the second quantity. Default: it does not.
+    fn depends_on_second(&self) -> bool {
+        false
+    }
+    /// Values of the first quantity at which it is known not to be smooth, in ascending order. Default: none.
+    fn kinks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+}
+
+/// A shared force.
+pub type Force = Arc<dyn ForceFunction>;
+
+impl ForceFunction for Constant {
+    fn evaluate(&self, _: f64, _: f64) -> [f64; 3] {
+        [self.0, 0.0, 0.0]
+    }
+}
+
 /// What a parameter holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterType {
@@ -69,6 +92,10 @@ pub enum ParameterType {
     /// states and outputs. A load is told functions of time only: where there is more in the expression, the load of
     /// size one is multiplied.
     Size,
+    /// A force over the two named quantities: a number, an expression of them, or a table over the first.
+    Force(&'static [&'static str; 2]),
+    /// Two ascending numbers, which may be infinite.
+    Range,
     /// One of the listed words.
     Choice(&'static [&'static str]),
     /// Some of the listed words, each at most once.
@@ -135,6 +162,10 @@ pub enum Value {
     Words(Vec<String>),
     /// A function of time.
     Function(Function),
+    /// A force.
+    Force(Force),
+    /// Two ascending numbers.
+    Range([f64; 2]),
 }
 
 /// The parameters given for one component, by name.
@@ -253,6 +284,43 @@ impl Parameters {
             Some(Value::Function(value)) => Ok(Arc::clone(value)),
             Some(Value::Number(value)) => Ok(Arc::new(Constant(*value))),
             other => Err(wrong(name, "a number or an expression in t", other)),
+        }
+    }
+
+    /// A force, if it is given; a number counts as a constant force.
+    ///
+    /// # Errors
+    /// If it is given and neither force nor number.
+    pub fn force(&self, name: &str) -> Result<Option<Force>, ParameterError> {
+        match self.values.get(name) {
+            None => Ok(None),
+            Some(Value::Force(value)) => Ok(Some(Arc::clone(value))),
+            Some(Value::Number(value)) => Ok(Some(Arc::new(Constant(*value)))),
+            other => Err(wrong(name, "a force", other)),
+        }
+    }
+
+    /// Two ascending numbers, if they are given.
+    ///
+    /// # Errors
+    /// If they are given and no range, or do not ascend.
+    pub fn range(&self, name: &str) -> Result<Option<[f64; 2]>, ParameterError> {
+        match self.values.get(name) {
+            None => Ok(None),
+            Some(Value::Range([low, high])) if low < high => Ok(Some([*low, *high])),
+            other => Err(wrong(name, "two ascending numbers", other)),
+        }
+    }
+
+    /// A word, if it is given.
+    ///
+    /// # Errors
+    /// If it is given and no text.
+    pub fn word(&self, name: &str) -> Result<Option<&str>, ParameterError> {
+        match self.values.get(name) {
+            None => Ok(None),
+            Some(Value::Text(word)) => Ok(Some(word)),
+            other => Err(wrong(name, "a word", other)),
         }
     }
 

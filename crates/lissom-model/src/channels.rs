@@ -8,7 +8,7 @@ use lissom_core::elements::quadrature::gauss_lobatto;
 use lissom_core::elements::shape::lagrange;
 use lissom_core::joints::{Equations, Quantity};
 use lissom_core::signals::Argument;
-use lissom_core::system::{CoordinateId, Kinematics, NodeId, State, System};
+use lissom_core::system::{CoordinateId, ElementId, Kinematics, NodeId, State, System};
 use lissom_motion::{Motion, Vector3, rotation_part, translation_part};
 
 use crate::document::{Document, NodeReference, Output, OutputKind, OutputSource};
@@ -32,6 +32,7 @@ pub(crate) struct Resolver<'a> {
     pub(crate) nodes: &'a BTreeMap<String, NodeId>,
     pub(crate) lines: &'a BTreeMap<String, BeamLine>,
     pub(crate) coordinates: &'a BTreeMap<String, Vec<CoordinateId>>,
+    pub(crate) springs: &'a BTreeMap<String, (ElementId, Quantity)>,
     /// Signals, inputs and states.
     pub(crate) signals: &'a BTreeMap<String, Argument>,
 }
@@ -56,6 +57,7 @@ enum Source {
     Joint(usize),
     Drive(usize),
     Coordinates(Vec<CoordinateId>),
+    Spring(ElementId, Quantity),
     Energy,
     Momentum,
     Signal(Argument),
@@ -127,6 +129,9 @@ impl Channel {
                     out.extend([motion.value, motion.rate]);
                 }
             }
+            Source::Spring(element, _) => {
+                out.extend(system.spring_motion(*element, at).unwrap_or([f64::NAN; 3]));
+            }
             Source::Signal(argument) => out.push(signal_value(system, at, *argument)),
             Source::Momentum => {
                 let (linear, angular) = system.momentum(at);
@@ -196,6 +201,16 @@ fn channel(
         OutputSource::Signal(name) => {
             names.signals.get(&name.value).map(|&of| Source::Signal(of)).ok_or_else(|| {
                 Problem::error(name.span, format!("there is no signal called `{}`", name.value))
+            })?
+        }
+        OutputSource::Spring(name) => {
+            let known = names
+                .springs
+                .get(&name.value)
+                .filter(|(element, _)| system.spring_motion(*element, &state.kinematics).is_some());
+            known.map(|&(element, quantity)| Source::Spring(element, quantity)).ok_or_else(|| {
+                Problem::error(name.span, format!("spring `{}` has no elongation to record", name.value))
+                    .help("name a spring between two points, or on a joint's coordinate")
             })?
         }
         OutputSource::Joint(name) => joint_source(output, name, system, names)?,
@@ -308,6 +323,10 @@ fn components(kind: OutputKind, source: &Source, system: &System) -> (Vec<String
         }
         (OutputKind::Relative, Source::Coordinates(coordinates)) => relative(coordinates, system),
         (OutputKind::Relative, _) => (Vec::new(), Vec::new()),
+        (OutputKind::Spring, Source::Spring(_, Quantity::Angle)) => {
+            words(&["rotation", "rate", "moment"], &["rad", "rad/s", "N m"])
+        }
+        (OutputKind::Spring, _) => words(&["elongation", "rate", "force"], &["m", "m/s", "N"]),
         (OutputKind::Momentum, _) => {
             words(&["p1", "p2", "p3", "l1", "l2", "l3"], &["N s", "N s", "N s", "N m s", "N m s", "N m s"])
         }

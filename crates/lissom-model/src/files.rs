@@ -68,7 +68,7 @@ pub fn read_text(path: &Path) -> Result<String, FileError> {
     })
 }
 
-/// A file in the same folder whose name is nearly that of `path`, or the model files that are there.
+/// A file in the same folder whose name is nearly that of `path`, or the files of its kind that are there.
 fn similar_file(path: &Path) -> Option<String> {
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let Ok(entries) = fs::read_dir(folder) else {
@@ -76,7 +76,7 @@ fn similar_file(path: &Path) -> Option<String> {
     };
     let names: Vec<String> = entries
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
-        .filter(|name| Path::new(name).extension().is_some_and(|extension| extension == "toml"))
+        .filter(|name| Path::new(name).extension() == path.extension())
         .collect();
     let wanted = path.file_name()?.to_str()?;
     suggest::help(wanted, names.iter().map(String::as_str))

@@ -6,18 +6,9 @@ use lissom_core::registry::Function;
 
 use crate::context::Context;
 use crate::expression::Formula;
-use crate::functions::{Interpolation, Table, TableError, of_expression};
-use crate::keys::{Key, Shape, choice, optional, required};
-use crate::reader::Reader;
+use crate::functions::of_expression;
+use crate::table::Extrapolation;
 use crate::text::{Node, Value};
-
-/// Keys of a function given by a table.
-pub(crate) fn table_keys() -> Vec<Key> {
-    vec![
-        required("table", Shape::Rows, "", "rows [t, value] in order of time"),
-        optional("interpolation", choice(&["linear", "spline"]), "", "between the rows, default linear"),
-    ]
-}
 
 /// The size of a load.
 pub(crate) enum Size {
@@ -49,7 +40,7 @@ impl Context<'_> {
     /// A number, an expression of `t`, or a table of rows.
     pub(crate) fn function(&self, node: &Node, what: &str) -> Option<Function> {
         let function = match node.value {
-            Value::Table(_) => self.table_function(node, what)?,
+            Value::Table(_) => Arc::new(self.read_table(node, what, Extrapolation::Constant)?),
             Value::List(_) | Value::Flag(_) | Value::Date => {
                 return self.wrong_type(
                     node,
@@ -61,31 +52,5 @@ impl Context<'_> {
         };
         self.functions.borrow_mut().push((Arc::clone(&function), node.span, what.to_owned()));
         Some(function)
-    }
-
-    fn table_function(&self, node: &Node, what: &str) -> Option<Function> {
-        let reader = Reader::open(self, node, (what.to_owned(), node.span), table_keys())?;
-        let interpolation = match reader.choice("interpolation") {
-            Some(word) if word.value == "spline" => Interpolation::Spline,
-            _ => Interpolation::Linear,
-        };
-        let table = reader.node("table")?;
-        let Value::List(rows) = &table.value else {
-            return self.wrong_type(table, what, "a list of rows [t, value]");
-        };
-        let row = |row: &Node| self.numbers::<2>(row, &format!("each row of {what}")).map(|[t, v]| (t, v));
-        let read: Vec<Option<(f64, f64)>> = rows.iter().map(row).collect();
-        let read: Vec<(f64, f64)> = read.into_iter().collect::<Option<_>>()?;
-        match Table::new(&read, interpolation) {
-            Ok(table) => Some(Arc::new(table)),
-            Err(error) => {
-                let place = match error {
-                    TableError::NotAscending(row) => rows.get(row + 1).map_or(table.span, |row| row.span),
-                    TableError::TooShort => table.span,
-                };
-                let message = format!("{what} is no function: {error}");
-                self.fail(place, message, "give rows [t, value] in order of time")
-            }
-        }
     }
 }

@@ -68,6 +68,12 @@ pub(crate) enum Shape {
     Rows,
     /// Two numbers.
     Pair,
+    /// Two texts.
+    Words,
+    /// A number, an expression of the two named quantities, or a table over the first.
+    Force(&'static [&'static str; 2]),
+    /// Two ascending numbers, which may be infinite.
+    Range,
     /// A table that is read entry by entry.
     Table,
 }
@@ -156,6 +162,8 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
         ParameterType::Flag => Shape::Flag,
         ParameterType::Function => Shape::Function,
         ParameterType::Size => Shape::Size,
+        ParameterType::Force(names) => Shape::Force(names),
+        ParameterType::Range => Shape::Range,
         ParameterType::Choice(words) => choice(words),
         ParameterType::Choices(words) => Shape::Choices(words),
     };

@@ -5,9 +5,11 @@
 
 pub mod channels;
 mod context;
+mod data_file;
 pub mod document;
 pub mod expression;
 pub mod files;
+mod force_values;
 mod function_values;
 pub mod functions;
 mod keys;
@@ -25,6 +27,8 @@ mod schema;
 pub mod sections;
 mod suggest;
 pub mod sweep;
+pub mod table;
+mod table_values;
 mod text;
 mod toml_text;
 mod values;

@@ -13,11 +13,13 @@ A model is a TOML file. Units are SI, angles radians, axes right-handed.
 - **Numbers.** Wherever a number stands, a text may stand instead: an expression of the `[parameters]`, such as
   `\"L/2\"`. A parameter may name those above it.
 - **Expressions** know `+ - * / ^ ( )`, `pi`, the parameters, and the functions below; `-t^2` is `-(t^2)`.
+  `a < b`, `<=`, `>`, `>=` are 1 where they hold and 0 elsewhere; `if(condition, a, b)` is `b` where the condition is 0.
   `step(x)` is 0 below and 1 from zero on; `smoothstep(x)` goes from 0 at 0 to 1 at 1 with continuous second
   derivative. Functions of time name `t` [s]; curves and twists name `s`, from 0 to 1 along the beam.
 - **Functions of time** are a number, an expression of `t`, or
-  `{ table = [[t, value], …], interpolation = \"linear\" }` (or `\"spline\"`); before and after the table the end
-  values hold.
+  `{ table = [[t, value], …], interpolation = \"linear\" }` (or `\"spline\"`, or `\"monotone\"`, which does not
+  overshoot); before and after the table the end values hold. Instead of `table`, `file = \"motor.csv\"` and
+  `columns = [\"time\", \"torque\"]` take two columns of a text file in the model's folder.
 - **Sizes** of loads are functions of time, or expressions that name inputs, signals, states, coordinates of joints as
   `arm.rotation`, and components of outputs as `tip.u1`.
 - **Places** are three numbers or the name of an entry of `[points]`.
@@ -159,6 +161,11 @@ fn words(shape: &Shape) -> String {
         Shape::Stations => "a list of tables",
         Shape::Rows => "a list of pairs",
         Shape::Pair => "two numbers",
+        Shape::Words => "two texts",
+        Shape::Force([first, second]) => {
+            return format!("a number, an expression of `{first}` and `{second}`, or a table over `{first}`");
+        }
+        Shape::Range => "two ascending numbers, which may be `-inf` and `inf`",
         Shape::Table => "a table",
     };
     fixed.to_owned()

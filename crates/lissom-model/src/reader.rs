@@ -278,6 +278,12 @@ impl<'c, 'a> Reader<'c, 'a> {
                     Size::Signal(_) => Held::Number(1.0),
                 }),
                 ParameterType::Choices(_) => self.choices(name).map(Held::Words),
+                ParameterType::Force(names) => self
+                    .node(name)
+                    .and_then(|node| self.context.force(node, &self.words(name), names).map(Held::Force)),
+                ParameterType::Range => self
+                    .node(name)
+                    .and_then(|node| self.context.range(node, &self.words(name)).map(Held::Range)),
                 ParameterType::Choice(_) => self.choice(name).map(|word| Held::Text(word.value.to_owned())),
             };
             if let (Some(value), Some(node)) = (value, self.node(name)) {

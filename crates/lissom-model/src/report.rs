@@ -3,6 +3,7 @@
 
 use std::fmt;
 use std::ops::Range;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
@@ -120,6 +121,9 @@ pub struct Sources {
     pieces: Vec<Piece>,
 }
 
+/// What the text of an override is called.
+pub(crate) const OVERRIDE: &str = "override";
+
 impl Sources {
     /// The text of one file.
     pub fn new(name: &str, text: &str) -> Self {
@@ -139,6 +143,14 @@ impl Sources {
     /// Where the next text will start.
     pub(crate) fn next_start(&self) -> usize {
         self.pieces.last().map_or(0, |piece| piece.end + 1)
+    }
+
+    /// The folder of the file that `span` is in; for overrides that of the model.
+    pub(crate) fn folder(&self, span: Span) -> PathBuf {
+        let name = self.piece(span).map_or("", |piece| piece.source.name());
+        let model = self.pieces.first().map_or("", |piece| piece.source.name());
+        let file = if name == OVERRIDE { model } else { name };
+        Path::new(file).parent().map_or_else(PathBuf::new, Path::to_path_buf)
     }
 
     /// The text at `span`, empty where there is none.

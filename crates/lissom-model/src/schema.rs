@@ -5,9 +5,9 @@ use serde_json::{Map, Value, json};
 
 use crate::document::VERSION;
 use crate::document::tables::{Holds, Variant, tops, variants};
-use crate::function_values::table_keys;
 use crate::keys::{Key, Shape};
 use crate::registry::Registry;
+use crate::table_values::table_keys;
 
 /// The schema (JSON Schema, draft 2020-12) of the files that [`Document::parse`](crate::Document::parse) reads
 /// with `registry`. What a schema cannot say, such as whether a name exists, only the decoder checks.
@@ -117,7 +117,7 @@ fn of_shape(shape: &Shape) -> Value {
         }
         Shape::Name(_) | Shape::Node => text(),
         Shape::Place | Shape::PlaceOrNode => any_of(&[text(), vector()]),
-        Shape::Function | Shape::Size => any_of(&[plain(), of_keys(&table_keys())]),
+        Shape::Function | Shape::Size | Shape::Force(_) => any_of(&[plain(), of_keys(&table_keys())]),
         Shape::Signal => any_of(&[plain(), of_keys(&Shape::signal_keys())]),
         Shape::Axes => list(&vector(), 2),
         Shape::Inertia => any_of(&[vector(), matrix(3)]),
@@ -128,7 +128,8 @@ fn of_shape(shape: &Shape) -> Value {
             json!({ "type": "array", "minItems": 2, "items": of_keys(&Shape::station_keys()) })
         }
         Shape::Rows => json!({ "type": "array", "minItems": 2, "items": list(&plain(), 2) }),
-        Shape::Pair => list(&plain(), 2),
+        Shape::Pair | Shape::Range => list(&plain(), 2),
+        Shape::Words => list(&text(), 2),
         Shape::Table => json!({ "type": "object" }),
     }
 }

@@ -6,7 +6,7 @@ use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::document::tables;
-use crate::report::{Problem, Sources, Span};
+use crate::report::{OVERRIDE, Problem, Sources, Span};
 use crate::suggest;
 
 /// A value and its place.
@@ -100,7 +100,7 @@ impl Tree {
         for (path, value) in overrides {
             let start = self.sources.next_start();
             let (shown, patch) = parse_override(path, value, start);
-            self.sources.push("override", &shown);
+            self.sources.push(OVERRIDE, &shown);
             // Without a readable file there is nothing to override.
             let done = patch.and_then(|patch| if readable { patch.apply(&mut self.root) } else { Ok(()) });
             self.problems.extend(done.err().map(|problem| *problem));

@@ -1,5 +1,7 @@
 //! The program, as scripts see it: exit codes, files, columns and facts.
 
+#[path = "command_line/data_file.rs"]
+mod data_file;
 #[path = "command_line/live.rs"]
 mod live;
 #[path = "command_line/modes.rs"]

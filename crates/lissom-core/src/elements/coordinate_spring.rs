@@ -1,5 +1,7 @@
-//! Springs and dampers on a joint's relative rotation or displacement: moment or force k (φ - φ₀) + c φ̇.
+//! Springs and dampers on a joint's relative rotation or displacement: moment or force k (φ - φ₀) + c φ̇, or
+//! another law of φ - φ₀ and φ̇.
 
+use super::force_law::{ForceLaw, SIDE_OF_ANGLE, SIDE_OF_LENGTH};
 use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
 use crate::joints::Quantity;
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
@@ -14,6 +16,31 @@ pub const TORSIONAL: ElementKind = ElementKind {
         Parameter::optional("stiffness", ParameterType::NotNegative, "N m/rad", "Stiffness; default 0."),
         Parameter::optional("damping", ParameterType::NotNegative, "N m s/rad", "Damping; default 0."),
         Parameter::optional(
+            "moment",
+            ParameterType::Force(&["rotation", "rate"]),
+            "N m",
+            "Moment over `rotation` and `rate`, in addition to `stiffness`; a table is over `rotation`.",
+        ),
+        Parameter::optional(
+            "damper_moment",
+            ParameterType::Force(&["rate", "rotation"]),
+            "N m",
+            "Moment over `rate` and `rotation`, in addition to `damping`; a table is over `rate`.",
+        ),
+        SIDE_OF_ANGLE,
+        Parameter::optional(
+            "limits",
+            ParameterType::Range,
+            "N m",
+            "Least and greatest moment; default none.",
+        ),
+        Parameter::optional(
+            "backlash",
+            ParameterType::NotNegative,
+            "rad",
+            "Width of the free play about the free rotation, without moment; default 0.",
+        ),
+        Parameter::optional(
             "angle",
             ParameterType::Number,
             "rad",
@@ -22,7 +49,9 @@ pub const TORSIONAL: ElementKind = ElementKind {
         COORDINATE,
     ],
     attachment: Attachment::Coordinate(Quantity::Angle),
-    build: |builder, attached, parameters| add(builder, attached, parameters, Quantity::Angle, "angle"),
+    build: |builder, attached, parameters| {
+        add(builder, attached, parameters, Quantity::Angle, ["angle", "moment", "damper_moment"])
+    },
 };
 
 /// Registry entry of the spring on a displacement.
@@ -34,6 +63,26 @@ pub const AXIAL: ElementKind = ElementKind {
         Parameter::optional("stiffness", ParameterType::NotNegative, "N/m", "Stiffness; default 0."),
         Parameter::optional("damping", ParameterType::NotNegative, "N s/m", "Damping; default 0."),
         Parameter::optional(
+            "force",
+            ParameterType::Force(&["elongation", "rate"]),
+            "N",
+            "Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation`.",
+        ),
+        Parameter::optional(
+            "damper_force",
+            ParameterType::Force(&["rate", "elongation"]),
+            "N",
+            "Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate`.",
+        ),
+        SIDE_OF_LENGTH,
+        Parameter::optional("limits", ParameterType::Range, "N", "Least and greatest force; default none."),
+        Parameter::optional(
+            "backlash",
+            ParameterType::NotNegative,
+            "m",
+            "Width of the free play about the free length, without force; default 0.",
+        ),
+        Parameter::optional(
             "displacement",
             ParameterType::Number,
             "m",
@@ -43,16 +92,15 @@ pub const AXIAL: ElementKind = ElementKind {
     ],
     attachment: Attachment::Coordinate(Quantity::Length),
     build: |builder, attached, parameters| {
-        add(builder, attached, parameters, Quantity::Length, "displacement")
+        add(builder, attached, parameters, Quantity::Length, ["displacement", "force", "damper_force"])
     },
 };
 
 /// Spring and damper on an algebraic coordinate.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct CoordinateSpring {
     coordinate: [CoordinateId; 1],
-    stiffness: f64,
-    damping: f64,
+    law: ForceLaw,
     /// Where it is free of force.
     rest: f64,
 }
@@ -62,17 +110,24 @@ fn add(
     attached: Attached,
     parameters: &Parameters,
     acts_on: Quantity,
-    rest: &str,
+    [rest, elastic, damper]: [&str; 3],
 ) -> Result<(), ParameterError> {
     let coordinate = attached.coordinate()?;
     builder.check_quantity(coordinate, acts_on)?;
     builder.add_element(CoordinateSpring {
         coordinate: [coordinate],
-        stiffness: parameters.number_or("stiffness", 0.0)?,
-        damping: parameters.number_or("damping", 0.0)?,
+        law: ForceLaw::new(parameters, [elastic, damper])?,
         rest: parameters.number_or(rest, 0.0)?,
     });
     Ok(())
+}
+
+impl CoordinateSpring {
+    /// Elongation and its rate.
+    fn motion(&self, at: &Kinematics) -> [f64; 2] {
+        let coordinate = &at.coordinates[self.coordinate[0]];
+        [coordinate.value - self.rest, coordinate.rate]
+    }
 }
 
 impl Element for CoordinateSpring {
@@ -85,17 +140,27 @@ impl Element for CoordinateSpring {
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
-        let coordinate = &at.coordinates[self.coordinate[0]];
-        out[0] += self.stiffness * (coordinate.value - self.rest) + self.damping * coordinate.rate;
+        let [elongation, rate] = self.motion(at);
+        out[0] += self.law.evaluate(elongation, rate).force;
     }
 
-    fn linearize(&self, _: &Kinematics, out: &mut Tangents) {
-        out.stiffness[0] += self.stiffness;
-        out.damping[0] += self.damping;
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        let [elongation, rate] = self.motion(at);
+        let response = self.law.evaluate(elongation, rate);
+        out.stiffness[0] += response.stiffness;
+        out.damping[0] += response.damping;
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
-        let stretch = at.coordinates[self.coordinate[0]].value - self.rest;
-        Energy { strain: 0.5 * self.stiffness * stretch * stretch, ..Energy::default() }
+        Energy { strain: self.law.energy(self.motion(at)[0]), ..Energy::default() }
+    }
+
+    fn is_load(&self) -> bool {
+        self.law.is_active()
+    }
+
+    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
+        let [elongation, rate] = self.motion(at);
+        Some([elongation, rate, self.law.evaluate(elongation, rate).force])
     }
 }

@@ -178,6 +178,13 @@ impl Element for Friction {
         out.damping[3] += 1.0;
     }
 
+    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
+        let coordinate = at.coordinates[self.coordinates[0]];
+        let mut forces = [0.0; 2];
+        self.forces(at, &mut forces);
+        Some([coordinate.value, coordinate.rate, forces[0]])
+    }
+
     fn energy(&self, at: &Kinematics) -> Energy {
         let deflection = at.coordinates[self.coordinates[1]].value;
         Energy { strain: 0.5 * self.stiffness * deflection * deflection, ..Energy::default() }

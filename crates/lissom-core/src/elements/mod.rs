@@ -7,6 +7,7 @@ pub mod beam;
 pub mod blocks;
 pub mod coordinate_spring;
 pub mod force;
+pub mod force_law;
 pub mod friction;
 pub mod inertia;
 mod inertia_blocks;
@@ -199,6 +200,11 @@ pub trait Element: Send + Sync + 'static {
     /// store is told by [`energy`](Self::energy), and what they take away is lost.
     fn is_load(&self) -> bool {
         false
+    }
+
+    /// Elongation, its rate and the force against it [SI], for springs and what is like them. Default: none.
+    fn spring_motion(&self, _at: &Kinematics) -> Option<[f64; 3]> {
+        None
     }
 
     /// Times at which its forces are known not to be smooth [s]. Default: none.

@@ -1,12 +1,13 @@
 //! Spring and damper between two points of two nodes, along the line that joins them.
 //!
 //! ```text
-//! Δ = x_B - x_A,   ℓ = |Δ|,   u = Δ/ℓ,   F = k (ℓ - ℓ₀) + c ℓ̇
+//! Δ = x_B - x_A,   ℓ = |Δ|,   u = Δ/ℓ,   F = k (ℓ - ℓ₀) + c ℓ̇, or another law of ℓ - ℓ₀ and ℓ̇
 //! ```
 
 use lissom_motion::{Matrix3, Vector3, skew};
 use nalgebra::SMatrix;
 
+use super::force_law::{ForceLaw, Response, SIDE_OF_LENGTH};
 use super::passage::{Passage, STAGES, above_round_off};
 use super::{Attached, Attachment, Element, ElementKind, Energy, MOST_UNKNOWNS, Tangents, add_block};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
@@ -22,6 +23,26 @@ pub const KIND: ElementKind = ElementKind {
         Parameter::optional("stiffness", ParameterType::NotNegative, "N/m", "Stiffness; default 0."),
         Parameter::optional("damping", ParameterType::NotNegative, "N s/m", "Damping; default 0."),
         Parameter::optional(
+            "force",
+            ParameterType::Force(&["elongation", "rate"]),
+            "N",
+            "Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation`.",
+        ),
+        Parameter::optional(
+            "damper_force",
+            ParameterType::Force(&["rate", "elongation"]),
+            "N",
+            "Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate`.",
+        ),
+        SIDE_OF_LENGTH,
+        Parameter::optional("limits", ParameterType::Range, "N", "Least and greatest force; default none."),
+        Parameter::optional(
+            "backlash",
+            ParameterType::NotNegative,
+            "m",
+            "Width of the free play about the free length, without force; default 0.",
+        ),
+        Parameter::optional(
             "length",
             ParameterType::NotNegative,
             "m",
@@ -33,12 +54,11 @@ pub const KIND: ElementKind = ElementKind {
 };
 
 /// Spring and damper between two points.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct PointSpring {
     nodes: [NodeId; 2],
     points: [Vector3; 2],
-    stiffness: f64,
-    damping: f64,
+    law: ForceLaw,
     length: f64,
 }
 
@@ -55,8 +75,7 @@ fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> 
     builder.add_element(PointSpring {
         nodes,
         points,
-        stiffness: parameters.number_or("stiffness", 0.0)?,
-        damping: parameters.number_or("damping", 0.0)?,
+        law: ForceLaw::new(parameters, ["force", "damper_force"])?,
         length: parameters.number_or("length", distance)?,
     });
     Ok(())
@@ -99,15 +118,15 @@ impl PointSpring {
         [0, 1].map(|i| Point::new(&at.nodes[self.nodes[i]], &self.points[i]))
     }
 
-    /// Direction, length, its rate and the tension.
-    fn tension(&self, [a, b]: &[Point; 2]) -> (Vector3, f64, f64, f64) {
+    /// Direction, length, its rate and the tension with its derivatives.
+    fn tension(&self, [a, b]: &[Point; 2]) -> (Vector3, f64, f64, Response) {
         let span = b.position - a.position;
         // The direction of a spring of no length is undefined; any finite answer serves Newton better
         // than NaN.
         let length = span.norm().max(f64::MIN_POSITIVE);
         let direction = span / length;
         let rate = direction.dot(&(b.velocity - a.velocity));
-        (direction, length, rate, self.stiffness * (length - self.length) + self.damping * rate)
+        (direction, length, rate, self.law.evaluate(length - self.length, rate))
     }
 }
 
@@ -131,7 +150,7 @@ impl Element for PointSpring {
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
         let points = self.points(at);
         let (direction, _, _, tension) = self.tension(&points);
-        add_pull(&points, &(tension * direction), out);
+        add_pull(&points, &(tension.force * direction), out);
     }
 
     /// The elongation is integrated; what that misses is put back along the relative velocities of the points.
@@ -156,7 +175,7 @@ impl Element for PointSpring {
         let rates = [0, 1].map(|j| tensions[j].2 + shares[j] * missed);
         let lengths = passage.at_stages(length, rates);
         for j in 0..STAGES {
-            let tension = self.stiffness * (lengths[j] - self.length) + self.damping * rates[j];
+            let tension = self.law.evaluate(lengths[j] - self.length, rates[j]).force;
             let pull = tension * (tensions[j].0 + missed * inverse * speeds[j]);
             add_pull(&points[j], &pull, &mut out[j]);
         }
@@ -164,14 +183,15 @@ impl Element for PointSpring {
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
         let points = self.points(at);
-        let (u, length, _, tension) = self.tension(&points);
+        let (u, length, _, response) = self.tension(&points);
+        let tension = response.force;
         let across = (Matrix3::identity() - u * u.transpose()) / length;
         let speed = points[1].velocity - points[0].velocity;
         // δF u = [F across + k u uᵀ + c u (across Δ̇)ᵀ] δΔ + c u uᵀ δΔ̇
         let by_span = tension * across
-            + self.stiffness * u * u.transpose()
-            + self.damping * u * (across * speed).transpose();
-        let by_speed = self.damping * u * u.transpose();
+            + response.stiffness * u * u.transpose()
+            + response.damping * u * (across * speed).transpose();
+        let by_speed = response.damping * u * u.transpose();
         let signs = [-1.0, 1.0];
         let gradients = [points[0].gradient(), points[1].gradient()];
         for i in 0..2 {
@@ -204,6 +224,15 @@ impl Element for PointSpring {
 
     fn energy(&self, at: &Kinematics) -> Energy {
         let (_, length, _, _) = self.tension(&self.points(at));
-        Energy { strain: 0.5 * self.stiffness * (length - self.length).powi(2), ..Energy::default() }
+        Energy { strain: self.law.energy(length - self.length), ..Energy::default() }
+    }
+
+    fn is_load(&self) -> bool {
+        self.law.is_active()
+    }
+
+    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
+        let (_, length, rate, tension) = self.tension(&self.points(at));
+        Some([length - self.length, rate, tension.force])
     }
 }

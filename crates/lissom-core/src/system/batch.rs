@@ -72,6 +72,8 @@ pub(crate) trait AnyBatch: Send + Sync {
     fn energy(&self, at: &Kinematics) -> Energy;
     /// Work of loads between two configurations [J].
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64;
+    /// Elongation, rate and force of an item that is like a spring.
+    fn spring_motion(&self, item: usize, at: &Kinematics) -> Option<[f64; 3]>;
     /// Times at which forces are known not to be smooth [s].
     fn kinks(&self) -> Vec<f64>;
     /// The largest rate at which an element deforms [1/s], with one of its nodes.
@@ -304,6 +306,10 @@ impl<E: Element> AnyBatch for Batch<E> {
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
         let loads = self.items.iter().filter(|item| item.is_load());
         loads.map(|load| work(load, (from, to), [1.0; 2])).sum()
+    }
+
+    fn spring_motion(&self, item: usize, at: &Kinematics) -> Option<[f64; 3]> {
+        self.items.get(item)?.spring_motion(at)
     }
 
     fn kinks(&self) -> Vec<f64> {

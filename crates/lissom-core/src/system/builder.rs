@@ -11,7 +11,7 @@ use super::feedback::{Feedback, Target};
 use super::layout::{Freedoms, LOCKED, Layout};
 use super::places::{Places, free_rows, position_of};
 use super::state::{CoordinateId, CoordinateMotion, Kinematics, NodeId, NodeMotion, State};
-use super::{Drive, GROUND, System};
+use super::{Drive, ElementId, GROUND, System};
 use crate::elements::Element;
 use crate::elements::inertia::{Gravity, Inertia};
 use crate::joints::attached::{AttachedJoint, CarriedFrame};
@@ -82,6 +82,8 @@ pub struct Builder {
     targets: Vec<(Target, SignalId)>,
     /// The signal that is the size of the loads being added.
     driver: Option<SignalId>,
+    /// The element added last.
+    last: Option<ElementId>,
 }
 
 impl Default for Builder {
@@ -112,6 +114,7 @@ impl Builder {
             graph: Graph::default(),
             targets: Vec::new(),
             driver: None,
+            last: None,
         }
     }
 
@@ -160,15 +163,22 @@ impl Builder {
             self.targets.push((Target::Load(Box::new(element)), signal));
             return;
         }
-        for batch in &mut self.batches {
+        for (index, batch) in self.batches.iter_mut().enumerate() {
             if let Some(batch) = batch.as_any_mut().downcast_mut::<Batch<E>>() {
                 batch.push(element);
+                self.last = Some(ElementId { batch: index, item: batch.len() - 1 });
                 return;
             }
         }
         let mut batch = Batch::<E>::new();
         batch.push(element);
+        self.last = Some(ElementId { batch: self.batches.len(), item: 0 });
         self.batches.push(Box::new(batch));
+    }
+
+    /// The element that was added last, if any since this was asked.
+    pub fn take_last_element(&mut self) -> Option<ElementId> {
+        self.last.take()
     }
 
     /// Adds a joint of a kind that stands between two nodes; gives its algebraic coordinates.

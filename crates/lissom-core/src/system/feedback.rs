@@ -324,6 +324,10 @@ impl AnyBatch for Arc<Feedback> {
         self.driven.iter().map(of).sum()
     }
 
+    fn spring_motion(&self, _: usize, _: &Kinematics) -> Option<[f64; 3]> {
+        None
+    }
+
     fn kinks(&self) -> Vec<f64> {
         Vec::new()
     }

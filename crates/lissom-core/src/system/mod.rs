@@ -52,6 +52,13 @@ pub struct Drive {
     pub(crate) positions: [usize; 3],
 }
 
+/// Where an element is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ElementId {
+    batch: usize,
+    item: usize,
+}
+
 /// Nodes, elements and joints with their numbering. Does not change during a simulation and knows
 /// neither time nor state.
 pub struct System {
@@ -142,6 +149,11 @@ impl System {
             sum += batch.energy(at);
         }
         sum
+    }
+
+    /// Elongation, its rate and the force against it [SI] of a spring or what is like one.
+    pub fn spring_motion(&self, element: ElementId, at: &Kinematics) -> Option<[f64; 3]> {
+        self.batches.get(element.batch)?.spring_motion(element.item, at)
     }
 
     /// Work of loads between two configurations [J], as if forces changed linearly in time between them and places as

@@ -3,7 +3,9 @@
 use std::sync::Arc;
 
 use lissom_core::joints::attached::Increments;
-use lissom_core::registry::{Constant, Parameter, ParameterType, Parameters, TimeFunction, Value};
+use lissom_core::registry::{
+    Constant, ForceFunction, Parameter, ParameterType, Parameters, TimeFunction, Value,
+};
 use lissom_core::system::{Augmentation, Kinematics, LOCKED, Layout, MotionChange, Point, State, System};
 use lissom_motion::{Motion, Vector3, Vector6};
 
@@ -50,10 +52,23 @@ impl TimeFunction for Wave {
     }
 }
 
-/// A value for every parameter of a kind.
+#[derive(Debug)]
+struct Waves;
+
+impl ForceFunction for Waves {
+    fn evaluate(&self, first: f64, second: f64) -> [f64; 3] {
+        let (a, b) = (1.1 * first + 0.3, 0.7 * second + 0.2);
+        [a.sin() * b.cos(), 1.1 * a.cos() * b.cos(), -0.7 * a.sin() * b.sin()]
+    }
+    fn depends_on_second(&self) -> bool {
+        true
+    }
+}
+
+/// A value for every parameter of a kind, but free play, which would leave most configurations without force.
 pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &mut Random) -> Parameters {
     let mut result = Parameters::new();
-    for parameter in parameters {
+    for parameter in parameters.iter().filter(|parameter| parameter.name != "backlash") {
         let value = match parameter.holds {
             ParameterType::Number => Value::Number(random.number()),
             ParameterType::Positive | ParameterType::NotNegative => Value::Number(1.5 + random.number()),
@@ -62,6 +77,9 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
             ParameterType::Function | ParameterType::Size => {
                 Value::Function(if flag { Arc::new(Wave) } else { Arc::new(Constant(0.6)) })
             }
+            ParameterType::Force(_) => Value::Force(Arc::new(Waves)),
+            // Differences do not see kinks; tests of their own do.
+            ParameterType::Range => Value::Range([-1e3, 1e3]),
             ParameterType::Choice(words) => Value::Text(words[0].to_owned()),
             ParameterType::Choices(words) => {
                 let chosen = words.iter().filter(|_| random.number() > 0.0);

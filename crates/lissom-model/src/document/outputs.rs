@@ -33,6 +33,8 @@ pub enum OutputKind {
     Reaction,
     /// Relative coordinate of a joint [rad or m].
     Relative,
+    /// Elongation, rate and force of a spring [m, m/s, N or rad, rad/s, N m].
+    Spring,
     /// Energies of the whole model [J].
     Energy,
     /// A signal, an input or a state.
@@ -43,7 +45,7 @@ pub enum OutputKind {
 
 impl OutputKind {
     /// All of them, in the order of the manual.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Position,
         Self::Displacement,
         Self::Rotation,
@@ -54,6 +56,7 @@ impl OutputKind {
         Self::SectionMoment,
         Self::Reaction,
         Self::Relative,
+        Self::Spring,
         Self::Energy,
         Self::Momentum,
         Self::Signal,
@@ -72,6 +75,7 @@ impl OutputKind {
             Self::SectionMoment => "section_moment",
             Self::Reaction => "reaction",
             Self::Relative => "relative",
+            Self::Spring => "spring",
             Self::Energy => "energy",
             Self::Momentum => "momentum",
             Self::Signal => "signal",
@@ -91,6 +95,7 @@ impl OutputKind {
             Self::SectionMoment => "Torsion and bending moments in a beam, local axes.",
             Self::Reaction => "Force and moment of a joint on its tip.",
             Self::Relative => "Relative coordinate of a joint.",
+            Self::Spring => "Elongation or rotation of a spring, its rate, and its force or moment.",
             Self::Energy => "Kinetic, strain, gravity and total energy of the model.",
             Self::Signal => "Value of a signal, an input or a state.",
             Self::Momentum => "Momentum and angular momentum of the model about the origin, global axes.",
@@ -99,7 +104,10 @@ impl OutputKind {
 
     /// Whether it belongs to any node.
     pub(crate) fn is_of_node(self) -> bool {
-        !(self.is_of_beam() || self.is_of_joint() || self.is_of_model() || self == Self::Signal)
+        !(self.is_of_beam()
+            || self.is_of_joint()
+            || self.is_of_model()
+            || matches!(self, Self::Signal | Self::Spring))
     }
 
     /// Whether it belongs to the whole model.
@@ -135,6 +143,8 @@ pub enum OutputSource {
     },
     /// A joint, by name.
     Joint(Located<String>),
+    /// A spring, by name.
+    Spring(Located<String>),
     /// The whole model.
     Model,
     /// A signal, an input or a state, by name.
@@ -157,6 +167,8 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
         let kind = OutputKind::ALL.into_iter().find(|kind| kind.name() == word)?;
         let source = if kind.is_of_joint() {
             OutputSource::Joint(reader.name_in("of")?)
+        } else if kind == OutputKind::Spring {
+            OutputSource::Spring(reader.name_in("of")?)
         } else if kind == OutputKind::Signal {
             OutputSource::Signal(signal(reader)?)
         } else if kind.is_of_model() {

@@ -355,6 +355,9 @@ fn outputs() -> Vec<Variant> {
         if kind.is_of_joint() {
             keys.push(required("of", Shape::Name("joints"), "", "the joint"));
         }
+        if *kind == OutputKind::Spring {
+            keys.push(required("of", Shape::Name("springs"), "", "the spring"));
+        }
         if *kind == OutputKind::Signal {
             keys.push(required("of", Shape::Text, "", "the name of a signal, an input or a state"));
         }

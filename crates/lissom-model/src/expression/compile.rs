@@ -24,7 +24,7 @@ pub(super) fn compile(
         return error("the expression is empty", 0..text.len());
     }
     let mut reader = Reader { tokens, at: 0, steps: Vec::new(), variable, parameters, arguments, depth: 0 };
-    reader.sum()?;
+    reader.comparison()?;
     match reader.next() {
         (Token::End, _) => {}
         (token, range) => {
@@ -85,6 +85,22 @@ impl<'t> Reader<'t, '_, '_> {
             self.next();
         }
         found
+    }
+
+    /// A comparison, 1 where it holds and 0 elsewhere, or a sum.
+    fn comparison(&mut self) -> Result<(), ExpressionError> {
+        self.sum()?;
+        let function = match self.peek() {
+            Token::Sign('<') => Function::Less,
+            Token::Sign('>') => Function::Greater,
+            Token::Sign('≤') => Function::LessOrEqual,
+            Token::Sign('≥') => Function::GreaterOrEqual,
+            _ => return Ok(()),
+        };
+        self.next();
+        self.sum()?;
+        self.steps.push(Step::Call2(function));
+        Ok(())
     }
 
     fn sum(&mut self) -> Result<(), ExpressionError> {
@@ -152,7 +168,7 @@ impl<'t> Reader<'t, '_, '_> {
                 None => self.name(name, range)?,
             },
             Token::Sign('(') => {
-                self.sum()?;
+                self.comparison()?;
                 self.close()?;
             }
             other => {
@@ -207,10 +223,10 @@ impl<'t> Reader<'t, '_, '_> {
             let help = Some("write for example `sin(2*t)`".to_owned());
             return Err(ExpressionError { message, help, range });
         }
-        self.sum()?;
+        self.comparison()?;
         let mut count = 1;
         while self.take(',') {
-            self.sum()?;
+            self.comparison()?;
             count += 1;
             if function.arguments() == 2 {
                 self.steps.push(Step::Call2(function));
@@ -225,8 +241,10 @@ impl<'t> Reader<'t, '_, '_> {
         if count != wanted {
             return error(format!("this function takes {wanted} argument(s), not {count}"), range);
         }
-        if wanted == 1 {
-            self.steps.push(Step::Call(function));
+        match wanted {
+            1 => self.steps.push(Step::Call(function)),
+            3 => self.steps.push(Step::Call3(function)),
+            _ => {}
         }
         Ok(())
     }

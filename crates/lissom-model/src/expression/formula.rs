@@ -6,7 +6,7 @@ use std::ops::Range;
 use lissom_core::signals::SignalFunction;
 
 use super::compile::compile;
-use super::{ExpressionError, Jet, Step, run};
+use super::{ExpressionError, Jet, Step, kinks, run};
 
 /// A name in an expression that is no parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,6 +44,23 @@ impl Formula {
     /// The names it depends on, each once, in the order of the arguments.
     pub fn arguments(&self) -> &[Name] {
         &self.arguments
+    }
+
+    /// Whether it names the time.
+    pub fn depends_on_time(&self) -> bool {
+        self.steps.contains(&Step::Variable)
+    }
+
+    /// Values of an argument at which it is known not to be smooth while other arguments are 0, in ascending order.
+    pub fn kinks_of(&self, argument: usize) -> Vec<f64> {
+        let alone: Vec<Step> = (self.steps.iter())
+            .map(|step| match *step {
+                Step::Argument(index) if index == argument => Step::Variable,
+                Step::Argument(_) | Step::Variable => Step::Constant(0.0),
+                other => other,
+            })
+            .collect();
+        kinks::of(&alone)
     }
 
     /// The expression as it was written.

@@ -103,12 +103,21 @@ pub enum Function {
     Abs,
     Sign,
     Floor,
+    Ceil,
+    Round,
     Step,
     Smoothstep,
     Min,
     Max,
     Atan2,
     Hypot,
+    Mod,
+    Clamp,
+    If,
+    Less,
+    LessOrEqual,
+    Greater,
+    GreaterOrEqual,
 }
 
 /// The functions by name.
@@ -133,12 +142,17 @@ pub(crate) const NAMES: &[(&str, Function)] = &[
     ("abs", Function::Abs),
     ("sign", Function::Sign),
     ("floor", Function::Floor),
+    ("ceil", Function::Ceil),
+    ("round", Function::Round),
     ("step", Function::Step),
     ("smoothstep", Function::Smoothstep),
     ("min", Function::Min),
     ("max", Function::Max),
     ("atan2", Function::Atan2),
     ("hypot", Function::Hypot),
+    ("mod", Function::Mod),
+    ("clamp", Function::Clamp),
+    ("if", Function::If),
 ];
 
 impl Function {
@@ -148,7 +162,19 @@ impl Function {
     }
 
     pub(super) fn arguments(self) -> usize {
-        if matches!(self, Self::Min | Self::Max | Self::Atan2 | Self::Hypot) { 2 } else { 1 }
+        match self {
+            Self::Clamp | Self::If => 3,
+            Self::Min
+            | Self::Max
+            | Self::Atan2
+            | Self::Hypot
+            | Self::Mod
+            | Self::Less
+            | Self::LessOrEqual
+            | Self::Greater
+            | Self::GreaterOrEqual => 2,
+            _ => 1,
+        }
     }
 
     pub(super) fn takes_many(self) -> bool {
@@ -178,6 +204,15 @@ impl Function {
                 let first = n / r.value;
                 Jet { value: w[0].atan2(w[1]), first, second: (n1 - product(first, r.first)) / r.value }
             }
+            // u - v floor(u/v): the quotient jumps where it is whole, and is constant between.
+            Self::Mod => {
+                let whole = (u.value / v.value).floor();
+                Jet { value: u.value.rem_euclid(v.value), ..u.plus(v.scaled(-whole)) }
+            }
+            Self::Less => truth(u.value < v.value),
+            Self::LessOrEqual => truth(u.value <= v.value),
+            Self::Greater => truth(u.value > v.value),
+            Self::GreaterOrEqual => truth(u.value >= v.value),
             Self::Hypot => {
                 Jet { value: u.value.hypot(v.value), ..Self::Sqrt.of(u.times(u).plus(v.times(v))) }
             }
@@ -189,6 +224,23 @@ impl Function {
                     v
                 }
             }
+        }
+    }
+
+    /// The function of three jets.
+    pub(super) fn of_three(self, u: Jet, v: Jet, w: Jet) -> Jet {
+        match self {
+            // What is chosen by nothing known is not known.
+            Self::If if u.value.is_nan() => Jet::constant(f64::NAN),
+            Self::If => {
+                if u.value == 0.0 {
+                    w
+                } else {
+                    v
+                }
+            }
+            // Clamp; the compiler sends nothing else here.
+            _ => Self::Min.of_two(Self::Max.of_two(u, v), w),
         }
     }
 
@@ -242,11 +294,19 @@ impl Function {
             Self::Abs => [x.abs(), sign(x), 0.0],
             Self::Sign => [sign(x), 0.0, 0.0],
             Self::Floor => [x.floor(), 0.0, 0.0],
+            Self::Ceil => [x.ceil(), 0.0, 0.0],
+            Self::Round => [x.round(), 0.0, 0.0],
             Self::Step => [if x >= 0.0 { 1.0 } else { 0.0 }, 0.0, 0.0],
             Self::Smoothstep => smoothstep(x),
-            Self::Min | Self::Max | Self::Atan2 | Self::Hypot => [x, 1.0, 0.0],
+            // Of two or three arguments.
+            _ => [x, 1.0, 0.0],
         }
     }
+}
+
+/// 1 for true, 0 for false.
+fn truth(holds: bool) -> Jet {
+    Jet::constant(f64::from(u8::from(holds)))
 }
 
 fn sign(x: f64) -> f64 {

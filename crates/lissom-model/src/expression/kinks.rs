@@ -12,7 +12,7 @@ pub(super) fn of(steps: &[Step]) -> Vec<f64> {
     let mut top = 0;
     for step in steps {
         let first = top - step.operands().min(top);
-        let operands = [stack[first], stack[(first + 1).min(STACK - 1)]];
+        let operands = [0, 1, 2].map(|k| stack[(first + k).min(STACK - 1)]);
         stack[first] = line(*step, operands, &mut found);
         top = first + 1;
     }
@@ -22,7 +22,7 @@ pub(super) fn of(steps: &[Step]) -> Vec<f64> {
 }
 
 /// The line a step leaves, and the kinks it makes.
-fn line(step: Step, [one, other]: [Line; 2], found: &mut Vec<f64>) -> Line {
+fn line(step: Step, [one, other, third]: [Line; 3], found: &mut Vec<f64>) -> Line {
     let mut root = |line: (f64, f64), value: f64| {
         let root = (value - line.0) / line.1;
         if line.1 != 0.0 && root.is_finite() {
@@ -53,12 +53,25 @@ fn line(step: Step, [one, other]: [Line; 2], found: &mut Vec<f64>) -> Line {
             }
             None
         }
-        Step::Call2(Function::Min | Function::Max) => {
+        Step::Call3(Function::Clamp) => {
+            for ((a, b), (c, d)) in [one.zip(other), one.zip(third)].into_iter().flatten() {
+                root((a - c, b - d), 0.0);
+            }
+            None
+        }
+        Step::Call2(
+            Function::Min
+            | Function::Max
+            | Function::Less
+            | Function::LessOrEqual
+            | Function::Greater
+            | Function::GreaterOrEqual,
+        ) => {
             if let Some(((a, b), (c, d))) = one.zip(other) {
                 root((a - c, b - d), 0.0);
             }
             None
         }
-        Step::Argument(_) | Step::Power | Step::Call2(_) => None,
+        Step::Argument(_) | Step::Power | Step::Call2(_) | Step::Call3(_) => None,
     }
 }

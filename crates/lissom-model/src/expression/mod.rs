@@ -44,6 +44,7 @@ enum Step {
     Negate,
     Call(Function),
     Call2(Function),
+    Call3(Function),
 }
 
 /// A compiled expression of one variable.
@@ -106,6 +107,9 @@ fn run(steps: &[Step], variable: Jet, argument: impl Fn(usize) -> Jet) -> Jet {
             Step::Multiply => stack[top - 2] = stack[top - 2].times(stack[top - 1]),
             Step::Divide => stack[top - 2] = stack[top - 2].over(stack[top - 1]),
             Step::Power => stack[top - 2] = stack[top - 2].to_the(stack[top - 1]),
+            Step::Call3(function) => {
+                stack[top - 3] = function.of_three(stack[top - 3], stack[top - 2], stack[top - 1]);
+            }
             Step::Call2(function) => stack[top - 2] = function.of_two(stack[top - 2], stack[top - 1]),
         }
         top = top + 1 - step.operands();
@@ -119,6 +123,7 @@ impl Step {
         match self {
             Step::Constant(_) | Step::Variable | Step::Argument(_) => 0,
             Step::Negate | Step::Call(_) => 1,
+            Step::Call3(_) => 3,
             _ => 2,
         }
     }
@@ -166,6 +171,10 @@ mod tests {
             ("smoothstep(t) + smoothstep(-t) + smoothstep(0.5)", 1.5),
             ("atan2(1, -1)", 0.75 * std::f64::consts::PI),
             ("cbrt(-8) + hypot(3, 4) + sign(-2)", 2.0),
+            ("clamp(t, 0, 2) + 10*clamp(-t, 0, 2) + 100*clamp(t, 0, 5)", 302.0),
+            ("if(t > 2, 1, 5) + if(t >= 3, 10, 50) + if(t < 3, 100, 500) + if(t <= 3, 1000, 5000)", 1511.0),
+            ("if(t - 3, sqrt(-1), 2) + 3*(1 < 2)", 5.0),
+            ("mod(7.5, t) + mod(-1, t) + ceil(1.2) + round(2.6)", 8.5),
             ("abs(-t) + exp(ln(2)) + log10(100)", 7.0),
         ] {
             let found = value(text, 3.0);
@@ -198,6 +207,7 @@ mod tests {
             ("smoothstep((t - 1)/4)", vec![1.0, 5.0]),
             ("min(2*t, 6) + max(t, T)", vec![1.6, 3.0]),
             ("sign(-(t - 2))*step(t - 2)", vec![2.0]),
+            ("clamp(2*t, 2, 6) + if(t < 5, t, 5)", vec![1.0, 3.0, 5.0]),
             ("sin(t)*t^2 + step(1)", vec![]),
             // The root of a curved argument is not looked for.
             ("abs(sin(t))", vec![]),
@@ -240,7 +250,7 @@ mod tests {
         assert!(parse(&format!("{}t", "t+".repeat(10_000))).is_ok());
     }
 
-    const SMOOTH: [&str; 22] = [
+    const SMOOTH: [&str; 25] = [
         "sin(3*t) + t^3 - 2/t",
         "exp(-t^2)*cos(t/T)",
         "sqrt(t + 2)*ln(t + 1)",
@@ -263,6 +273,9 @@ mod tests {
         "rate^3*t^2",
         "sign(t)*t^2/(1 + t)",
         "-t^2/2 + floor(0.5)*t",
+        "clamp(t^2, -1, 100)*t + clamp(t, t^2 + 10, 200)",
+        "if(t > 0, sin(t), cos(t))*if(t^2 < 0, 1, t^3)",
+        "mod(t^2, 50) + t*mod(40, t/t + 45)",
     ];
 
     proptest! {

@@ -26,16 +26,20 @@ pub(super) fn tokens(text: &str) -> Result<Vec<Placed<'_>>, ExpressionError> {
             }
             '0'..='9' | '.' => at + number_length(&text[at..]),
             _ if next.is_ascii_alphabetic() || next == '_' => at + name_length(&text[at..]),
+            '<' | '>' if text[at + 1..].starts_with('=') => at + 2,
             _ => at + next.len_utf8(),
         };
         let word = &text[at..end];
         let token = match next {
             '0'..='9' | '.' => Token::Number(number(word, at..end)?),
-            '+' | '-' | '*' | '/' | '^' | '(' | ')' | ',' => Token::Sign(next),
+            // With an equals sign: not less, not greater.
+            '<' if word.len() == 2 => Token::Sign('≤'),
+            '>' if word.len() == 2 => Token::Sign('≥'),
+            '+' | '-' | '*' | '/' | '^' | '(' | ')' | ',' | '<' | '>' => Token::Sign(next),
             _ if next.is_ascii_alphabetic() || next == '_' => Token::Name(word),
             _ => {
                 let message = format!("`{next}` has no meaning in an expression");
-                let help = Some("signs are + - * / ^ ( ) and the comma".to_owned());
+                let help = Some("signs are + - * / ^ ( ) < > <= >= and the comma".to_owned());
                 return Err(ExpressionError { message, help, range: at..end });
             }
         };

@@ -182,6 +182,14 @@ fn element(
             builder.add_driven(signal, build)
         }
     };
+    let is_spring = SPRINGS.iter().any(|spring| spring.name == kind.name);
+    if let Some(element) = builder.take_last_element().filter(|_| is_spring) {
+        let quantity = match kind.attachment {
+            elements::Attachment::Coordinate(quantity) => quantity,
+            _ => Quantity::Length,
+        };
+        names.springs.insert(component.name.value.clone(), (element, quantity));
+    }
     built.map_err(|error| parameter_problem(component, &error))
 }
 

@@ -108,6 +108,7 @@ fn of_output(
         | OutputKind::SectionForce
         | OutputKind::SectionMoment
         | OutputKind::Reaction
+        | OutputKind::Spring
         | OutputKind::Energy
         | OutputKind::Momentum => {
             let message = format!("`{owner}` is a {}, which signals cannot depend on", output.kind.name());

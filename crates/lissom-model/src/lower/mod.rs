@@ -14,10 +14,11 @@ use std::sync::Arc;
 
 use lissom_core::analysis::Settings;
 use lissom_core::elements::beam::line::BeamLine;
+use lissom_core::joints::Quantity;
 use lissom_core::judge::Warning;
 use lissom_core::registry::ParameterError;
 use lissom_core::signals::{Argument, MeasurementId};
-use lissom_core::system::{Builder, CoordinateId, NodeId, State, System};
+use lissom_core::system::{Builder, CoordinateId, ElementId, NodeId, State, System};
 
 use crate::channels::{self, Channel};
 use crate::document::{Component, Document, NodeReference};
@@ -53,6 +54,8 @@ pub struct Names {
     pub lines: BTreeMap<String, BeamLine>,
     /// Coordinates of each joint; a drive has those of the joint it drives.
     pub coordinates: BTreeMap<String, Vec<CoordinateId>>,
+    /// Springs that have an elongation, and whether it is a length or an angle.
+    pub springs: BTreeMap<String, (ElementId, Quantity)>,
     /// Signals, inputs and states.
     pub signals: BTreeMap<String, Argument>,
     /// Measurements that signals use, by the names they are written with.
@@ -134,6 +137,7 @@ impl Names {
             nodes: &self.nodes,
             lines: &self.lines,
             coordinates: &self.coordinates,
+            springs: &self.springs,
             signals: &self.signals,
         }
     }

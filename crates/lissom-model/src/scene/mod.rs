@@ -141,7 +141,9 @@ impl Places<'_> {
     fn output(&self, output: &crate::document::Output) -> Output {
         let (of, point) = match &output.source {
             OutputSource::Model => (None, None),
-            OutputSource::Joint(name) | OutputSource::Signal(name) => (Some(name.value.clone()), None),
+            OutputSource::Joint(name) | OutputSource::Spring(name) | OutputSource::Signal(name) => {
+                (Some(name.value.clone()), None)
+            }
             OutputSource::Node { node, point } => {
                 (Some(part_of(&node.value).to_owned()), self.observed(&node.value, point.as_ref()))
             }

@@ -109,6 +109,10 @@ fn holds(holds: ParameterType) -> String {
         ParameterType::Flag => "true or false".to_owned(),
         ParameterType::Function => "number or expression of t".to_owned(),
         ParameterType::Size => "number or expression of t, inputs, signals, states and outputs".to_owned(),
+        ParameterType::Force([first, second]) => {
+            format!("number, expression of {first} and {second}, or table over {first}")
+        }
+        ParameterType::Range => "two ascending numbers".to_owned(),
         ParameterType::Choice(words) => words.join(" | "),
         ParameterType::Choices(words) => format!("list of {}", words.join(", ")),
     }

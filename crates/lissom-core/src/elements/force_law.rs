@@ -1,0 +1,315 @@
+//! The force of a spring and damper over its elongation x and rate v; positive where it pulls together.
+//!
+//! Legend: u elongation past the free play b, k stiffness, c damping, F and D functions given by expression or table,
+//! P(u) potential energy.
+//!
+//! ```text
+//! f = clamp(k u + c v + F(u, v) + D(v, u)),      u = x - clamp(x, -b/2, b/2),      P(u) = ∫₀ᵘ clamp(k ξ + F(ξ, 0)) dξ
+//! ```
+//!
+//! It is zero within the free play and, where it acts on one side alone, on the other side; there it does not change sign
+//! either. What f has more than P' takes energy away as long as it has the sign of v, because clamping is monotone. A law
+//! for which that does not hold has no potential energy, and its work is counted as that of a load.
+
+use crate::registry::{Force, Parameter, ParameterError, ParameterType, Parameters};
+
+/// On which side of the free length it acts, for lengths.
+pub const SIDE_OF_LENGTH: Parameter = Parameter::optional(
+    "side",
+    ParameterType::Choice(&["both", "tension", "compression"]),
+    "",
+    "Where it acts: where it is longer than its free length, where it is shorter, or both; default both.",
+);
+
+/// The same for angles.
+pub const SIDE_OF_ANGLE: Parameter = Parameter::optional(
+    "side",
+    ParameterType::Choice(&["both", "positive", "negative"]),
+    "",
+    "Where it acts: on rotations above the free one, below it, or both; default both.",
+);
+
+/// On which side it acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Side {
+    Both,
+    Positive,
+    Negative,
+}
+
+/// A force and its derivatives.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Response {
+    /// The force [N, N m], positive where it pulls together.
+    pub force: f64,
+    /// By the elongation [N/m, N m/rad].
+    pub stiffness: f64,
+    /// By the rate [N s/m, N m s/rad].
+    pub damping: f64,
+}
+
+/// The law of a spring and damper.
+#[derive(Clone, Debug)]
+pub struct ForceLaw {
+    stiffness: f64,
+    damping: f64,
+    elastic: Option<Force>,
+    damper: Option<Force>,
+    side: Side,
+    limits: [f64; 2],
+    /// Half of the free play.
+    play: f64,
+    is_active: bool,
+}
+
+impl ForceLaw {
+    /// From the parameters `stiffness`, `damping`, `side`, `limits` and `backlash`, and from forces over elongation and
+    /// over rate of the names given.
+    ///
+    /// # Errors
+    /// If a parameter is of the wrong kind.
+    pub fn new(parameters: &Parameters, [elastic, damper]: [&str; 2]) -> Result<Self, ParameterError> {
+        let side = match parameters.word("side")? {
+            Some("tension" | "positive") => Side::Positive,
+            Some("compression" | "negative") => Side::Negative,
+            _ => Side::Both,
+        };
+        let [low, high] = parameters.range("limits")?.unwrap_or([f64::NEG_INFINITY, f64::INFINITY]);
+        let limits = match side {
+            Side::Both => [low, high],
+            Side::Positive => [low.max(0.0), high.max(0.0)],
+            Side::Negative => [low.min(0.0), high.min(0.0)],
+        };
+        let mut law = Self {
+            stiffness: parameters.number_or("stiffness", 0.0)?,
+            damping: parameters.number_or("damping", 0.0)?,
+            elastic: parameters.force(elastic)?,
+            damper: parameters.force(damper)?,
+            side,
+            limits,
+            play: 0.5 * parameters.number_or("backlash", 0.0)?,
+            is_active: false,
+        };
+        law.is_active = !law.seems_passive();
+        Ok(law)
+    }
+
+    /// Whether it may put energy in, so that its work is counted instead of its potential energy.
+    pub fn is_active(&self) -> bool {
+        self.is_active
+    }
+
+    /// The force at an elongation and its rate.
+    pub fn evaluate(&self, elongation: f64, rate: f64) -> Response {
+        let past = elongation - elongation.clamp(-self.play, self.play);
+        let is_free = match self.side {
+            Side::Both => self.play > 0.0 && past == 0.0,
+            Side::Positive => past <= 0.0,
+            Side::Negative => past >= 0.0,
+        };
+        if is_free {
+            return Response::default();
+        }
+        let response = self.unlimited(past, rate);
+        let [low, high] = self.limits;
+        if response.force < low {
+            Response { force: low, ..Response::default() }
+        } else if response.force > high {
+            Response { force: high, ..Response::default() }
+        } else {
+            response
+        }
+    }
+
+    fn unlimited(&self, past: f64, rate: f64) -> Response {
+        let mut response = Response {
+            force: self.stiffness * past + self.damping * rate,
+            stiffness: self.stiffness,
+            damping: self.damping,
+        };
+        if let Some(elastic) = &self.elastic {
+            let [force, by_elongation, by_rate] = elastic.evaluate(past, rate);
+            response.force += force;
+            response.stiffness += by_elongation;
+            response.damping += by_rate;
+        }
+        if let Some(damper) = &self.damper {
+            let [force, by_rate, by_elongation] = damper.evaluate(rate, past);
+            response.force += force;
+            response.stiffness += by_elongation;
+            response.damping += by_rate;
+        }
+        response
+    }
+
+    /// Potential energy [J]; zero at the free length.
+    pub fn energy(&self, elongation: f64) -> f64 {
+        let past = elongation - elongation.clamp(-self.play, self.play);
+        let is_free =
+            (self.side == Side::Positive && past < 0.0) || (self.side == Side::Negative && past > 0.0);
+        if self.is_active || is_free || past == 0.0 {
+            return 0.0;
+        }
+        let elastic = |past: f64| {
+            self.stiffness * past + self.elastic.as_ref().map_or(0.0, |law| law.evaluate(past, 0.0)[0])
+        };
+        let [low, high] = self.limits;
+        let is_linear = self.elastic.is_none() && (low..=high).contains(&(self.stiffness * past));
+        if is_linear {
+            return 0.5 * self.stiffness * past * past;
+        }
+        let kinks = self.elastic.as_ref().map_or_else(Vec::new, |law| law.kinks());
+        integral(&|past| elastic(past).max(low).min(high), past, &kinks)
+    }
+
+    /// Whether what depends on the rate takes energy away, as far as can be seen at rates of all sizes. One that puts
+    /// energy in elsewhere is found by the energy balance of the simulation.
+    fn seems_passive(&self) -> bool {
+        let of_rate = |law: &Force| law.depends_on_second();
+        let elastic = self.elastic.as_ref().filter(|law| of_rate(law));
+        let sizes = || (-24..=24).map(|k| 10_f64.powf(f64::from(k) / 4.0)).flat_map(|size| [-size, size]);
+        let deformations: Vec<f64> = sizes().step_by(4).collect();
+        let takes_away = |force: f64, rate: f64, scale: f64| {
+            !force.is_finite() || force * rate >= -1e-12 * scale.abs() * rate.abs()
+        };
+        let elastic_is = elastic.is_none_or(|law| {
+            deformations.iter().all(|&x| {
+                let [still, ..] = law.evaluate(x, 0.0);
+                sizes().all(|rate| takes_away(law.evaluate(x, rate)[0] - still, rate, still))
+            })
+        });
+        let damper_is = self.damper.as_ref().is_none_or(|law| {
+            let at = if of_rate(law) { &deformations[..] } else { &[0.0] };
+            at.iter().all(|&x| {
+                law.evaluate(0.0, x)[0] == 0.0
+                    && sizes().all(|rate| takes_away(law.evaluate(rate, x)[0], rate, 0.0))
+            })
+        });
+        elastic_is && damper_is
+    }
+}
+
+/// Depth of bisection of an integral.
+const DEPTH: usize = 14;
+/// Error of an integral, relative to its size.
+const ACCURACY: f64 = 1e-11;
+
+/// ∫₀ᵉⁿᵈ f dx by Simpson's rule with bisection, in pieces between `kinks`.
+fn integral(function: &dyn Fn(f64) -> f64, end: f64, kinks: &[f64]) -> f64 {
+    let mut places: Vec<f64> =
+        kinks.iter().copied().filter(|kink| kink * end > 0.0 && kink.abs() < end.abs()).collect();
+    places.extend([0.0, end]);
+    places.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let mut sum = 0.0;
+    for pair in places.windows(2) {
+        let (a, b) = (pair[0], pair[1]);
+        let values = [function(a), function(0.5 * (a + b)), function(b)];
+        let whole = simpson(b - a, values);
+        let size = (b - a).abs() * values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        sum += bisected(function, (a, b), values, whole, (ACCURACY * size, DEPTH));
+    }
+    sum
+}
+
+fn simpson(width: f64, [first, middle, last]: [f64; 3]) -> f64 {
+    width / 6.0 * (first + 4.0 * middle + last)
+}
+
+fn bisected(
+    function: &dyn Fn(f64) -> f64,
+    (a, b): (f64, f64),
+    [first, middle, last]: [f64; 3],
+    whole: f64,
+    (allowed, depth): (f64, usize),
+) -> f64 {
+    let centre = 0.5 * (a + b);
+    let left = [first, function(0.5 * (a + centre)), middle];
+    let right = [middle, function(0.5 * (centre + b)), last];
+    let halves = [simpson(centre - a, left), simpson(b - centre, right)];
+    let error = (halves[0] + halves[1] - whole) / 15.0;
+    if depth == 0 || error.abs() <= allowed || !error.is_finite() {
+        return halves[0] + halves[1] + error;
+    }
+    let next = (0.5 * allowed, depth - 1);
+    bisected(function, (a, centre), left, halves[0], next)
+        + bisected(function, (centre, b), right, halves[1], next)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::registry::{ForceFunction, Value};
+
+    #[derive(Debug)]
+    struct Cubic {
+        by_rate: f64,
+    }
+
+    impl ForceFunction for Cubic {
+        fn evaluate(&self, first: f64, second: f64) -> [f64; 3] {
+            [first * first * first + self.by_rate * second, 3.0 * first * first, self.by_rate]
+        }
+        fn depends_on_second(&self) -> bool {
+            self.by_rate != 0.0
+        }
+    }
+
+    fn law(parameters: &Parameters) -> ForceLaw {
+        ForceLaw::new(parameters, ["force", "damper_force"]).unwrap()
+    }
+
+    fn cubic(by_rate: f64) -> Value {
+        Value::Force(Arc::new(Cubic { by_rate }))
+    }
+
+    #[test]
+    fn forces_act_on_their_side_past_the_play_within_limits() {
+        let given = Parameters::new()
+            .with("stiffness", Value::Number(100.0))
+            .with("damping", Value::Number(10.0))
+            .with("backlash", Value::Number(0.2));
+        let both = law(&given);
+        assert_eq!(both.evaluate(0.05, 3.0), Response::default());
+        assert!((both.evaluate(0.3, 0.0).force - 20.0).abs() < 1e-12);
+        assert!((both.evaluate(-0.3, 1.0).force + 10.0).abs() < 1e-12);
+        assert!((both.energy(-0.3) - 2.0).abs() < 1e-12);
+        let compressed = law(&given.clone().with("side", Value::Text("compression".to_owned())));
+        assert_eq!(compressed.evaluate(0.3, 0.0).force, 0.0);
+        assert!((compressed.evaluate(-0.3, 0.0).force + 20.0).abs() < 1e-12);
+        // It does not pull while it is let go.
+        assert_eq!(compressed.evaluate(-0.3, 5.0), Response::default());
+        assert_eq!(compressed.energy(0.3), 0.0);
+        let limited = law(&given.with("limits", Value::Range([-5.0, 8.0])));
+        assert_eq!(limited.evaluate(0.5, 0.0), Response { force: 8.0, ..Response::default() });
+        // ½ k (8/k)² up to where it saturates, then 8 N along the rest of the way.
+        assert!((limited.energy(0.5) - (0.32 + 8.0 * 0.32)).abs() < 1e-8, "{}", limited.energy(0.5));
+    }
+
+    #[test]
+    fn energy_is_the_integral_of_the_force() {
+        let cubic_law = law(&Parameters::new().with("force", cubic(0.0)));
+        assert!((cubic_law.energy(-1.3) - 0.25 * 1.3_f64.powi(4)).abs() < 1e-12);
+        let saturated =
+            law(&Parameters::new().with("force", cubic(0.0)).with("limits", Value::Range([-1.0, 1.0])));
+        assert!((saturated.energy(2.0) - 1.25).abs() < 1e-8, "{}", saturated.energy(2.0));
+    }
+
+    #[test]
+    fn what_puts_energy_in_is_counted_as_a_load() {
+        for (name, by_rate, active) in [
+            ("force", 2.0, false),
+            ("force", -2.0, true),
+            ("force", 0.0, false),
+            ("damper_force", 0.0, false),
+        ] {
+            let law = law(&Parameters::new().with(name, cubic(by_rate)));
+            assert_eq!(law.is_active(), active, "{name} {by_rate}");
+        }
+        // A damper with a constant force drives one way.
+        assert!(law(&Parameters::new().with("damper_force", Value::Number(1.0))).is_active());
+        let active = law(&Parameters::new().with("force", cubic(-2.0)));
+        assert_eq!(active.energy(1.0), 0.0);
+    }
+}

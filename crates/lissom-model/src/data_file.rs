@@ -1,0 +1,133 @@
+//! Columns of numbers in a text file: one heading with the names of the columns, then one line per row, with commas,
+//! semicolons or tabs between. Empty lines and lines that begin with `#` are passed over.
+
+/// A file that is no table of numbers.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum DataError {
+    /// There is no heading.
+    #[error("the file has no heading with the names of its columns")]
+    Empty,
+    /// The first line holds numbers.
+    #[error("line {0}: the first line must name the columns, but holds numbers")]
+    NoHeading(usize),
+    /// A column is not there.
+    #[error("there is no column `{name}` in the heading of line {line}")]
+    NoColumn {
+        /// What was asked for.
+        name: String,
+        /// Line of the heading.
+        line: usize,
+        /// Names that are there.
+        known: Vec<String>,
+    },
+    /// Two columns have the name.
+    #[error("line {line}: two columns are called `{name}`")]
+    Twice {
+        /// The name.
+        name: String,
+        /// Line of the heading.
+        line: usize,
+    },
+    /// There are fewer than two columns.
+    #[error("line {0}: two columns are needed")]
+    OneColumn(usize),
+    /// A cell is missing or no number.
+    #[error("line {line}: `{cell}` in column `{column}` is not a finite number")]
+    NotANumber {
+        /// Line of the file, from 1.
+        line: usize,
+        /// What stands there.
+        cell: String,
+        /// Name of the column.
+        column: String,
+    },
+}
+
+/// Rows of two columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Rows {
+    /// The rows.
+    pub(crate) values: Vec<(f64, f64)>,
+    /// The line of each row, from 1.
+    pub(crate) lines: Vec<usize>,
+}
+
+/// The two columns called `names`, or the first two.
+pub(crate) fn two_columns(text: &str, names: Option<[&str; 2]>) -> Result<Rows, DataError> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let mut lines = (text.lines().enumerate())
+        .map(|(index, line)| (index + 1, line.trim_end()))
+        .filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
+    let (line, heading) = lines.next().ok_or(DataError::Empty)?;
+    let separator =
+        [';', '\t', ','].into_iter().find(|separator| heading.contains(*separator)).unwrap_or(',');
+    let cells = |line: &str| -> Vec<String> {
+        line.split(separator).map(|cell| cell.trim().trim_matches('"').trim().to_owned()).collect()
+    };
+    let heading = cells(heading);
+    if heading.iter().all(|cell| cell.parse::<f64>().is_ok()) {
+        return Err(DataError::NoHeading(line));
+    }
+    let columns = match names {
+        Some(names) => [column(&heading, names[0], line)?, column(&heading, names[1], line)?],
+        None if heading.len() < 2 => return Err(DataError::OneColumn(line)),
+        None => [0, 1],
+    };
+    let mut rows = Rows::default();
+    for (line, text) in lines {
+        let row = cells(text);
+        let number =
+            |column: usize| {
+                let cell = row.get(column).map_or("", String::as_str);
+                cell.parse().ok().filter(|value: &f64| value.is_finite()).ok_or_else(|| {
+                    DataError::NotANumber { line, cell: cell.to_owned(), column: heading[column].clone() }
+                })
+            };
+        rows.values.push((number(columns[0])?, number(columns[1])?));
+        rows.lines.push(line);
+    }
+    Ok(rows)
+}
+
+fn column(heading: &[String], name: &str, line: usize) -> Result<usize, DataError> {
+    let mut found = heading.iter().enumerate().filter(|(_, known)| *known == name);
+    match (found.next(), found.next()) {
+        (Some((index, _)), None) => Ok(index),
+        (Some(_), Some(_)) => Err(DataError::Twice { name: name.to_owned(), line }),
+        _ => Err(DataError::NoColumn { name: name.to_owned(), line, known: heading.to_vec() }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_are_found_by_name() {
+        let text = "# measured\n\"speed\", torque [N m] ,loss\n\n0, 3 ,1e-3\n# gap\n1.5,2,0\n";
+        let wanted = Rows { values: vec![(0.0, 3.0), (1.5, 2.0)], lines: vec![4, 6] };
+        let one = |row| Rows { values: vec![row], lines: vec![2] };
+        assert_eq!(two_columns(text, Some(["speed", "torque [N m]"])), Ok(wanted.clone()));
+        assert_eq!(two_columns(text, None), Ok(wanted));
+        assert_eq!(two_columns("a;b\n1;2\n", Some(["b", "a"])), Ok(one((2.0, 1.0))));
+        assert_eq!(two_columns("a\tb\r\n1\t2\r\n", None), Ok(one((1.0, 2.0))));
+    }
+
+    #[test]
+    fn mistakes_are_told_with_their_line() {
+        for (text, names, words) in [
+            ("a,b\n1,2\n3,x\n", None, "line 3: `x` in column `b`"),
+            ("a,b\n1\n", None, "line 2: `` in column `b`"),
+            ("a;b\n1,5;2\n", None, "line 2: `1,5` in column `a`"),
+            ("a,b\n1,nan\n", None, "line 2: `nan`"),
+            ("a,b\n1,2\n", Some(["a", "c"]), "no column `c` in the heading of line 1"),
+            ("a,a\n1,2\n", Some(["a", "a"]), "two columns are called `a`"),
+            ("1,2\n3,4\n", None, "must name the columns"),
+            ("a\n1\n", None, "two columns are needed"),
+            ("\n# nothing\n", None, "no heading"),
+        ] {
+            let told = two_columns(text, names).unwrap_err().to_string();
+            assert!(told.contains(words), "{text}: {told}");
+        }
+    }
+}

@@ -1,0 +1,305 @@
+//! Tables of rows (argument, value), interpolated: functions of time, and forces over an elongation.
+
+use lissom_core::registry::{ForceFunction, TimeFunction};
+
+/// How a table is read between its rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Straight lines: the first derivative jumps at the rows, the second is zero.
+    Linear,
+    /// Natural cubic spline: continuous second derivative, zero at both ends.
+    Spline,
+    /// Cubic polynomials that rise and fall with the rows: continuous first derivative, no overshoot.
+    Monotone,
+}
+
+/// How a table goes on before its first and after its last row.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Extrapolation {
+    /// The end values hold.
+    Constant,
+    /// Straight lines with the slopes at the ends.
+    Linear,
+}
+
+/// A table that is no function of time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TableError {
+    /// Fewer than two rows.
+    #[error("a table needs at least two rows")]
+    TooShort,
+    /// Times do not ascend from this row to the next.
+    #[error("the first column must ascend strictly, but row {} is not later than row {}", .0 + 2, .0 + 1)]
+    NotAscending(usize),
+    /// A number is not finite in this row.
+    #[error("row {} has a number that is not finite", .0 + 1)]
+    NotFinite(usize),
+}
+
+/// A table of arguments and values.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    arguments: Vec<f64>,
+    values: Vec<f64>,
+    between: Between,
+    extrapolation: Extrapolation,
+}
+
+/// What a polynomial between two rows is made of.
+#[derive(Clone, Debug, PartialEq)]
+enum Between {
+    Lines,
+    /// Second derivatives at the rows.
+    Curvatures(Vec<f64>),
+    /// First derivatives at the rows.
+    Slopes(Vec<f64>),
+}
+
+impl Table {
+    /// A table of rows (argument, value).
+    ///
+    /// # Errors
+    /// If there are fewer than two rows, or the arguments do not ascend strictly, or a number is not finite.
+    pub fn new(
+        rows: &[(f64, f64)],
+        interpolation: Interpolation,
+        extrapolation: Extrapolation,
+    ) -> Result<Self, TableError> {
+        if rows.len() < 2 {
+            return Err(TableError::TooShort);
+        }
+        if let Some(row) = rows.iter().position(|(x, y)| !(x.is_finite() && y.is_finite())) {
+            return Err(TableError::NotFinite(row));
+        }
+        if let Some(row) = rows.windows(2).position(|pair| pair[0].0 >= pair[1].0) {
+            return Err(TableError::NotAscending(row));
+        }
+        let (arguments, values): (Vec<f64>, Vec<f64>) = rows.iter().copied().unzip();
+        let between = match interpolation {
+            Interpolation::Linear => Between::Lines,
+            Interpolation::Spline => Between::Curvatures(natural_curvatures(&arguments, &values)),
+            Interpolation::Monotone => Between::Slopes(monotone_slopes(&arguments, &values)),
+        };
+        Ok(Self { arguments, values, between, extrapolation })
+    }
+
+    /// Value, first and second derivative.
+    fn evaluate(&self, argument: f64) -> [f64; 3] {
+        let last = self.arguments.len() - 1;
+        let inside = argument.clamp(self.arguments[0], self.arguments[last]);
+        if inside != argument {
+            let [value, slope, _] = self.inside(inside);
+            return match self.extrapolation {
+                Extrapolation::Constant => [value, 0.0, 0.0],
+                Extrapolation::Linear => [value + slope * (argument - inside), slope, 0.0],
+            };
+        }
+        self.inside(argument)
+    }
+
+    /// Legend: h length of the interval, a and b the weights of its two ends, y values, m curvatures, d slopes:
+    ///
+    /// ```text
+    /// f = a y₀ + b y₁ + (h²/6)[(a³ - a) m₀ + (b³ - b) m₁]          or
+    /// f = a y₀ + b y₁ + h a b [a (d₀ - s) - b (d₁ - s)],      s = (y₁ - y₀)/h
+    /// ```
+    fn inside(&self, argument: f64) -> [f64; 3] {
+        let last = self.arguments.len() - 1;
+        let i = self.arguments.partition_point(|row| *row <= argument).clamp(1, last) - 1;
+        let (y0, y1) = (self.values[i], self.values[i + 1]);
+        let h = self.arguments[i + 1] - self.arguments[i];
+        let b = (argument - self.arguments[i]) / h;
+        let a = 1.0 - b;
+        let (line, slope) = (a * y0 + b * y1, (y1 - y0) / h);
+        match &self.between {
+            Between::Lines => [line, slope, 0.0],
+            Between::Curvatures(curvatures) => {
+                let (m0, m1) = (curvatures[i], curvatures[i + 1]);
+                let value = line + h * h / 6.0 * ((a * a * a - a) * m0 + (b * b * b - b) * m1);
+                let first = slope + h / 6.0 * ((3.0 * b * b - 1.0) * m1 - (3.0 * a * a - 1.0) * m0);
+                [value, first, a * m0 + b * m1]
+            }
+            Between::Slopes(slopes) => {
+                let (p, q) = (slopes[i] - slope, slopes[i + 1] - slope);
+                let value = line + h * a * b * (a * p - b * q);
+                let first = slope + a * (a - 2.0 * b) * p + b * (b - 2.0 * a) * q;
+                [value, first, ((6.0 * b - 4.0) * p + (6.0 * b - 2.0) * q) / h]
+            }
+        }
+    }
+
+    /// Inner rows, and the end rows beyond which the slope is another.
+    fn rows_with_kinks(&self) -> Vec<f64> {
+        if self.between != Between::Lines {
+            return Vec::new();
+        }
+        let slope =
+            |i: usize| (self.values[i + 1] - self.values[i]) / (self.arguments[i + 1] - self.arguments[i]);
+        let jumps = |&i: &usize| {
+            let (before, after) = (slope(i - 1), slope(i));
+            (after - before).abs() > SAME_SLOPE * before.abs().max(after.abs())
+        };
+        (1..self.arguments.len() - 1).filter(jumps).map(|i| self.arguments[i]).collect()
+    }
+}
+
+impl TimeFunction for Table {
+    fn value(&self, time: f64) -> f64 {
+        self.evaluate(time)[0]
+    }
+    fn first_derivative(&self, time: f64) -> f64 {
+        self.evaluate(time)[1]
+    }
+    fn second_derivative(&self, time: f64) -> f64 {
+        self.evaluate(time)[2]
+    }
+    fn kinks(&self) -> Vec<f64> {
+        self.rows_with_kinks()
+    }
+}
+
+/// Over the first quantity alone.
+impl ForceFunction for Table {
+    fn evaluate(&self, first: f64, _: f64) -> [f64; 3] {
+        let [value, slope, _] = Table::evaluate(self, first);
+        [value, slope, 0.0]
+    }
+
+    fn kinks(&self) -> Vec<f64> {
+        // Every row: the integral of a polynomial between two of them is exact.
+        self.arguments.clone()
+    }
+}
+
+/// Slopes that differ by less than this part are the same but for the digits of a text.
+const SAME_SLOPE: f64 = 1e-3;
+
+/// Second derivatives of the natural cubic spline: continuity of the first derivative at the inner rows,
+/// `h₀ m₀ + 2(h₀ + h₁) m₁ + h₁ m₂ = 6[(y₂ - y₁)/h₁ - (y₁ - y₀)/h₀]`, solved by elimination along the diagonal.
+fn natural_curvatures(times: &[f64], values: &[f64]) -> Vec<f64> {
+    let n = times.len();
+    let step = |i: usize| times[i + 1] - times[i];
+    let slope = |i: usize| (values[i + 1] - values[i]) / step(i);
+    let (mut upper, mut right) = (vec![0.0; n], vec![0.0; n]);
+    for i in 1..n - 1 {
+        let pivot = 2.0 * (step(i - 1) + step(i)) - step(i - 1) * upper[i - 1];
+        upper[i] = step(i) / pivot;
+        right[i] = (6.0 * (slope(i) - slope(i - 1)) - step(i - 1) * right[i - 1]) / pivot;
+    }
+    for i in (1..n - 1).rev() {
+        right[i] -= upper[i] * right[i + 1];
+    }
+    right
+}
+
+/// Slopes at the rows of cubic polynomials that are monotone where the rows are [Fritsch and Butland 1984]: zero at
+/// extrema, between the slopes of the neighbouring intervals elsewhere.
+fn monotone_slopes(arguments: &[f64], values: &[f64]) -> Vec<f64> {
+    let n = arguments.len();
+    let step = |i: usize| arguments[i + 1] - arguments[i];
+    let slope = |i: usize| (values[i + 1] - values[i]) / step(i);
+    if n == 2 {
+        return vec![slope(0); 2];
+    }
+    let inner = |i: usize| {
+        let (before, after) = (slope(i - 1), slope(i));
+        if before * after <= 0.0 {
+            return 0.0;
+        }
+        let (w0, w1) = (2.0 * step(i) + step(i - 1), step(i) + 2.0 * step(i - 1));
+        (w0 + w1) / (w0 / before + w1 / after)
+    };
+    // At the ends the parabola through three rows, limited so that the polynomial stays monotone.
+    let end = |h0: f64, h1: f64, s0: f64, s1: f64| {
+        let slope = ((2.0 * h0 + h1) * s0 - h0 * s1) / (h0 + h1);
+        if slope * s0 <= 0.0 {
+            0.0
+        } else if s0 * s1 <= 0.0 && slope.abs() > 3.0 * s0.abs() {
+            3.0 * s0
+        } else {
+            slope
+        }
+    };
+    let mut slopes = vec![end(step(0), step(1), slope(0), slope(1))];
+    slopes.extend((1..n - 1).map(inner));
+    slopes.push(end(step(n - 2), step(n - 3), slope(n - 2), slope(n - 3)));
+    slopes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn straight_lines_pass_through_the_rows_and_hold_the_ends() {
+        let table =
+            Table::new(&[(0.0, 1.0), (1.0, 3.0), (3.0, 0.0)], Interpolation::Linear, Extrapolation::Constant)
+                .unwrap();
+        for (time, value, first) in [
+            (-1.0, 1.0, 0.0),
+            (0.0, 1.0, 2.0),
+            (0.5, 2.0, 2.0),
+            (1.0, 3.0, -1.5),
+            (3.0, 0.0, -1.5),
+            (4.0, 0.0, 0.0),
+        ] {
+            assert_eq!((table.value(time), table.first_derivative(time)), (value, first), "{time}");
+            assert_eq!(table.second_derivative(time), 0.0);
+        }
+    }
+
+    #[test]
+    fn a_spline_is_exact_for_straight_lines_and_fourth_order_inside() {
+        let line = [(0.0, 1.0), (0.5, 2.0), (2.0, 5.0)];
+        let spline = Table::new(&line, Interpolation::Spline, Extrapolation::Constant).unwrap();
+        assert!((spline.value(1.3) - 3.6).abs() < 1e-14);
+        let sine = |n: usize| -> f64 {
+            let at = |i: usize| std::f64::consts::PI * i as f64 / n as f64;
+            let rows: Vec<_> = (0..=n).map(|i| (at(i), at(i).sin())).collect();
+            // The sine's curvature vanishes at 0 and π, as the natural spline's does.
+            let table = Table::new(&rows, Interpolation::Spline, Extrapolation::Constant).unwrap();
+            (0..1000)
+                .map(|i| f64::from(i) * 3e-3)
+                .map(|t| (table.value(t) - t.sin()).abs())
+                .fold(0.0, f64::max)
+        };
+        let ratio = sine(10) / sine(20);
+        assert!((14.0..18.0).contains(&ratio), "{ratio}");
+    }
+
+    #[test]
+    fn the_derivatives_of_a_spline_are_its_derivatives() {
+        let rows = [(0.0, 0.0), (1.0, 2.0), (1.5, -1.0), (4.0, 0.3), (5.0, 0.0)];
+        let h = 1e-5;
+        let tables = [Interpolation::Spline, Interpolation::Monotone]
+            .map(|own| Table::new(&rows, own, Extrapolation::Linear).unwrap());
+        for (table, i) in tables.iter().flat_map(|table| (1..120).map(move |i| (table, i))) {
+            let t = 0.0499 * f64::from(i) - 0.5;
+            let first = (table.value(t + h) - table.value(t - h)) / (2.0 * h);
+            let second = (table.first_derivative(t + h) - table.first_derivative(t - h)) / (2.0 * h);
+            assert!((table.first_derivative(t) - first).abs() < 1e-7, "{t}");
+            assert!((table.second_derivative(t) - second).abs() < 2e-4, "{t}");
+        }
+    }
+
+    #[test]
+    fn bad_tables_are_refused() {
+        let read = |rows: &[(f64, f64)]| Table::new(rows, Interpolation::Spline, Extrapolation::Constant);
+        assert_eq!(read(&[(0.0, 1.0)]), Err(TableError::TooShort));
+        assert_eq!(read(&[(0.0, 1.0), (1.0, 1.0), (1.0, 2.0)]), Err(TableError::NotAscending(1)));
+        assert_eq!(read(&[(0.0, 1.0), (f64::NAN, 1.0)]), Err(TableError::NotFinite(1)));
+    }
+
+    #[test]
+    fn monotone_tables_do_not_overshoot() {
+        let rows = [(0.0, 0.0), (1.0, 0.0), (1.1, 5.0), (3.0, 5.0), (4.0, 7.0)];
+        let table = Table::new(&rows, Interpolation::Monotone, Extrapolation::Linear).unwrap();
+        let values: Vec<f64> = (0..=400).map(|i| table.value(0.01 * f64::from(i))).collect();
+        assert!(values.windows(2).all(|pair| pair[1] >= pair[0] - 1e-14));
+        for (argument, value) in rows {
+            assert!((table.value(argument) - value).abs() < 1e-14);
+        }
+        let slope = table.first_derivative(4.0);
+        assert!((table.value(5.0) - 7.0 - slope).abs() < 1e-13 && slope > 0.0);
+    }
+}

@@ -1,0 +1,142 @@
+//! Tables as they are written in a model file: rows of numbers, or columns of a data file.
+
+use crate::context::Context;
+use crate::data_file::{DataError, two_columns};
+use crate::files;
+use crate::keys::{Key, Shape, choice, optional};
+use crate::reader::Reader;
+use crate::report::Problem;
+use crate::suggest;
+use crate::table::{Extrapolation, Interpolation, Table, TableError};
+use crate::text::{Node, Value};
+
+/// Keys of a table.
+pub(crate) fn table_keys() -> Vec<Key> {
+    let words = choice(&["linear", "spline", "monotone"]);
+    vec![
+        optional("table", Shape::Rows, "", "rows [argument, value], arguments ascending; give it or `file`"),
+        optional("file", Shape::Text, "", "a text file with named columns; relative to the model's folder"),
+        optional("columns", Shape::Words, "", "names of its two columns; default the first two"),
+        optional("interpolation", words, "", "between the rows, default linear"),
+        optional(
+            "extrapolation",
+            choice(&["constant", "linear"]),
+            "",
+            "beyond the rows; default constant, for forces over an elongation, rotation or rate linear",
+        ),
+    ]
+}
+
+impl Context<'_> {
+    /// A table of rows, or of columns of a file.
+    pub(crate) fn read_table(&self, node: &Node, what: &str, beyond: Extrapolation) -> Option<Table> {
+        let reader = Reader::open(self, node, (what.to_owned(), node.span), table_keys())?;
+        let interpolation = match reader.choice("interpolation").map(|word| word.value) {
+            Some("spline") => Interpolation::Spline,
+            Some("monotone") => Interpolation::Monotone,
+            _ => Interpolation::Linear,
+        };
+        let extrapolation = match reader.choice("extrapolation").map(|word| word.value) {
+            Some("constant") => Extrapolation::Constant,
+            Some("linear") => Extrapolation::Linear,
+            _ => beyond,
+        };
+        match (reader.node("table"), reader.node("file")) {
+            (Some(table), None) => {
+                if let Some(columns) = reader.node("columns") {
+                    let message = format!("{what} names columns, but no file");
+                    return self.fail(columns.span, message, "leave out `columns`, or give `file`");
+                }
+                let Value::List(rows) = &table.value else {
+                    return self.wrong_type(table, what, "a list of rows [argument, value]");
+                };
+                let row =
+                    |row: &Node| self.numbers::<2>(row, &format!("each row of {what}")).map(|[t, v]| (t, v));
+                let read: Vec<Option<(f64, f64)>> = rows.iter().map(row).collect();
+                let read: Vec<(f64, f64)> = read.into_iter().collect::<Option<_>>()?;
+                Table::new(&read, interpolation, extrapolation).map_or_else(
+                    |error| {
+                        let place = match error {
+                            TableError::NotAscending(row) => rows.get(row + 1),
+                            TableError::NotFinite(row) => rows.get(row),
+                            TableError::TooShort => None,
+                        };
+                        let message = format!("{what} is no function: {error}");
+                        let span = place.map_or(table.span, |row| row.span);
+                        self.fail(span, message, "give rows [argument, value] in ascending order")
+                    },
+                    Some,
+                )
+            }
+            (None, Some(file)) => self.data_file(file, &reader, (interpolation, extrapolation)),
+            (Some(_), Some(file)) => {
+                self.fail(file.span, format!("{what} has both `table` and `file`"), "leave one out")
+            }
+            (None, None) => self.fail(node.span, format!("{what} has no rows"), "give `table` or `file`"),
+        }
+    }
+
+    fn data_file(
+        &self,
+        file: &Node,
+        reader: &Reader<'_, '_>,
+        (interpolation, extrapolation): (Interpolation, Extrapolation),
+    ) -> Option<Table> {
+        let name = reader.text("file")?.value;
+        let columns = match reader.node("columns") {
+            None => None,
+            Some(node) => Some(self.two_words(node, &reader.words("columns"))?),
+        };
+        let path = self.sources.folder(file.span).join(name);
+        let what = &reader.what;
+        let text = match files::read_text(&path) {
+            Ok(text) => text,
+            Err(error) => {
+                let help = error.help.clone();
+                let problem = Problem::error(file.span, format!("{what} {error}"));
+                self.tell(problem.label("named here").maybe_help(help));
+                return None;
+            }
+        };
+        let rows = match two_columns(&text, columns) {
+            Ok(read) => read,
+            Err(error) => {
+                let help = match &error {
+                    DataError::NoColumn { name, known, .. } => {
+                        suggest::help(name, known.iter().map(String::as_str))
+                    }
+                    DataError::NotANumber { .. } => {
+                        Some("write numbers as 1.5 or 1e-3, with a point".to_owned())
+                    }
+                    _ => Some("give for example `time,force` in the first line".to_owned()),
+                };
+                let problem = Problem::error(file.span, format!("{what}: `{name}`: {error}"));
+                self.tell(problem.label("named here").maybe_help(help));
+                return None;
+            }
+        };
+        Table::new(&rows.values, interpolation, extrapolation).map_or_else(
+            |error| {
+                let told = match error {
+                    TableError::NotAscending(row) => {
+                        format!("line {}: the first column must ascend strictly", rows.lines[row + 1])
+                    }
+                    TableError::NotFinite(_) | TableError::TooShort => error.to_string(),
+                };
+                let help = "give rows in ascending order of the first column";
+                self.fail(file.span, format!("{what}: `{name}`: {told}"), help)
+            },
+            Some,
+        )
+    }
+
+    fn two_words<'n>(&self, node: &'n Node, what: &str) -> Option<[&'n str; 2]> {
+        if let Value::List(list) = &node.value
+            && let [Node { value: Value::Text(first), .. }, Node { value: Value::Text(second), .. }] =
+                list.as_slice()
+        {
+            return Some([first, second]);
+        }
+        self.fail(node.span, format!("{what} must be two texts"), "write [\"first\", \"second\"]")
+    }
+}
