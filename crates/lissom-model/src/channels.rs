@@ -24,7 +24,7 @@ pub struct Channel {
     pub components: Vec<String>,
     /// Unit of all components, or of each where they differ.
     pub units: Vec<&'static str>,
-    source: Source,
+    pub(crate) source: Source,
 }
 
 /// Names resolved by the lowering.
@@ -47,12 +47,13 @@ pub fn signal_value(system: &System, at: &Kinematics, argument: Argument) -> f64
 }
 
 /// A point that moves: carried by a node, or at a place in a beam element.
-enum Place {
+pub(crate) enum Place {
     Carried { node: NodeId, offset: Vector3 },
     OnBeam { probe: Arc<dyn BeamProbe>, xi: f64, point: Vector3, nodes: Vec<NodeId> },
 }
 
-enum Source {
+/// Where a channel's numbers come from.
+pub(crate) enum Source {
     Place(Place, Motion),
     Joint(usize),
     Drive(usize),

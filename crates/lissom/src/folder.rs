@@ -5,7 +5,7 @@ use std::io::{BufWriter, Error, ErrorKind, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use lissom_model::files::{self, FileError};
-use lissom_model::output::{CsvWriter, FigureError, Record, RecordError, Summary, figures};
+use lissom_model::output::{BodePlot, CsvWriter, FigureError, Record, RecordError, Summary, figures};
 use lissom_model::scene::Scene;
 use serde_json::Value;
 
@@ -25,6 +25,31 @@ const PAGE: &str = "view.html";
 /// Names of the tables of natural modes.
 pub(crate) const MODES: &str = "modes.csv";
 pub(crate) const SHAPES: &str = "shapes.csv";
+/// Files of analyses of the linear model.
+const OF_LINEAR_MODELS: [&str; 22] = [
+    "response.csv",
+    "response.svg",
+    "response.png",
+    "campbell.csv",
+    "campbell.svg",
+    "campbell.png",
+    "unknowns.csv",
+    "states.csv",
+    "M.mtx",
+    "D.mtx",
+    "K.mtx",
+    "G.mtx",
+    "inputs.mtx",
+    "outputs-place.mtx",
+    "outputs-rate.mtx",
+    "outputs-acceleration.mtx",
+    "outputs-multiplier.mtx",
+    "outputs-input.mtx",
+    "state-space-A.mtx",
+    "state-space-B.mtx",
+    "state-space-C.mtx",
+    "state-space-D.mtx",
+];
 /// Name of the file with what the steps told of their tangents.
 const TELEMETRY: &str = "telemetry.json";
 /// Name of the file that a run holds locked.
@@ -106,6 +131,7 @@ impl ResultFolder {
         let mut stale = [HISTORY, SUMMARY, TELEMETRY, MOTION, SCENE, PAGE, MODES, SHAPES]
             .map(|name| self.path.join(name))
             .to_vec();
+        stale.extend(OF_LINEAR_MODELS.map(|name| self.path.join(name)));
         if let Ok((_, record, title)) = Self::open(&self.path) {
             for figure in figures(&record, &title) {
                 stale.extend(["svg", "png"].map(|kind| self.path.join(format!("{}.{kind}", figure.name))));
@@ -249,6 +275,16 @@ impl ResultFolder {
     /// If it cannot be written.
     pub fn write_telemetry(&self, telemetry: &Value) -> Result<(), FileError> {
         files::replace(&self.path.join(TELEMETRY), format!("{telemetry}\n").as_bytes())
+    }
+
+    /// Draws a Bode plot, as SVG and as PNG.
+    ///
+    /// # Errors
+    /// If it cannot be drawn or written.
+    pub fn write_bode_plot(&self, plot: &BodePlot) -> Result<(), FolderError> {
+        let path = |kind: &str| self.path.join(format!("{}.{kind}", plot.name));
+        files::write(&path("svg"), plot.svg()?.as_bytes())?;
+        Ok(files::write(&path("png"), &plot.png()?)?)
     }
 
     /// Draws every output of `record`, as SVG and as PNG. What can be drawn is drawn, even when something

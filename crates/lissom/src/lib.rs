@@ -24,16 +24,20 @@
 //! # Ok::<(), lissom::SessionError>(())
 //! ```
 
+mod about;
 pub mod buckling;
 mod checkpoint;
 mod folder;
 mod folder_page;
 pub mod gradient;
+pub mod linearize;
 mod model;
 pub mod modes;
 pub mod motion;
 pub mod path;
+mod ports;
 mod report;
+pub mod response;
 mod schedule;
 mod session;
 mod spent;

@@ -2,54 +2,22 @@
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use lissom_core::analysis::equilibrium::at_rest;
 use lissom_core::analysis::{InitialError, StepError};
 use lissom_core::linear::{
     Completeness, LinearError, LinearModel, Mode, ModeError, ModeKind, ModeOptions, NodeShape,
 };
-use lissom_core::system::{Kinematics, State};
+use lissom_core::system::Kinematics;
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::{Lowered, lower};
 use lissom_model::output::Summary;
 use lissom_model::{Document, Report};
 use serde_json::{Value, json};
 
 use crate::model::{Model, Override};
-use crate::session::{Session, SessionError};
+use crate::session::SessionError;
 
-/// A state at rest whose unbalanced forces displace it by less than this part of the model's length is in equilibrium …
-const BALANCED: f64 = 1e-8;
-/// … and one that was solved for may miss it by so much.
-const STILL_BALANCED: f64 = 1e-6;
-/// Tolerance of the equilibrium, at least.
-const TOLERANCE: f64 = 1e-12;
-/// A motion whose twists change by less, relative to the square of its rate, is steady.
-const STEADY: f64 = 1e-6;
-
-/// The state about which a model is linearised.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum About {
-    /// Static equilibrium: of a model with load steps at their end, of others under the loads at the start.
-    Static,
-    /// The places of the model file, without gravity and loads.
-    Undeformed,
-    /// The state that the model's own analysis reaches at this time [s].
-    Time(f64),
-}
-
-impl About {
-    /// Its words in `summary.json`.
-    fn name(self) -> String {
-        match self {
-            Self::Static => "static".to_owned(),
-            Self::Undeformed => "undeformed".to_owned(),
-            Self::Time(time) => format!("t = {time} s"),
-        }
-    }
-}
+pub use crate::about::About;
 
 /// What is asked for beyond the model; what is left out is as the model's table `[analysis]` says if it is of kind `modes`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -170,116 +138,17 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
     if let Some(frequency) = shift.filter(|frequency| !(frequency.is_finite() && *frequency >= 0.0)) {
         return Err(ModesError::Shift(frequency));
     }
-    let mut report = match about {
-        About::Undeformed => undeformed(&document, count, shift)?,
-        About::Static if !matches!(document.analysis.kind, AnalysisKind::Statics { .. }) => {
-            in_equilibrium(&document, count, shift)?
-        }
-        About::Static => after(&document, document.analysis.end, count, shift)?,
-        About::Time(time) => after(&document, time, count, shift)?,
-    };
+    let mut report = about.linearized(&document, |reached| -> Result<ModeReport, ModesError> {
+        let mut report = tell(reached.model, count, shift)?;
+        report.warnings.extend(reached.warnings);
+        Ok(report)
+    })?;
     report.about = about.name();
     report.wall = began.elapsed();
     if let Completeness::Missing(missed) = report.completeness {
         return Err(ModesError::Missing(missed));
     }
     Ok(report)
-}
-
-fn undeformed(document: &Document, count: usize, shift: Option<f64>) -> Result<ModeReport, ModesError> {
-    let mut document = document.clone();
-    document.gravity.fill(0.0);
-    document.loads.clear();
-    let mut lowered = lower(&document)?;
-    stop(&mut lowered.state);
-    let model = LinearModel::of(&lowered.system, &lowered.state, lowered.settings.solver)?;
-    balanced(
-        &model,
-        "undeformed state",
-        STILL_BALANCED,
-        "springs or drives pull at it: take the static equilibrium",
-    )?;
-    tell(&model, count, shift)
-}
-
-fn in_equilibrium(document: &Document, count: usize, shift: Option<f64>) -> Result<ModeReport, ModesError> {
-    let Lowered { system, mut state, mut settings, .. } = lower(document)?;
-    stop(&mut state);
-    let model = LinearModel::of(&system, &state, settings.solver)?;
-    if balanced(&model, "state of the file", BALANCED, "").is_ok() {
-        return tell(&model, count, shift);
-    }
-    drop(model);
-    settings.limits.tolerance = settings.limits.tolerance.min(TOLERANCE);
-    let (system, mut state, _) = at_rest(Arc::new(system), state, &settings)?;
-    stop(&mut state);
-    let model = LinearModel::of(&system, &state, settings.solver)?;
-    let hint =
-        "give the model an analysis of kind `statics` in more load steps, and take the modes at its end";
-    balanced(&model, "state that was found", STILL_BALANCED, hint)?;
-    tell(&model, count, shift)
-}
-
-/// The state that the model's own analysis reaches.
-fn after(document: &Document, time: f64, count: usize, shift: Option<f64>) -> Result<ModeReport, ModesError> {
-    let (start, end) = (document.analysis.start, document.analysis.end);
-    let wrong = |reason: String| Err(ModesError::Time { time, reason });
-    if !matches!(document.analysis.kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
-        return wrong(
-            "an analysis of this kind has no course in time; take `static` or `undeformed`".to_owned(),
-        );
-    }
-    if !(time >= start && time <= end) {
-        return wrong(format!("the analysis runs from {start} to {end} s"));
-    }
-    let mut document = document.clone();
-    let is_static = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
-    if is_static {
-        document.analysis.tolerance = document.analysis.tolerance.min(TOLERANCE);
-    }
-    let mut session = Session::new(&document)?;
-    session.step_to(time)?;
-    let simulation = session.simulation();
-    let model = LinearModel::of(simulation.system(), simulation.state(), simulation.settings().solver)?;
-    if is_static {
-        if time > start {
-            balanced(&model, "state that was reached", STILL_BALANCED, "take more load steps")?;
-        } else {
-            let hint = "no load step leads to this time: take a later one";
-            balanced(&model, "state at the start", STILL_BALANCED, hint)?;
-        }
-    } else if model.is_at_rest() {
-        let hint = "it is about to move: take the static equilibrium";
-        balanced(&model, "state at that time", STILL_BALANCED, hint)?;
-    }
-    let mut report = tell(&model, count, shift)?;
-    if model.unsteadiness() > STEADY {
-        report.warnings.push(format!(
-            "the motion at t = {time} s is not steady (its twists change by {:.1e} of their squares): frequencies are those of \
-             coefficients frozen at that instant",
-            model.unsteadiness()
-        ));
-    }
-    Ok(report)
-}
-
-fn stop(state: &mut State) {
-    for node in &mut state.kinematics.nodes {
-        node.twist.fill(0.0);
-    }
-    for coordinate in &mut state.kinematics.coordinates {
-        coordinate.rate = 0.0;
-    }
-}
-
-fn balanced(
-    model: &LinearModel<'_>,
-    state: &'static str,
-    limit: f64,
-    hint: &'static str,
-) -> Result<(), ModesError> {
-    let imbalance = model.imbalance();
-    if imbalance <= limit { Ok(()) } else { Err(ModesError::NotInEquilibrium { state, imbalance, hint }) }
 }
 
 fn tell(model: &LinearModel<'_>, count: usize, shift: Option<f64>) -> Result<ModeReport, ModesError> {

@@ -206,6 +206,11 @@ impl Session {
         &self.simulation
     }
 
+    /// What is recorded, as it is evaluated.
+    pub(crate) fn channels(&self) -> &[Channel] {
+        &self.channels
+    }
+
     /// Hands the states of a [`run`](Self::run) to `writer`, too.
     pub fn write_states_to(&mut self, writer: Box<dyn StateWriter>) {
         self.state_writers.push(writer);

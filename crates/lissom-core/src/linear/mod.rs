@@ -1,4 +1,5 @@
-//! The linearised model at a state, and what follows from it without stepping in time: natural modes, linear buckling.
+//! The linearised model at a state, and what follows from it without stepping in time: natural modes, linear buckling,
+//! the response to harmonic inputs.
 //!
 //! ```text
 //! M η̈ + (D + M ad_V) η̇ + (K + D ad_V + M ad_V̇) η + Bᵀ μ = 0,    B η = 0
@@ -14,10 +15,16 @@ mod krylov;
 mod lanczos;
 mod mode;
 mod model;
+mod output;
+mod response;
 mod shapes;
 mod shifted;
+mod state_space;
 
 pub use buckling::{Buckling, BucklingError, BucklingMode};
 pub use mode::{Completeness, Mode, ModeError, ModeKind, ModeOptions, Modes};
 pub use model::{LinearError, LinearModel};
+pub use output::OutputDerivatives;
+pub use response::{FrequencyResponse, ResponseError};
 pub use shapes::NodeShape;
+pub use state_space::{StateSpace, StateSpaceError};

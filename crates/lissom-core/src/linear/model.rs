@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 use lissom_solver::{FactorError, Pattern, Scalar, SolverKind};
+use num_complex::Complex64;
 
-use super::shifted::RealShift;
+use super::shifted::{ComplexShift, RealShift, small_square};
 use crate::analysis::InitialError;
 use crate::analysis::initial::Initial;
 use crate::joints::Quantity;
@@ -27,12 +28,12 @@ const NEUTRAL: f64 = 1e-6;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LinearError {
-    /// Loads depend on the motion, or there are states.
+    /// Signals are sampled.
     #[error(
-        "the linear model of a system with feedback is not known: loads or states whose signals depend on the motion; \
-         remove them for this analysis"
+        "there is no linear model of a system with sampled signals, which change at instants only: give them no `sample` for \
+         this analysis, as if they were sampled without end"
     )]
-    Feedback,
+    Sampled,
     /// A pivot vanished or a number is not finite.
     #[error(
         "the linear model at t = {time:.6e} s: elimination stops at the {unknown}; give it mass, stiffness or a joint"
@@ -74,8 +75,8 @@ impl<'a> LinearModel<'a> {
     /// # Errors
     /// If they do not exist.
     pub fn of(system: &'a System, state: &State, solver: &SolverKind) -> Result<Self, LinearError> {
-        if system.has_feedback() {
-            return Err(LinearError::Feedback);
+        if system.signals().has_samples() {
+            return Err(LinearError::Sampled);
         }
         let mut state = state.clone();
         let is_at_rest = is_at_rest(&state.kinematics);
@@ -158,6 +159,11 @@ impl<'a> LinearModel<'a> {
         // Just below zero, so that directions in which nothing holds are no unstable ones.
         let shift = -NEUTRAL * shifted.small_square();
         shifted.factor(&self.parts, shift).ok()
+    }
+
+    /// Representative length [m].
+    pub fn length(&self) -> f64 {
+        self.representative.length
     }
 
     /// Whether all velocities are zero.
@@ -246,6 +252,51 @@ fn point<'b>(
     }
 }
 
+/// Solves with stiffness and mass at a small shift. With signals neither is symmetric, and states have damping alone.
+enum Holding<'a> {
+    Symmetric(RealShift<'a>),
+    General { solver: ComplexShift<'a>, room: Vec<Complex64> },
+}
+
+impl<'a> Holding<'a> {
+    fn new(
+        system: &'a System,
+        unloaded: &Linearization,
+        representative: &Representative,
+    ) -> Result<Self, FactorError> {
+        if system.has_feedback() {
+            let mut solver = ComplexShift::new(system, representative);
+            let rate = small_square(representative).sqrt();
+            solver.factor(unloaded, Complex64::new(rate, 0.0))?;
+            return Ok(Self::General { solver, room: vec![Complex64::default(); system.layout().size()] });
+        }
+        let mut solver = RealShift::new(system, representative);
+        solver.factor(unloaded, -solver.small_square())?;
+        Ok(Self::Symmetric(solver))
+    }
+
+    /// Displacements, and multipliers in SI.
+    fn solve(&mut self, right: &mut [f64], count: usize) {
+        let factor = match self {
+            Self::Symmetric(solver) => {
+                solver.solve(right);
+                solver.multiplier_factor()
+            }
+            Self::General { solver, room } => {
+                for (value, &right) in room.iter_mut().zip(right.iter()) {
+                    *value = Complex64::from(right);
+                }
+                solver.solve(room);
+                for (right, value) in right.iter_mut().zip(room.iter()) {
+                    *right = value.re;
+                }
+                solver.multiplier_factor()
+            }
+        };
+        right[count..].iter_mut().for_each(|value| *value *= factor);
+    }
+}
+
 /// Multipliers that hold a state at rest, from a solve with stiffness and mass; gives what is left as a displacement.
 fn hold(
     system: &System,
@@ -255,11 +306,21 @@ fn hold(
     zeros: &[f64],
 ) -> Result<f64, LinearError> {
     let time = state.kinematics.time;
-    let mut solver = RealShift::new(system, representative);
-    solver.factor(unloaded, -solver.small_square()).map_err(|error| stopped(system, time, &error))?;
     let layout = system.layout();
     let count = layout.coordinate_count();
+    let mut solver =
+        Holding::new(system, unloaded, representative).map_err(|error| stopped(system, time, &error))?;
     let length = representative.length;
+    let mut units: Vec<f64> = layout.quantities()[..count]
+        .iter()
+        .map(|quantity| match quantity {
+            Quantity::Length | Quantity::State => 1.0 / length,
+            Quantity::Angle => 1.0,
+        })
+        .collect();
+    for (row, _, magnitude) in layout.states() {
+        units[row] = 1.0 / magnitude;
+    }
     let (still, unchanged) = nothing(&state.kinematics);
     let mut residual = vec![0.0; layout.size()];
     state.multipliers.fill(0.0);
@@ -270,18 +331,12 @@ fn hold(
         system.residual(&at, &mut residual);
         // Places stay: violations are none of the state's concern here.
         residual[count..].fill(0.0);
-        solver.solve(&mut residual);
+        solver.solve(&mut residual, count);
         for (multiplier, change) in state.multipliers.iter_mut().zip(&residual[count..]) {
-            *multiplier -= solver.multiplier_factor() * change;
+            *multiplier -= change;
         }
-        let quantities = layout.quantities();
-        imbalance = residual[..count].iter().enumerate().fold(0.0_f64, |most, (row, value)| {
-            let unit = match quantities[row] {
-                Quantity::Length | Quantity::State => 1.0,
-                Quantity::Angle => length,
-            };
-            most.max((value * unit / length).abs())
-        });
+        let displacements = residual[..count].iter().zip(&units);
+        imbalance = displacements.fold(0.0_f64, |most, (value, unit)| most.max((value * unit).abs()));
     }
     Ok(imbalance)
 }

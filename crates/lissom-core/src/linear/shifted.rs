@@ -132,19 +132,29 @@ impl<'a> ComplexShift<'a> {
         report.map(|_| ())
     }
 
-    /// Solves for forces in SI: displacements in the rows of the coordinates.
+    /// Solves for forces and violations in SI: displacements in the rows of the coordinates, and multipliers in units of
+    /// [`multiplier_factor`](Self::multiplier_factor).
     pub(super) fn solve(&mut self, right: &mut [Complex64]) {
-        let factor = self.scaled.dynamic_factor();
-        for value in &mut right[..self.system.layout().coordinate_count()] {
-            *value *= factor;
-        }
-        for (value, factor) in right.iter_mut().zip(self.equilibration.factors()) {
+        for (value, factor) in right.iter_mut().zip(self.row_factors()) {
             *value *= factor;
         }
         self.solver.solve(right);
         for (value, factor) in right.iter_mut().zip(self.equilibration.factors()) {
             *value *= factor;
         }
+    }
+
+    /// What brings rows in SI to the size of the matrix that is factored.
+    pub(super) fn row_factors(&self) -> impl Iterator<Item = f64> + '_ {
+        let count = self.system.layout().coordinate_count();
+        let of_rows = [self.scaled.dynamic_factor(), self.scaled.scale()];
+        let factors = self.equilibration.factors().iter().enumerate();
+        factors.map(move |(row, factor)| factor * of_rows[usize::from(row >= count)])
+    }
+
+    /// From a scaled multiplier to one in SI.
+    pub(super) fn multiplier_factor(&self) -> f64 {
+        self.scaled.multiplier_factor()
     }
 }
 

@@ -19,7 +19,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
-use crate::system::Kinematics;
+use crate::system::{CoordinateId, Kinematics, NodeId};
 use measurement::Measurement;
 
 /// Index of a held value: an input, or the last sample of a signal.
@@ -186,6 +186,21 @@ impl Graph {
         values: &[f64],
         mut add: impl FnMut(MeasurementId, f64),
     ) {
+        self.differentiate_by_all(root, at, values, |argument, derivative| {
+            if let Argument::Measured(measurement) = argument {
+                add(measurement, derivative);
+            }
+        });
+    }
+
+    /// The same by each of its held values, too.
+    pub(crate) fn differentiate_by_all(
+        &self,
+        root: SignalId,
+        at: &Kinematics,
+        values: &[f64],
+        mut add: impl FnMut(Argument, f64),
+    ) {
         with_room(root + 1, |adjoints| {
             adjoints[root] = 1.0;
             for index in (0..=root).rev() {
@@ -199,13 +214,25 @@ impl Graph {
                 signal.function.gradient(at.time, &arguments[..count], &mut gradient[..count]);
                 for (argument, derivative) in signal.arguments.iter().zip(&gradient) {
                     match *argument {
-                        Argument::Held(_) => {}
                         Argument::Signal(earlier) => adjoints[earlier] += adjoint * derivative,
-                        Argument::Measured(measurement) => add(measurement, adjoint * derivative),
+                        Argument::Held(_) | Argument::Measured(_) => add(*argument, adjoint * derivative),
                     }
                 }
             }
         });
+    }
+
+    /// Nodes and coordinates that an argument of a signal depends on between samples.
+    pub fn touched_by(&self, argument: Argument) -> (BTreeSet<NodeId>, BTreeSet<CoordinateId>) {
+        let measurements = match argument {
+            Argument::Held(_) => BTreeSet::new(),
+            Argument::Measured(measurement) => BTreeSet::from([measurement]),
+            Argument::Signal(signal) => self.measurements_of(signal),
+        };
+        let of = || measurements.iter().map(|&measurement| &self.measurements[measurement]);
+        let nodes = of().flat_map(|measurement| measurement.nodes().iter().copied()).collect();
+        let coordinates = of().flat_map(|measurement| measurement.coordinates().iter().copied()).collect();
+        (nodes, coordinates)
     }
 
     /// Measurements that a signal depends on between samples.

@@ -13,6 +13,7 @@ use std::sync::Arc;
 
 use lissom_solver::Pattern;
 
+use super::System;
 use super::batch::{AnyBatch, Chart, scatter, through, work};
 use super::layout::Layout;
 use super::places::{Places, free_rows};
@@ -22,7 +23,7 @@ use super::threads::Threads;
 use crate::elements::passage::{Passage, STAGES, Variation};
 use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
 use crate::signals::measurement::Measurement;
-use crate::signals::{Graph, SignalId};
+use crate::signals::{Argument, Graph, HeldId, SignalId};
 
 /// Most local unknowns of a load or state with all that its signal touches.
 const MOST_LOCAL: usize = 255;
@@ -232,6 +233,32 @@ impl Feedback {
         });
     }
 
+    /// Adds the derivative of the residual by a held value.
+    fn add_input(&self, held: HeldId, at: &Kinematics, out: &mut [f64]) {
+        self.graph.evaluate(at, |values| {
+            for driven in &self.driven {
+                let mut factor = 0.0;
+                self.graph.differentiate_by_all(driven.signal, at, values, |argument, derivative| {
+                    if argument == Argument::Held(held) {
+                        factor += derivative;
+                    }
+                });
+                if factor == 0.0 {
+                    continue;
+                }
+                let mut local = [0.0; MOST_UNKNOWNS];
+                match &driven.target {
+                    Target::Load(element) => {
+                        element.forces(at, &mut local[..driven.own]);
+                        local = local.map(|force| factor * force);
+                    }
+                    Target::State(_) => local[0] = -factor,
+                }
+                scatter(&driven.rows[..driven.own], &local, out);
+            }
+        });
+    }
+
     fn hand_derivatives(
         &self,
         at: &Kinematics,
@@ -246,6 +273,16 @@ impl Feedback {
                 out.add_element(Place { rows: &driven.rows, runs: self.places.of(index) }, scratch);
             }
         });
+    }
+}
+
+impl System {
+    /// Derivative of the equations of motion and of states by a held value, by row: what a unit of an input adds to the
+    /// left-hand sides.
+    pub fn input_derivative(&self, held: HeldId, at: &Kinematics) -> Vec<f64> {
+        let mut out = vec![0.0; self.layout.size()];
+        self.feedback.add_input(held, at, &mut out);
+        out
     }
 }
 

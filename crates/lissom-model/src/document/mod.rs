@@ -7,6 +7,7 @@ mod bodies;
 mod components;
 mod connections;
 pub(crate) mod decode;
+mod load_input;
 mod materials;
 mod outputs;
 mod places;

@@ -1,15 +1,19 @@
 //! Where results go: columns of numbers over time, to tables, summaries and plots. Knows no mechanics.
 
+mod bode;
 mod csv;
 mod log_plot;
+mod matrix_market;
 mod plot;
 mod record;
 mod summary;
 
 use std::io;
 
+pub use bode::BodePlot;
 pub use csv::{CsvWriter, number_text, quoted};
 pub use log_plot::LogFigure;
+pub use matrix_market::{full_matrix, sparse_matrix};
 pub use plot::{Figure, FigureError, figures};
 pub use record::{Record, RecordError};
 pub use summary::Summary;

@@ -5,11 +5,13 @@ mod check;
 mod completions;
 mod gradient;
 mod kinds;
+mod linearize;
 mod live;
 mod modes;
 mod new;
 mod path;
 mod plot;
+mod response;
 mod run;
 mod schema;
 mod study;
@@ -111,6 +113,8 @@ enum Command {
     Modes(modes::Modes),
     Buckling(buckling::Buckling),
     Gradient(gradient::Gradient),
+    Response(response::Response),
+    Linearize(linearize::Linearize),
     Kinds(kinds::Kinds),
     Schema(schema::Schema),
     Plot(plot::Plot),
@@ -132,6 +136,8 @@ impl Line {
             Command::Modes(command) => command.run(),
             Command::Buckling(command) => command.run(),
             Command::Gradient(command) => command.run(),
+            Command::Response(command) => command.run(),
+            Command::Linearize(command) => command.run(),
             Command::Kinds(command) => command.run(),
             Command::Schema(command) => command.run(),
             Command::Plot(command) => command.run(),

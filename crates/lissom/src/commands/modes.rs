@@ -39,7 +39,7 @@ pub(super) struct Modes {
     count: Option<u32>,
 
     /// State to linearise about: `static` (default), `undeformed` or a time of the model's analysis [s].
-    #[arg(long, value_name = "STATE|TIME", value_parser = parse_about, allow_negative_numbers = true)]
+    #[arg(long, value_name = "STATE|TIME", allow_negative_numbers = true)]
     about: Option<About>,
 
     /// Seek the modes nearest to this frequency [default: the lowest ones].
@@ -53,17 +53,6 @@ pub(super) struct Modes {
     /// Nothing on the terminal.
     #[arg(long, short)]
     quiet: bool,
-}
-
-fn parse_about(text: &str) -> Result<About, String> {
-    match text {
-        "static" => Ok(About::Static),
-        "undeformed" => Ok(About::Undeformed),
-        _ => match text.parse::<f64>() {
-            Ok(time) if time.is_finite() => Ok(About::Time(time)),
-            _ => Err("it must be `static`, `undeformed` or a time in seconds".to_owned()),
-        },
-    }
 }
 
 impl Modes {

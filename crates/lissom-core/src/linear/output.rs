@@ -1,0 +1,80 @@
+//! Derivatives of a number that is recorded, by the unknowns of the linear model.
+//!
+//! ```text
+//! δy = c_q δq + c_v δv + c_a δa + c_λ δλ + c_u δu
+//! ```
+//!
+//! q places (body variations and coordinates), v twists and rates, a their derivatives, λ multipliers, u held values. About a
+//! moving state the unknowns are departures η from going on, δv = η̇ + ad_V η and δa = η̈ + ad_V η̇ + ad_V̇ η.
+
+use std::collections::BTreeMap;
+
+use lissom_motion::{Vector6, lie_bracket_matrix};
+use num_complex::Complex64;
+
+use super::model::LinearModel;
+use crate::signals::HeldId;
+use crate::system::LOCKED;
+
+/// Derivatives of a number by row; rows that are not there have none.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct OutputDerivatives {
+    /// By places.
+    pub by_place: BTreeMap<usize, f64>,
+    /// By twists and rates.
+    pub by_rate: BTreeMap<usize, f64>,
+    /// By accelerations.
+    pub by_acceleration: BTreeMap<usize, f64>,
+    /// By multipliers; rows as in the layout, after those of the coordinates.
+    pub by_multiplier: BTreeMap<usize, f64>,
+    /// By held values.
+    pub by_held: BTreeMap<HeldId, f64>,
+}
+
+impl OutputDerivatives {
+    /// Amplitude of the number where the unknowns and multipliers move as `amplitudes` times e^{st}, held values left out, and
+    /// the sum of the sizes of its terms.
+    pub fn amplitude(&self, s: Complex64, amplitudes: &[Complex64]) -> (Complex64, f64) {
+        let factors = [Complex64::from(1.0), s, s * s, Complex64::from(1.0)];
+        let parts = [&self.by_place, &self.by_rate, &self.by_acceleration, &self.by_multiplier];
+        let (mut sum, mut terms) = (Complex64::default(), 0.0);
+        for (factor, part) in factors.into_iter().zip(parts) {
+            for (&row, &derivative) in part {
+                let term = factor * amplitudes[row] * derivative;
+                sum += term;
+                terms += term.norm();
+            }
+        }
+        (sum, terms)
+    }
+}
+
+impl LinearModel<'_> {
+    /// Derivatives by the unknowns of this model, from those by places, twists and accelerations as they are.
+    #[must_use]
+    pub fn along_departures(&self, mut output: OutputDerivatives) -> OutputDerivatives {
+        if self.is_at_rest() {
+            return output;
+        }
+        let layout = self.system.layout();
+        for (node, motion) in self.at.nodes.iter().enumerate() {
+            let rows = layout.rows_of_node(node);
+            let own = |of: &BTreeMap<usize, f64>| {
+                Vector6::from_fn(|k, _| of.get(&(rows[k] as usize)).copied().unwrap_or(0.0))
+            };
+            let (by_rate, by_acceleration) = (own(&output.by_rate), own(&output.by_acceleration));
+            if by_rate == Vector6::zeros() && by_acceleration == Vector6::zeros() {
+                continue;
+            }
+            let turning = lie_bracket_matrix(&motion.twist);
+            let to_place =
+                turning.tr_mul(&by_rate) + lie_bracket_matrix(&motion.acceleration).tr_mul(&by_acceleration);
+            let to_rate = turning.tr_mul(&by_acceleration);
+            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+                *output.by_place.entry(row as usize).or_insert(0.0) += to_place[k];
+                *output.by_rate.entry(row as usize).or_insert(0.0) += to_rate[k];
+            }
+        }
+        output
+    }
+}

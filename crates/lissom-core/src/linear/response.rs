@@ -1,0 +1,139 @@
+//! Amplitudes of the linear model under inputs e^{st}, one sparse complex solve for each s:
+//!
+//! ```text
+//! (s² M + s D + K) x + Bᵀ μ = f,    B x = g
+//! ```
+//!
+//! Each solution is refined with the equations as they stand, and judged by what it leaves of them.
+
+use num_complex::Complex64;
+
+use super::model::{LinearError, LinearModel};
+use super::shifted::ComplexShift;
+
+/// What a solution leaves of the equations, relative to their terms, at most.
+const LEFT: f64 = 1e-9;
+/// Solutions are refined until so much is left …
+const ENOUGH: f64 = 1e-15;
+/// … or so many times.
+const REFINEMENTS: usize = 8;
+
+/// A response that was not found.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ResponseError {
+    /// The matrix could not be factored.
+    #[error(
+        "the response at s = {s} 1/s: {error}; where the model has no damping it is unbounded at a natural frequency"
+    )]
+    Linear {
+        /// The rate at which the input changes [1/s].
+        s: Complex64,
+        /// What went wrong.
+        error: LinearError,
+    },
+    /// A solution leaves too much of its equations.
+    #[error(
+        "the response at s = {s} 1/s is not known: the solution leaves {left:.1e} of its equations; nothing may hold the model \
+         there, or without damping a natural frequency is too near"
+    )]
+    Inexact {
+        /// The rate at which the input changes [1/s].
+        s: Complex64,
+        /// What is left, relative to the terms of the equations.
+        left: f64,
+    },
+}
+
+/// Solves for one s after the other.
+pub struct FrequencyResponse<'m, 'a> {
+    model: &'m LinearModel<'a>,
+    solver: ComplexShift<'a>,
+    values: Vec<Complex64>,
+}
+
+impl<'a> LinearModel<'a> {
+    /// The response to inputs e^{st}.
+    pub fn frequency_response(&self) -> FrequencyResponse<'_, 'a> {
+        FrequencyResponse {
+            model: self,
+            solver: ComplexShift::new(self.system, &self.representative),
+            values: vec![Complex64::default(); self.pattern().entries()],
+        }
+    }
+}
+
+impl FrequencyResponse<'_, '_> {
+    /// Amplitudes of coordinates [m, rad] and multipliers [N, N m], by row, for each of the amplitudes of forces on the
+    /// right-hand sides and of constraints' violations, by row. `s` [1/s] is not zero.
+    ///
+    /// # Errors
+    /// If s is an eigenvalue, or so near to one that the solution means nothing.
+    pub fn amplitudes(
+        &mut self,
+        s: Complex64,
+        inputs: &[Vec<f64>],
+    ) -> Result<Vec<Vec<Complex64>>, ResponseError> {
+        let parts = self.model.parts();
+        let failed = |error| ResponseError::Linear { s, error };
+        self.solver.factor(parts, s).map_err(|error| failed(self.model.stopped(&error)))?;
+        for (k, value) in self.values.iter_mut().enumerate() {
+            *value = s * (s * parts.mass[k] + parts.damping[k]) + parts.stiffness[k] + parts.constraint[k];
+        }
+        inputs.iter().map(|input| self.solve(s, input)).collect()
+    }
+
+    fn solve(&mut self, s: Complex64, input: &[f64]) -> Result<Vec<Complex64>, ResponseError> {
+        let count = self.model.coordinate_count();
+        let mut x = vec![Complex64::default(); input.len()];
+        let mut rest: Vec<Complex64> = input.iter().copied().map(Complex64::from).collect();
+        if input.iter().all(|&value| value == 0.0) {
+            return Ok(x);
+        }
+        let (mut best, mut left) = (x.clone(), f64::INFINITY);
+        for _ in 0..=REFINEMENTS {
+            self.solver.solve(&mut rest);
+            let factor = self.solver.multiplier_factor();
+            for (row, (value, change)) in x.iter_mut().zip(&rest).enumerate() {
+                *value += change * if row < count { 1.0 } else { factor };
+            }
+            let now = self.remainder(input, &x, &mut rest);
+            if now.is_nan() || now >= left {
+                break;
+            }
+            left = now;
+            best.copy_from_slice(&x);
+            if left <= ENOUGH {
+                break;
+            }
+        }
+        if left <= LEFT { Ok(best) } else { Err(ResponseError::Inexact { s, left }) }
+    }
+
+    /// What is left of the equations; gives its size relative to their terms, rows and terms scaled as for the
+    /// factorisation.
+    fn remainder(&self, input: &[f64], x: &[Complex64], rest: &mut [Complex64]) -> f64 {
+        let pattern = self.model.pattern();
+        let mut terms: Vec<f64> = input.iter().map(|value| value.abs()).collect();
+        for (value, &input) in rest.iter_mut().zip(input) {
+            *value = Complex64::from(input);
+        }
+        for (column, factor) in x.iter().enumerate() {
+            let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+            for (&row, value) in pattern.row_indices()[range.clone()].iter().zip(&self.values[range]) {
+                let term = value * factor;
+                rest[row] -= term;
+                terms[row] += term.l1_norm();
+            }
+        }
+        let (mut left, mut whole) = (0.0_f64, 0.0_f64);
+        for ((value, term), factor) in rest.iter().zip(&terms).zip(self.solver.row_factors()) {
+            if !value.is_finite() {
+                return f64::INFINITY;
+            }
+            left = left.max(value.norm() * factor);
+            whole = whole.max(term * factor);
+        }
+        if whole > 0.0 { left / whole } else { f64::INFINITY }
+    }
+}

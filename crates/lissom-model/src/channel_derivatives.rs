@@ -1,0 +1,171 @@
+//! Derivatives of recorded numbers by the unknowns they depend on, by differences of sixth order along each: exact to
+//! about twelve digits for numbers as smooth as places, forces and reactions are.
+//!
+//! ```text
+//! f' ≈ (3/4 (f₁ - f₋₁) - 3/20 (f₂ - f₋₂) + 1/60 (f₃ - f₋₃)) / h
+//! ```
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
+
+use lissom_core::linear::{LinearModel, OutputDerivatives};
+use lissom_core::signals::Argument;
+use lissom_core::system::{CoordinateId, GROUND, LOCKED, NodeId, State, System};
+use lissom_motion::{Motion, Vector6};
+
+use crate::channels::{Channel, Place, Source};
+
+/// Angle, and part of a length, by which places are moved: far above round-off, and its sixth power far below.
+const APART: f64 = 2e-3;
+/// Weights of the differences.
+const WEIGHTS: [f64; 3] = [0.75, -0.15, 1.0 / 60.0];
+
+/// The unknowns a channel depends on.
+struct Touched {
+    nodes: BTreeSet<NodeId>,
+    coordinates: BTreeSet<CoordinateId>,
+    multipliers: Range<usize>,
+    held: Range<usize>,
+}
+
+impl Channel {
+    /// Derivatives of its components at the state of `model`, in its unknowns; none of energies and momenta, which depend on
+    /// all there is.
+    pub fn derivatives(&self, model: &LinearModel<'_>) -> Option<Vec<OutputDerivatives>> {
+        let system = model.system();
+        let layout = system.layout();
+        let touched = self.touched(system, model)?;
+        let state = State {
+            kinematics: model.kinematics().clone(),
+            multipliers: model.multipliers().to_vec(),
+            violations: Vec::new(),
+            algorithmic: Vec::new(),
+            time_remainder: 0.0,
+            position_remainders: Vec::new(),
+        };
+        let length = touched_length(&touched, &state).unwrap_or(model.length());
+        let mut difference = Difference { channel: self, system, state };
+        let mut outputs = vec![OutputDerivatives::default(); self.components.len()];
+        for &node in touched.nodes.iter().filter(|&&node| node != GROUND) {
+            for (k, &row) in layout.rows_of_node(node).iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+                let row = row as usize;
+                let unit = if k < 3 { length } else { 1.0 };
+                let along = Vector6::ith(k, 1.0);
+                let found = difference.of(APART * unit, |state, change| {
+                    let own = &mut state.kinematics.nodes[node];
+                    own.frame = own.frame * Motion::exponential(&(change * along));
+                });
+                keep(&mut outputs, &found, row, |output| &mut output.by_place);
+                let found =
+                    difference.of(unit, |state, change| state.kinematics.nodes[node].twist += change * along);
+                keep(&mut outputs, &found, row, |output| &mut output.by_rate);
+                let found = difference
+                    .of(unit, |state, change| state.kinematics.nodes[node].acceleration += change * along);
+                keep(&mut outputs, &found, row, |output| &mut output.by_acceleration);
+            }
+        }
+        for &coordinate in &touched.coordinates {
+            let row = layout.row_of_coordinate(coordinate);
+            let found = difference
+                .of(APART, |state, change| state.kinematics.coordinates[coordinate].value += change);
+            keep(&mut outputs, &found, row, |output| &mut output.by_place);
+            let found =
+                difference.of(1.0, |state, change| state.kinematics.coordinates[coordinate].rate += change);
+            keep(&mut outputs, &found, row, |output| &mut output.by_rate);
+        }
+        for multiplier in touched.multipliers {
+            let unit = difference.state.multipliers[multiplier].abs().max(1.0);
+            let found = difference.of(unit, |state, change| state.multipliers[multiplier] += change);
+            let row = layout.coordinate_count() + multiplier;
+            keep(&mut outputs, &found, row, |output| &mut output.by_multiplier);
+        }
+        for held in touched.held {
+            let unit = APART * difference.state.kinematics.held[held].abs().max(1.0);
+            let found = difference.of(unit, |state, change| state.kinematics.held[held] += change);
+            keep(&mut outputs, &found, held, |output| &mut output.by_held);
+        }
+        Some(outputs.into_iter().map(|output| model.along_departures(output)).collect())
+    }
+
+    fn touched(&self, system: &System, model: &LinearModel<'_>) -> Option<Touched> {
+        let mut touched =
+            Touched { nodes: BTreeSet::new(), coordinates: BTreeSet::new(), multipliers: 0..0, held: 0..0 };
+        match &self.source {
+            Source::Place(Place::Carried { node, .. }, _) => {
+                touched.nodes.insert(*node);
+            }
+            Source::Place(Place::OnBeam { nodes, .. }, _) => touched.nodes.extend(nodes),
+            Source::Joint(index) => {
+                let joint = &system.joints()[*index];
+                touched.nodes.extend(joint.frames.map(|frame| frame.node));
+                touched.coordinates.extend(&joint.coordinates);
+                touched.multipliers = joint.first_multiplier..joint.first_multiplier + joint.equations();
+            }
+            Source::Drive(index) => {
+                let multiplier = system.drives()[*index].multiplier;
+                touched.multipliers = multiplier..multiplier + 1;
+            }
+            Source::Coordinates(coordinates) => touched.coordinates.extend(coordinates),
+            Source::Signal(argument) => {
+                let (nodes, coordinates) = system.signals().touched_by(*argument);
+                touched.nodes.extend(nodes);
+                touched.coordinates.extend(coordinates);
+                if !matches!(argument, Argument::Measured(_)) {
+                    touched.held = 0..model.kinematics().held.len();
+                }
+            }
+            Source::Energy | Source::Momentum => return None,
+        }
+        Some(touched)
+    }
+}
+
+/// The smallest distance between two of several nodes [m].
+fn touched_length(touched: &Touched, state: &State) -> Option<f64> {
+    let place = |node: &NodeId| state.kinematics.nodes[*node].frame.position;
+    let pairs =
+        touched.nodes.iter().flat_map(|one| touched.nodes.range(one + 1..).map(move |other| (one, other)));
+    let distances = pairs.map(|(one, other)| (place(one) - place(other)).norm());
+    distances.filter(|&distance| distance > 0.0).reduce(f64::min)
+}
+
+fn keep(
+    outputs: &mut [OutputDerivatives],
+    found: &[f64],
+    row: usize,
+    of: fn(&mut OutputDerivatives) -> &mut BTreeMap<usize, f64>,
+) {
+    for (output, &value) in outputs.iter_mut().zip(found) {
+        if value != 0.0 {
+            *of(output).entry(row).or_insert(0.0) += value;
+        }
+    }
+}
+
+/// A channel at neighbouring states.
+struct Difference<'c> {
+    channel: &'c Channel,
+    system: &'c System,
+    state: State,
+}
+
+impl Difference<'_> {
+    /// Derivatives of all components as `change` moves the state, from differences `apart`.
+    fn of(&mut self, apart: f64, change: impl Fn(&mut State, f64)) -> Vec<f64> {
+        let mut sums = vec![0.0; self.channel.components.len()];
+        for (k, weight) in WEIGHTS.iter().enumerate() {
+            let distance = (k + 1) as f64 * apart;
+            let [ahead, behind] = [distance, -distance].map(|distance| {
+                let mut moved = self.state.clone();
+                change(&mut moved, distance);
+                let mut values = Vec::new();
+                self.channel.evaluate(self.system, &moved, &mut values);
+                values
+            });
+            for (sum, (ahead, behind)) in sums.iter_mut().zip(ahead.iter().zip(&behind)) {
+                *sum += weight * (ahead - behind) / apart;
+            }
+        }
+        sums
+    }
+}

@@ -1,0 +1,53 @@
+//! Matrices as texts in the Matrix Market format, which SciPy, MATLAB, Julia and others read.
+
+use std::fmt::Write;
+
+/// A sparse matrix of `rows` by `columns`, from its entries by row and column, counted from 0; zeros are left out.
+pub fn sparse_matrix(
+    comment: &str,
+    [rows, columns]: [usize; 2],
+    entries: impl Iterator<Item = (usize, usize, f64)>,
+) -> String {
+    let kept: Vec<_> = entries.filter(|&(_, _, value)| value != 0.0).collect();
+    let mut text = format!("%%MatrixMarket matrix coordinate real general\n% {comment}\n");
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{rows} {columns} {}", kept.len());
+    for (row, column, value) in kept {
+        let _ = writeln!(text, "{} {} {value:?}", row + 1, column + 1);
+    }
+    text
+}
+
+/// A full matrix of `rows` by `columns`, from its entries.
+pub fn full_matrix(
+    comment: &str,
+    [rows, columns]: [usize; 2],
+    entry: impl Fn(usize, usize) -> f64,
+) -> String {
+    let mut text = format!("%%MatrixMarket matrix array real general\n% {comment}\n{rows} {columns}\n");
+    for (column, row) in (0..columns).flat_map(|column| (0..rows).map(move |row| (column, row))) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{:?}", entry(row, column));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn entries_are_counted_from_one_and_zeros_left_out() {
+        let text = sparse_matrix("mass", [2, 3], [(0, 0, 1.5), (1, 1, 0.0), (1, 2, -2e-30)].into_iter());
+        assert_eq!(
+            text,
+            "%%MatrixMarket matrix coordinate real general\n% mass\n2 3 2\n1 1 1.5\n2 3 -2e-30\n"
+        );
+    }
+
+    #[test]
+    fn full_matrices_go_column_by_column() {
+        let text = full_matrix("A", [2, 2], |row, column| (10 * row + column) as f64);
+        assert_eq!(text, "%%MatrixMarket matrix array real general\n% A\n2 2\n0.0\n10.0\n1.0\n11.0\n");
+    }
+}

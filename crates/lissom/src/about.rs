@@ -1,0 +1,198 @@
+//! States about which a model is linearised: the places of the file, static equilibrium, an instant of a run.
+
+use std::sync::Arc;
+
+use lissom_core::analysis::Settings;
+use lissom_core::analysis::equilibrium::at_rest;
+use lissom_core::linear::LinearModel;
+use lissom_core::system::{State, System};
+use lissom_model::Document;
+use lissom_model::channels::Channel;
+use lissom_model::document::AnalysisKind;
+use lissom_model::lower::{Lowered, lower};
+
+use crate::modes::ModesError;
+use crate::session::Session;
+
+/// A state at rest whose unbalanced forces displace it by less than this part of the model's length is in equilibrium …
+const BALANCED: f64 = 1e-8;
+/// … and one that was solved for may miss it by so much.
+const STILL_BALANCED: f64 = 1e-6;
+/// Tolerance of the equilibrium, at least.
+const TOLERANCE: f64 = 1e-12;
+/// A motion whose twists change by less, relative to the square of its rate, is steady.
+const STEADY: f64 = 1e-6;
+
+/// The state about which a model is linearised.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum About {
+    /// Static equilibrium: of a model with load steps at their end, of others under the loads at the start.
+    Static,
+    /// The places of the model file, without gravity and loads.
+    Undeformed,
+    /// The state that the model's own analysis reaches at this time [s].
+    Time(f64),
+}
+
+/// A model at a state.
+pub(crate) struct Reached<'m, 'a> {
+    /// Linearised there.
+    pub(crate) model: &'m LinearModel<'a>,
+    /// What it records.
+    pub(crate) channels: &'m [Channel],
+    /// Reasons to doubt what follows from the linear model.
+    pub(crate) warnings: Vec<String>,
+}
+
+impl std::str::FromStr for About {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        match text {
+            "static" => Ok(Self::Static),
+            "undeformed" => Ok(Self::Undeformed),
+            _ => match text.parse::<f64>() {
+                Ok(time) if time.is_finite() => Ok(Self::Time(time)),
+                _ => Err("it must be `static`, `undeformed` or a time in seconds".to_owned()),
+            },
+        }
+    }
+}
+
+impl About {
+    /// Its words in `summary.json`.
+    pub(crate) fn name(self) -> String {
+        match self {
+            Self::Static => "static".to_owned(),
+            Self::Undeformed => "undeformed".to_owned(),
+            Self::Time(time) => format!("t = {time} s"),
+        }
+    }
+
+    /// Finds the state, linearises `document` there, and hands it to `then`.
+    pub(crate) fn linearized<T, E: From<ModesError>>(
+        self,
+        document: &Document,
+        then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
+    ) -> Result<T, E> {
+        match self {
+            Self::Undeformed => undeformed(document, then),
+            Self::Static if !matches!(document.analysis.kind, AnalysisKind::Statics { .. }) => {
+                in_equilibrium(document, then)
+            }
+            Self::Static => after(document, document.analysis.end, then),
+            Self::Time(time) => after(document, time, then),
+        }
+    }
+}
+
+fn undeformed<T, E: From<ModesError>>(
+    document: &Document,
+    then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
+) -> Result<T, E> {
+    let mut document = document.clone();
+    document.gravity.fill(0.0);
+    document.loads.clear();
+    let mut lowered = lower(&document).map_err(ModesError::from)?;
+    stop(&mut lowered.state);
+    let model = linear(&lowered.system, &lowered.state, &lowered.settings)?;
+    balanced(
+        &model,
+        "undeformed state",
+        STILL_BALANCED,
+        "springs or drives pull at it: take the static equilibrium",
+    )?;
+    then(Reached { model: &model, channels: &lowered.channels, warnings: Vec::new() })
+}
+
+fn in_equilibrium<T, E: From<ModesError>>(
+    document: &Document,
+    then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
+) -> Result<T, E> {
+    let Lowered { system, mut state, mut settings, channels, .. } =
+        lower(document).map_err(ModesError::from)?;
+    stop(&mut state);
+    let model = linear(&system, &state, &settings)?;
+    if balanced(&model, "state of the file", BALANCED, "").is_ok() {
+        return then(Reached { model: &model, channels: &channels, warnings: Vec::new() });
+    }
+    drop(model);
+    settings.limits.tolerance = settings.limits.tolerance.min(TOLERANCE);
+    let (system, mut state, _) = at_rest(Arc::new(system), state, &settings).map_err(ModesError::from)?;
+    stop(&mut state);
+    let model = linear(&system, &state, &settings)?;
+    let hint =
+        "give the model an analysis of kind `statics` in more load steps, and take the modes at its end";
+    balanced(&model, "state that was found", STILL_BALANCED, hint)?;
+    then(Reached { model: &model, channels: &channels, warnings: Vec::new() })
+}
+
+/// The state that the model's own analysis reaches.
+fn after<T, E: From<ModesError>>(
+    document: &Document,
+    time: f64,
+    then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
+) -> Result<T, E> {
+    let (start, end) = (document.analysis.start, document.analysis.end);
+    let wrong = |reason: String| Err(E::from(ModesError::Time { time, reason }));
+    if !matches!(document.analysis.kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
+        return wrong(
+            "an analysis of this kind has no course in time; take `static` or `undeformed`".to_owned(),
+        );
+    }
+    if !(time >= start && time <= end) {
+        return wrong(format!("the analysis runs from {start} to {end} s"));
+    }
+    let mut document = document.clone();
+    let is_static = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
+    if is_static {
+        document.analysis.tolerance = document.analysis.tolerance.min(TOLERANCE);
+    }
+    let mut session = Session::new(&document).map_err(ModesError::from)?;
+    session.step_to(time).map_err(ModesError::from)?;
+    let simulation = session.simulation();
+    let model = linear(simulation.system(), simulation.state(), simulation.settings())?;
+    if is_static {
+        if time > start {
+            balanced(&model, "state that was reached", STILL_BALANCED, "take more load steps")?;
+        } else {
+            let hint = "no load step leads to this time: take a later one";
+            balanced(&model, "state at the start", STILL_BALANCED, hint)?;
+        }
+    } else if model.is_at_rest() {
+        let hint = "it is about to move: take the static equilibrium";
+        balanced(&model, "state at that time", STILL_BALANCED, hint)?;
+    }
+    let mut warnings = Vec::new();
+    if model.unsteadiness() > STEADY {
+        warnings.push(format!(
+            "the motion at t = {time} s is not steady (its twists change by {:.1e} of their squares): frequencies are those of \
+             coefficients frozen at that instant",
+            model.unsteadiness()
+        ));
+    }
+    then(Reached { model: &model, channels: session.channels(), warnings })
+}
+
+fn linear<'a>(system: &'a System, state: &State, settings: &Settings) -> Result<LinearModel<'a>, ModesError> {
+    Ok(LinearModel::of(system, state, settings.solver)?)
+}
+
+fn stop(state: &mut State) {
+    for node in &mut state.kinematics.nodes {
+        node.twist.fill(0.0);
+    }
+    for coordinate in &mut state.kinematics.coordinates {
+        coordinate.rate = 0.0;
+    }
+}
+
+fn balanced(
+    model: &LinearModel<'_>,
+    state: &'static str,
+    limit: f64,
+    hint: &'static str,
+) -> Result<(), ModesError> {
+    let imbalance = model.imbalance();
+    if imbalance <= limit { Ok(()) } else { Err(ModesError::NotInEquilibrium { state, imbalance, hint }) }
+}

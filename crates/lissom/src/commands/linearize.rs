@@ -1,0 +1,122 @@
+//! `lissom linearize`: the matrices of the linear model.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize};
+use lissom::modes::About;
+use lissom::response::FrequencyError;
+use lissom::{FolderError, ResultFolder, summary};
+use serde_json::json;
+
+use super::{Exit, Failure, ModelArguments, show_warnings};
+use crate::terminal;
+
+/// Write the matrices of the model linearised about a state.
+///
+/// The results go to a folder, in the Matrix Market format: mass `M.mtx`, damping `D.mtx`, stiffness `K.mtx`, gradient of the
+/// constraints `G.mtx`, `inputs.mtx`, `outputs-*.mtx`, `unknowns.csv` (what the rows are); of models with up to 600 coordinates
+/// also `state-space-A.mtx` … `state-space-D.mtx` with `states.csv`.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  lissom linearize examples/tip-crank.toml
+  lissom linearize examples/tip-crank.toml --input drive --output midspan
+
+An input is an entry of [inputs], a load (per unit of its size) or a prescribed motion (per m or rad), as `motor`, or
+`loads.motor` where several things have a name.
+Exit code: 0 all is done; 2 wrong model or command line; 3 no state to linearise about.")]
+pub(super) struct Linearize {
+    #[command(flatten)]
+    model: ModelArguments,
+
+    /// Inputs, loads or prescribed motions.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    input: Vec<String>,
+
+    /// Outputs, or columns of them.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    output: Vec<String>,
+
+    /// State to linearise about: `static` (default), `undeformed` or a time of the model's analysis [s].
+    #[arg(
+        long,
+        value_name = "STATE|TIME",
+        default_value = "static",
+        hide_default_value = true,
+        allow_negative_numbers = true
+    )]
+    about: About,
+
+    /// Folder for the results [default: out/<name of the model file>-linear].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Nothing on the terminal.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Linearize {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let (model, document) = self.model.read()?;
+        if !self.quiet {
+            show_warnings(&document);
+        }
+        let request = LinearizeRequest { about: self.about, inputs: self.input, outputs: self.output };
+        let found = match linearize(&model, &self.model.set, &request) {
+            Err(FrequencyError::Model(report)) => return Err(report.into()),
+            Err(error) if error.is_of_question() => return Err(Failure::new(Exit::BadModel, error)),
+            other => other,
+        };
+        let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let path = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-linear")));
+        let unwritable = |error: lissom::FileError| Failure::folder(Exit::Failed, &FolderError::from(error));
+        let folder = ResultFolder::create(&path).map_err(unwritable)?;
+        folder.clear().map_err(unwritable)?;
+        let found = match found {
+            Ok(found) => found,
+            Err(error) => {
+                let mut summary = summary::of_request("linearize", model.name(), &self.model.set, &document);
+                // A text can be said in JSON.
+                let _ = summary.insert("error", json!(error.to_string()));
+                folder.write_summary(&summary).map_err(unwritable)?;
+                return Err(Failure::new(Exit::Failed, error));
+            }
+        };
+        for (name, text) in &found.files {
+            folder.write_table(name, text).map_err(unwritable)?;
+        }
+        let summary = found.summary(model.name(), &self.model.set, &document);
+        folder.write_summary(&summary).map_err(unwritable)?;
+        if !self.quiet {
+            for warning in &found.warnings {
+                terminal::complain(&format!("warning: {warning}\n"));
+            }
+            terminal::print(&told(document.title.as_deref().unwrap_or(model.name()), &found, &path));
+        }
+        Ok(Exit::Done)
+    }
+}
+
+/// A few lines for a person.
+fn told(heading: &str, found: &LinearizeReport, folder: &Path) -> String {
+    let mut text = format!("{heading}\n");
+    let [coordinates, multipliers] = found.unknowns;
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "  linear model about {}: {coordinates} coordinates, {multipliers} multipliers, {} inputs, {} outputs, {:.3} s",
+        found.about,
+        found.inputs.len(),
+        found.outputs.len(),
+        found.wall.as_secs_f64()
+    );
+    let _ = match &found.state_space {
+        Ok(matrices) => writeln!(text, "  first-order equations in {} states", matrices.states.len()),
+        Err(reason) => writeln!(text, "  no first-order equations: {reason}"),
+    };
+    let _ = writeln!(text, "  results in {}", folder.display());
+    text
+}

@@ -1,0 +1,138 @@
+//! `lissom response`: harmonic response without steps in time.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use lissom::modes::About;
+use lissom::response::{DEFAULT_POINTS, FrequencyError, ResponseReport, ResponseRequest, response};
+use lissom::{FolderError, ResultFolder, summary};
+use serde_json::json;
+
+use super::{Exit, Failure, ModelArguments, show_warnings};
+use crate::terminal;
+
+/// Find the response of outputs to harmonic inputs, of the model linearised about a state.
+///
+/// The results go to a folder: `response.csv` (frequency, then magnitude, phase in degrees, real and imaginary part of each
+/// output per unit of each input), `response.svg` and `response.png` (Bode plot) and `summary.json`.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  lissom response examples/tip-crank.toml --input drive --output midspan.u3 --from 0.1 --to 100
+
+An input is an entry of [inputs], a load (per unit of its size) or a prescribed motion (per m or rad), as `motor`, or
+`loads.motor` where several things have a name.
+Exit code: 0 all is done; 2 wrong model or command line; 3 no state to linearise about, or no response.")]
+pub(super) struct Response {
+    #[command(flatten)]
+    model: ModelArguments,
+
+    /// Inputs, loads or prescribed motions.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', required = true)]
+    input: Vec<String>,
+
+    /// Outputs, or columns of them.
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',', required = true)]
+    output: Vec<String>,
+
+    /// First frequency [Hz].
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    from: f64,
+
+    /// Last frequency [Hz].
+    #[arg(long, value_name = "HZ", allow_negative_numbers = true)]
+    to: f64,
+
+    /// Number of frequencies, in equal ratios; more are put where a response changes fast.
+    #[arg(long, value_name = "N", default_value_t = DEFAULT_POINTS as u32, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
+    points: u32,
+
+    /// State to linearise about: `static` (default), `undeformed` or a time of the model's analysis [s].
+    #[arg(
+        long,
+        value_name = "STATE|TIME",
+        default_value = "static",
+        hide_default_value = true,
+        allow_negative_numbers = true
+    )]
+    about: About,
+
+    /// Folder for the results [default: out/<name of the model file>-response].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Nothing on the terminal.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Response {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let (model, document) = self.model.read()?;
+        if !self.quiet {
+            show_warnings(&document);
+        }
+        let request = ResponseRequest {
+            about: self.about,
+            inputs: self.input,
+            outputs: self.output,
+            from: self.from,
+            to: self.to,
+            points: self.points as usize,
+        };
+        let found = match response(&model, &self.model.set, &request) {
+            Err(FrequencyError::Model(report)) => return Err(report.into()),
+            Err(error) if error.is_of_question() => return Err(Failure::new(Exit::BadModel, error)),
+            other => other,
+        };
+        let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let path = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-response")));
+        let unwritable = |error: FolderError| Failure::folder(Exit::Failed, &error);
+        let folder = ResultFolder::create(&path).map_err(|error| unwritable(error.into()))?;
+        folder.clear().map_err(|error| unwritable(error.into()))?;
+        let found = match found {
+            Ok(found) => found,
+            Err(error) => {
+                let mut summary = summary::of_request("response", model.name(), &self.model.set, &document);
+                // A text can be said in JSON.
+                let _ = summary.insert("error", json!(error.to_string()));
+                folder.write_summary(&summary).map_err(|error| unwritable(error.into()))?;
+                return Err(Failure::new(Exit::Failed, error));
+            }
+        };
+        let heading = document.title.as_deref().unwrap_or(model.name());
+        folder.write_table("response.csv", &found.csv()).map_err(|error| unwritable(error.into()))?;
+        folder.write_bode_plot(&found.figure(heading)).map_err(unwritable)?;
+        let summary = found.summary(model.name(), &self.model.set, &document);
+        folder.write_summary(&summary).map_err(|error| unwritable(error.into()))?;
+        if !self.quiet {
+            for warning in &found.warnings {
+                terminal::complain(&format!("warning: {warning}\n"));
+            }
+            terminal::print(&told(heading, &found, &path));
+        }
+        Ok(Exit::Done)
+    }
+}
+
+/// A few lines for a person.
+fn told(heading: &str, found: &ResponseReport, folder: &Path) -> String {
+    let mut text = format!("{heading}\n");
+    let [coordinates, multipliers] = found.unknowns;
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "  response about {} at {} frequencies, {coordinates} coordinates, {multipliers} multipliers, {:.3} s",
+        found.about,
+        found.frequencies.len(),
+        found.wall.as_secs_f64()
+    );
+    for transfer in &found.transfers {
+        let (frequency, most) = found.peak(transfer);
+        let unit = &transfer.output.unit;
+        let _ = writeln!(text, "  {}: largest {most:.6e} {unit} at {frequency:.6e} Hz", transfer.name());
+    }
+    let _ = writeln!(text, "  results in {}", folder.display());
+    text
+}

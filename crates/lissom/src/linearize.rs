@@ -1,0 +1,207 @@
+//! The linear model as files of matrices: M, D, K and the constraints as they are, inputs and outputs, and first-order
+//! equations A, B, C, D of small models.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+use std::time::{Duration, Instant};
+
+use lissom_core::joints::Quantity;
+use lissom_core::linear::{LinearModel, OutputDerivatives, StateSpace, StateSpaceError};
+use lissom_model::Document;
+use lissom_model::output::{Summary, full_matrix, quoted, sparse_matrix};
+use serde_json::{Value, json};
+
+use crate::about::{About, Reached};
+use crate::model::{Model, Override};
+use crate::ports::{self, Input, Observed};
+use crate::response::FrequencyError;
+
+/// What is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LinearizeRequest {
+    /// The state about which the model is linearised.
+    pub about: About,
+    /// Names of inputs, loads and prescribed motions.
+    pub inputs: Vec<String>,
+    /// Names of outputs or of their columns.
+    pub outputs: Vec<String>,
+}
+
+/// A linear model as texts of matrices.
+#[derive(Clone, Debug)]
+pub struct LinearizeReport {
+    /// Names of files and their texts.
+    pub files: Vec<(String, String)>,
+    /// First-order equations, or why there are none.
+    pub state_space: Result<StateSpace, StateSpaceError>,
+    /// Names of the inputs.
+    pub inputs: Vec<String>,
+    /// Columns of the outputs.
+    pub outputs: Vec<String>,
+    /// The state, in words.
+    pub about: String,
+    /// Number of coordinates and of multipliers.
+    pub unknowns: [usize; 2],
+    /// What may be wrong with it.
+    pub warnings: Vec<String>,
+    /// How long it took.
+    pub wall: Duration,
+}
+
+/// Linearises `model`, with `overrides` put in place.
+///
+/// # Errors
+/// If the question makes no sense for the model, or the state cannot be reached.
+pub fn linearize(
+    model: &Model,
+    overrides: &[Override],
+    request: &LinearizeRequest,
+) -> Result<LinearizeReport, FrequencyError> {
+    let began = Instant::now();
+    let document = model.document(overrides).map_err(FrequencyError::Model)?;
+    let mut report = request.about.linearized(&document, |reached| -> Result<_, FrequencyError> {
+        let inputs = ports::inputs(&document, &reached, &request.inputs)?;
+        let outputs = ports::outputs(&reached, &request.outputs)?;
+        Ok(told(reached, &inputs, &outputs))
+    })?;
+    report.about = request.about.name();
+    report.wall = began.elapsed();
+    Ok(report)
+}
+
+/// Derivatives by unknowns of one sort.
+type Part = fn(&OutputDerivatives) -> &BTreeMap<usize, f64>;
+
+fn told(reached: Reached<'_, '_>, inputs: &[Input], outputs: &[Observed]) -> LinearizeReport {
+    let Reached { model, warnings, .. } = reached;
+    let layout = model.system().layout();
+    let (count, multipliers) = (layout.coordinate_count(), layout.multiplier_rows().len());
+    let parts = model.parts();
+    let square = |name: &str, comment: &str, values: &[f64]| {
+        let entries = entries(model, values).filter(|&(row, column, _)| row < count && column < count);
+        (name.to_owned(), sparse_matrix(comment, [count, count], entries))
+    };
+    let constraint = entries(model, &parts.constraint)
+        .filter(|&(row, column, _)| row >= count && column < count)
+        .map(|(row, column, value)| (row - count, column, value));
+    let mut files = vec![
+        ("unknowns.csv".to_owned(), unknowns(model)),
+        square("M.mtx", "mass: derivative of the forces by accelerations", &parts.mass),
+        square("D.mtx", "damping: derivative of the forces by velocities", &parts.damping),
+        square("K.mtx", "stiffness: derivative of the forces by places", &parts.stiffness),
+        ("G.mtx".to_owned(), sparse_matrix("gradient of the constraints", [multipliers, count], constraint)),
+    ];
+    if !inputs.is_empty() {
+        let of_inputs = inputs.iter().enumerate().flat_map(|(column, input)| {
+            input.right.iter().enumerate().map(move |(row, &value)| (row, column, value))
+        });
+        let comment = "right-hand sides for a unit of each input, those of the constraints last";
+        let size = [count + multipliers, inputs.len()];
+        files.push(("inputs.mtx".to_owned(), sparse_matrix(comment, size, of_inputs)));
+    }
+    let kinds: [(&str, &str, Part, usize, usize); 4] = [
+        ("outputs-place.mtx", "outputs by places", |output| &output.by_place, 0, count),
+        ("outputs-rate.mtx", "outputs by velocities", |output| &output.by_rate, 0, count),
+        ("outputs-acceleration.mtx", "outputs by accelerations", |output| &output.by_acceleration, 0, count),
+        (
+            "outputs-multiplier.mtx",
+            "outputs by multipliers",
+            |output| &output.by_multiplier,
+            count,
+            multipliers,
+        ),
+    ];
+    for (name, comment, part, first, columns) in kinds.into_iter().filter(|_| !outputs.is_empty()) {
+        let entries = outputs.iter().enumerate().flat_map(|(row, output)| {
+            part(&output.derivatives).iter().map(move |(&column, &value)| (row, column - first, value))
+        });
+        files.push((name.to_owned(), sparse_matrix(comment, [outputs.len(), columns], entries)));
+    }
+    let direct = |output: &Observed| inputs.iter().map(|input| output.direct(input)).collect::<Vec<f64>>();
+    if !outputs.is_empty() && !inputs.is_empty() {
+        let values: Vec<Vec<f64>> = outputs.iter().map(direct).collect();
+        let size = [outputs.len(), inputs.len()];
+        let text =
+            full_matrix("outputs by inputs, the motion left out", size, |row, column| values[row][column]);
+        files.push(("outputs-input.mtx".to_owned(), text));
+    }
+    let right: Vec<Vec<f64>> = inputs.iter().map(|input| input.right.clone()).collect();
+    let observed: Vec<_> =
+        outputs.iter().map(|output| (output.derivatives.clone(), direct(output))).collect();
+    let state_space = model.state_space(&right, &observed);
+    if let Ok(found) = &state_space {
+        for (name, matrix) in [("A", &found.a), ("B", &found.b), ("C", &found.c), ("D", &found.d)] {
+            let comment = format!("{name} of x' = A x + B u, y = C x + D u");
+            let text =
+                full_matrix(&comment, [matrix.nrows(), matrix.ncols()], |row, column| matrix[(row, column)]);
+            files.push((format!("state-space-{name}.mtx"), text));
+        }
+        let rows: String = found.states.iter().map(|state| quoted(state) + "\n").collect();
+        files.push(("states.csv".to_owned(), format!("state\n{rows}")));
+    }
+    LinearizeReport {
+        files,
+        state_space,
+        inputs: inputs.iter().map(|input| input.name.clone()).collect(),
+        outputs: outputs.iter().map(|output| output.column.name()).collect(),
+        about: String::new(),
+        unknowns: [count, multipliers],
+        warnings,
+        wall: Duration::ZERO,
+    }
+}
+
+/// Entries of values on the pattern, by row and column.
+fn entries<'m>(
+    model: &'m LinearModel<'_>,
+    values: &'m [f64],
+) -> impl Iterator<Item = (usize, usize, f64)> + 'm {
+    let pattern = model.system().pattern();
+    (0..pattern.size()).flat_map(move |column| {
+        let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+        let rows = pattern.row_indices()[range.clone()].to_vec();
+        rows.into_iter().zip(values[range].iter().copied()).map(move |(row, value)| (row, column, value))
+    })
+}
+
+/// The table of the unknowns: row from 1, name, unit.
+fn unknowns(model: &LinearModel<'_>) -> String {
+    let layout = model.system().layout();
+    let mut text = "row,unknown,unit\n".to_owned();
+    for row in 0..layout.size() {
+        let is_multiplier = row >= layout.coordinate_count();
+        let unit = match (layout.quantities()[row], is_multiplier) {
+            (Quantity::State, _) => "",
+            (Quantity::Length, false) => "m",
+            (Quantity::Angle, false) => "rad",
+            (Quantity::Length, true) => "N",
+            (Quantity::Angle, true) => "N m",
+        };
+        // Writing to a string cannot fail.
+        let _ = writeln!(text, "{},{},{unit}", row + 1, quoted(&layout.name_of(row)));
+    }
+    text
+}
+
+impl LinearizeReport {
+    /// The facts of `summary.json`.
+    pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
+        let mut summary = crate::summary::of_request("linearize", name, overrides, document);
+        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+        let of_document = document.warnings.problems().map(|problem| json!(problem.message));
+        tell("stopped", json!("end"));
+        tell("about", json!(self.about));
+        tell("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
+        tell("multipliers", json!(self.unknowns[1]));
+        tell("inputs", json!(self.inputs));
+        tell("outputs", json!(self.outputs));
+        match &self.state_space {
+            Ok(found) => tell("states", json!(found.states.len())),
+            Err(reason) => tell("without_state_space", json!(reason.to_string())),
+        }
+        tell("files", self.files.iter().map(|(name, _)| json!(name)).collect());
+        tell("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        tell("wall_seconds", json!(self.wall.as_secs_f64()));
+        summary
+    }
+}

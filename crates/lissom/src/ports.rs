@@ -1,0 +1,186 @@
+//! Where a linear model is driven and observed: inputs and outputs by the names of the model file.
+
+use lissom_core::linear::OutputDerivatives;
+use lissom_core::signals::{Argument, HeldId};
+use lissom_model::Document;
+use lissom_model::lower::{Lowered, lower};
+
+use crate::about::Reached;
+use crate::modes::ModesError;
+use crate::session::columns;
+use lissom_model::output::Column;
+
+/// An input or output that the model does not have.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PortError {
+    /// No input is called so.
+    #[error("the model has no input `{name}`: name an input, a load or a prescribed motion; it has {known}")]
+    Input {
+        /// The name asked for.
+        name: String,
+        /// Those there are.
+        known: String,
+    },
+    /// Several things are called so.
+    #[error("`{name}` may mean {meanings}: write one of these")]
+    Ambiguous {
+        /// The name asked for.
+        name: String,
+        /// What it may mean.
+        meanings: String,
+    },
+    /// No output is called so.
+    #[error("the model has no output or output column `{name}`: its columns are {known}")]
+    Output {
+        /// The name asked for.
+        name: String,
+        /// Those there are.
+        known: String,
+    },
+    /// Energy or momentum.
+    #[error("the output `{0}` has no linear response: name places, velocities, forces, reactions or signals")]
+    NotLinear(String),
+    /// An input that acts on nothing.
+    #[error("the input `{0}` acts on nothing: no load, state or output that is asked for depends on it here")]
+    WithoutEffect(String),
+    /// The model with the load as an input is another one.
+    #[error(transparent)]
+    Model(#[from] ModesError),
+}
+
+/// An input: what a unit of it adds to the right-hand sides, by row.
+pub(crate) struct Input {
+    pub(crate) name: String,
+    pub(crate) right: Vec<f64>,
+    /// The held value it is, for those outputs that depend on it at once.
+    held: Option<HeldId>,
+}
+
+/// An output column, and its derivatives by the unknowns.
+pub(crate) struct Observed {
+    pub(crate) column: Column,
+    pub(crate) derivatives: OutputDerivatives,
+}
+
+impl Observed {
+    /// Its derivative by the input itself, the motion left out.
+    pub(crate) fn direct(&self, input: &Input) -> f64 {
+        input.held.and_then(|held| self.derivatives.by_held.get(&held).copied()).unwrap_or(0.0)
+    }
+}
+
+/// The inputs of these names, all columns of whose outputs are asked for.
+pub(crate) fn inputs(
+    document: &Document,
+    reached: &Reached<'_, '_>,
+    names: &[String],
+) -> Result<Vec<Input>, PortError> {
+    names.iter().map(|name| input(document, reached, name)).collect()
+}
+
+fn input(document: &Document, reached: &Reached<'_, '_>, name: &str) -> Result<Input, PortError> {
+    let known = known_inputs(document, reached);
+    let meant: Vec<&String> = known
+        .iter()
+        .filter(|full| *full == name || full.split_once('.').is_some_and(|(_, own)| own == name))
+        .collect();
+    let full = match meant[..] {
+        [] => return Err(PortError::Input { name: name.to_owned(), known: listed(known.iter()) }),
+        [one] => one,
+        _ => return Err(PortError::Ambiguous { name: name.to_owned(), meanings: listed(meant.into_iter()) }),
+    };
+    let (table, own) = full.split_once('.').unwrap_or(("inputs", full));
+    let system = reached.model.system();
+    let at = reached.model.kinematics();
+    let name = name.to_owned();
+    let against = |derivative: Vec<f64>| derivative.into_iter().map(|value| 0.0 - value).collect();
+    match table {
+        "loads" => Ok(Input { right: against(load(document, reached, own)?), name, held: None }),
+        "joints" => {
+            let mut right = vec![0.0; system.layout().size()];
+            for drive in system.drives().iter().filter(|drive| drive.name == own) {
+                right[system.layout().coordinate_count() + drive.multiplier] = 1.0;
+            }
+            Ok(Input { right, name, held: None })
+        }
+        _ => {
+            let held = system.signals().input(own);
+            let right = held.map_or_else(
+                || vec![0.0; system.layout().size()],
+                |held| against(system.input_derivative(held, at)),
+            );
+            Ok(Input { name, right, held })
+        }
+    }
+}
+
+fn listed<'n>(names: impl Iterator<Item = &'n String>) -> String {
+    let words: Vec<String> = names.map(|name| format!("`{name}`")).collect();
+    if words.is_empty() { "none".to_owned() } else { words.join(", ") }
+}
+
+/// All inputs there are, with the table they stand in.
+fn known_inputs(document: &Document, reached: &Reached<'_, '_>) -> Vec<String> {
+    let inputs = document.inputs.iter().map(|(input, _)| format!("inputs.{}", input.value));
+    let loads = document.loads.iter().map(|load| format!("loads.{}", load.name.value));
+    let drives = reached.model.system().drives().iter().map(|drive| format!("joints.{}", drive.name));
+    inputs.chain(loads).chain(drives).collect()
+}
+
+/// What a load of size one adds to the left-hand sides: its size as an input of another system with the same unknowns.
+fn load(document: &Document, reached: &Reached<'_, '_>, name: &str) -> Result<Vec<f64>, PortError> {
+    let unknown = || PortError::Input { name: name.to_owned(), known: "no such load with a size".to_owned() };
+    let document = document.with_load_as_input(name).ok_or_else(unknown)?;
+    let Lowered { system, state, names, .. } = lower(&document).map_err(ModesError::from)?;
+    let input = document.inputs.last().and_then(|(input, _)| names.signals.get(&input.value));
+    let Some(&Argument::Held(held)) = input else { return Err(unknown()) };
+    let [own, other] = [reached.model.system().layout(), system.layout()];
+    let same = own.size() == other.size()
+        && own.node_count() == other.node_count()
+        && (0..own.node_count()).all(|node| own.rows_of_node(node) == other.rows_of_node(node));
+    if !same {
+        return Err(unknown());
+    }
+    let mut at = reached.model.kinematics().clone();
+    let mut values = state.kinematics.held;
+    for (value, own) in values.iter_mut().zip(&at.held) {
+        *value = *own;
+    }
+    at.held = values;
+    Ok(system.input_derivative(held, &at))
+}
+
+/// The output columns of these names: a column, or an output with all of its columns.
+pub(crate) fn outputs(reached: &Reached<'_, '_>, names: &[String]) -> Result<Vec<Observed>, PortError> {
+    let mut all: Vec<(usize, usize, Column)> = Vec::new();
+    for (index, channel) in reached.channels.iter().enumerate() {
+        let own = columns(std::slice::from_ref(channel));
+        all.extend(own.into_iter().enumerate().map(|(k, column)| (index, k, column)));
+    }
+    let mut found = Vec::new();
+    for name in names {
+        let meant: Vec<_> =
+            all.iter().filter(|(_, _, column)| column.name() == *name || column.output == *name).collect();
+        if meant.is_empty() {
+            let known: Vec<String> = all.iter().map(|(_, _, column)| column.name()).collect();
+            return Err(PortError::Output { name: name.clone(), known: listed(known.iter()) });
+        }
+        for (index, k, column) in meant {
+            let derivatives = reached.channels[*index].derivatives(reached.model);
+            let own = derivatives.and_then(|all| all.into_iter().nth(*k));
+            let derivatives = own.ok_or_else(|| PortError::NotLinear(name.clone()))?;
+            found.push(Observed { column: column.clone(), derivatives });
+        }
+    }
+    Ok(found)
+}
+
+/// An input that does nothing is more likely a mistake than a wish.
+pub(crate) fn check_effect(inputs: &[Input], outputs: &[Observed]) -> Result<(), PortError> {
+    let acts = |input: &&Input| {
+        input.right.iter().all(|&value| value == 0.0)
+            && outputs.iter().all(|output| output.direct(input) == 0.0)
+    };
+    inputs.iter().find(acts).map_or(Ok(()), |input| Err(PortError::WithoutEffect(input.name.clone())))
+}

@@ -1,0 +1,413 @@
+//! Frequency response: amplitudes of outputs for harmonic inputs of amplitude one, without steps in time.
+
+use std::f64::consts::TAU;
+use std::fmt::Write;
+use std::time::{Duration, Instant};
+
+use lissom_core::linear::{FrequencyResponse, LinearModel, Mode, ModeKind, ModeOptions, ResponseError};
+use lissom_model::output::{BodePlot, Column, Summary, quoted};
+use lissom_model::{Document, Report};
+use num_complex::Complex64;
+use serde_json::{Value, json};
+
+use crate::about::{About, Reached};
+use crate::model::{Model, Override};
+use crate::modes::ModesError;
+use crate::ports::{self, Input, Observed, PortError};
+
+/// Frequencies where nothing says otherwise.
+pub const DEFAULT_POINTS: usize = 400;
+/// Natural frequencies that are looked for, so that no peak is passed over.
+const MODES: usize = 40;
+/// A frequency is put between two others where a response changes by more than this part of itself …
+const CHANGE: f64 = 0.15;
+/// … or than this part of its largest size, where that is more …
+const SMALL: f64 = 1e-4;
+/// … or than this part of the terms it is the sum of, …
+const ROUND_OFF: f64 = 1e-9;
+/// … so many times over, at most, …
+const DEPTH: usize = 10;
+/// … and until there are so many frequencies.
+const MOST: usize = 20_000;
+/// Distance from a natural frequency without damping, relative to it.
+const BESIDE: f64 = 1e-4;
+/// Damping ratios below this are none.
+const UNDAMPED: f64 = 1e-9;
+
+/// What is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ResponseRequest {
+    /// The state about which the model is linearised.
+    pub about: About,
+    /// Names of inputs, loads and prescribed motions.
+    pub inputs: Vec<String>,
+    /// Names of outputs or of their columns.
+    pub outputs: Vec<String>,
+    /// First frequency [Hz].
+    pub from: f64,
+    /// Last frequency [Hz].
+    pub to: f64,
+    /// Number of frequencies; more are put where a response changes fast.
+    pub points: usize,
+}
+
+/// A response that was not found.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FrequencyError {
+    /// The model is wrong.
+    #[error(transparent)]
+    Model(Report),
+    /// There is no state to linearise about.
+    #[error(transparent)]
+    State(ModesError),
+    /// An input or output does not exist.
+    #[error(transparent)]
+    Port(#[from] PortError),
+    /// The frequencies are no range.
+    #[error("frequencies from {from} to {to} Hz: both must be above zero, and the first below the last")]
+    Range {
+        /// First frequency [Hz].
+        from: f64,
+        /// Last frequency [Hz].
+        to: f64,
+    },
+    /// A solve failed.
+    #[error("at {frequency} Hz: {error}")]
+    Response {
+        /// The frequency [Hz].
+        frequency: f64,
+        /// What went wrong.
+        error: ResponseError,
+    },
+}
+
+impl From<ModesError> for FrequencyError {
+    fn from(error: ModesError) -> Self {
+        match error {
+            ModesError::Model(report) => Self::Model(report),
+            other => Self::State(other),
+        }
+    }
+}
+
+impl FrequencyError {
+    /// Whether the question is wrong rather than the answer missing.
+    pub fn is_of_question(&self) -> bool {
+        matches!(self, Self::Port(_) | Self::Range { .. } | Self::State(ModesError::Time { .. }))
+    }
+}
+
+/// Amplitudes of an output for one input.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transfer {
+    /// Name of the input.
+    pub input: String,
+    /// The output's column.
+    pub output: Column,
+    /// Output per input at each frequency.
+    pub amplitudes: Vec<Complex64>,
+}
+
+impl Transfer {
+    /// Names of output and input, as `tip.u3/motor`.
+    pub fn name(&self) -> String {
+        format!("{}/{}", self.output.name(), self.input)
+    }
+}
+
+/// Responses, and what is told of them.
+#[derive(Clone, Debug)]
+pub struct ResponseReport {
+    /// Frequencies [Hz], ascending.
+    pub frequencies: Vec<f64>,
+    /// One for each pair of input and output.
+    pub transfers: Vec<Transfer>,
+    /// Natural frequencies [Hz] and damping ratios between the first and the last frequency.
+    pub natural: Vec<(f64, f64)>,
+    /// The state, in words.
+    pub about: String,
+    /// Number of coordinates and of multipliers.
+    pub unknowns: [usize; 2],
+    /// What may be wrong with them.
+    pub warnings: Vec<String>,
+    /// How long it took.
+    pub wall: Duration,
+}
+
+/// Frequency response of `model`, with `overrides` put in place.
+///
+/// # Errors
+/// If the question makes no sense for the model, the state cannot be reached, or a solve fails.
+pub fn response(
+    model: &Model,
+    overrides: &[Override],
+    request: &ResponseRequest,
+) -> Result<ResponseReport, FrequencyError> {
+    let began = Instant::now();
+    let &ResponseRequest { from, to, .. } = request;
+    if !(from > 0.0 && to > from && to.is_finite()) {
+        return Err(FrequencyError::Range { from, to });
+    }
+    let document = model.document(overrides).map_err(FrequencyError::Model)?;
+    let mut report = request.about.linearized(&document, |reached| of_state(&document, reached, request))?;
+    report.about = request.about.name();
+    report.wall = began.elapsed();
+    Ok(report)
+}
+
+fn of_state(
+    document: &Document,
+    reached: Reached<'_, '_>,
+    request: &ResponseRequest,
+) -> Result<ResponseReport, FrequencyError> {
+    let inputs = ports::inputs(document, &reached, &request.inputs)?;
+    let outputs = ports::outputs(&reached, &request.outputs)?;
+    ports::check_effect(&inputs, &outputs)?;
+    let Reached { model, mut warnings, .. } = reached;
+    if !model.is_at_rest() {
+        warnings.push(
+            "the model moves: outputs in global axes are those of the instant of linearisation".to_owned(),
+        );
+    }
+    let natural = natural_frequencies(model, request, &mut warnings);
+    let mut table = Table::new(model, &inputs, &outputs);
+    let mut first = frequencies(request, &natural);
+    first.sort_by(f64::total_cmp);
+    first.dedup();
+    table.fill(&first)?;
+    if table.rows.len() >= MOST {
+        warnings.push(format!("more than {MOST} frequencies would be needed to resolve every change"));
+    }
+    let layout = model.system().layout();
+    let unknowns = [layout.coordinate_count(), layout.multiplier_rows().len()];
+    let rows = table.rows;
+    let pairs = inputs.iter().flat_map(|input| outputs.iter().map(move |output| (input, output)));
+    let transfer = |(index, (input, output)): (usize, (&Input, &Observed))| Transfer {
+        input: input.name.clone(),
+        output: output.column.clone(),
+        amplitudes: rows.iter().map(|row| row.amplitudes[index]).collect(),
+    };
+    Ok(ResponseReport {
+        frequencies: rows.iter().map(|row| row.frequency).collect(),
+        transfers: pairs.enumerate().map(transfer).collect(),
+        natural,
+        about: String::new(),
+        unknowns,
+        warnings,
+        wall: Duration::ZERO,
+    })
+}
+
+/// Natural frequencies within the range, where peaks are to be looked for.
+fn natural_frequencies(
+    model: &LinearModel<'_>,
+    request: &ResponseRequest,
+    warnings: &mut Vec<String>,
+) -> Vec<(f64, f64)> {
+    let found = match model.modes(&ModeOptions { count: MODES, shift: None }) {
+        Ok(found) => found.modes,
+        Err(error) => {
+            warnings.push(format!(
+                "narrow peaks may be passed over, because natural frequencies are not known: {error}"
+            ));
+            return Vec::new();
+        }
+    };
+    let growing = found.iter().filter(|mode| mode.kind.is_unstable()).count();
+    if growing > 0 {
+        warnings.push(format!(
+            "the state is not stable ({growing} modes grow): no motion settles to this response, it is that of the linear equations alone"
+        ));
+    }
+    let last = found.last().map_or(0.0, |mode| mode.frequency);
+    if found.len() >= MODES && last < request.to {
+        warnings.push(format!(
+            "natural frequencies are known up to {last:.4e} Hz: above, peaks narrower than the distance of two frequencies may be \
+             passed over"
+        ));
+    }
+    let inside = |mode: &&Mode| {
+        matches!(mode.kind, ModeKind::Oscillation | ModeKind::Flutter)
+            && (request.from..=request.to).contains(&mode.frequency)
+    };
+    let natural: Vec<(f64, f64)> =
+        found.iter().filter(inside).map(|mode| (mode.frequency, mode.damping)).collect();
+    let undamped = natural.iter().filter(|(_, damping)| damping.abs() < UNDAMPED).count();
+    if undamped > 0 {
+        warnings.push(format!(
+            "{undamped} natural frequencies in the range have no damping: the response there is unbounded"
+        ));
+    }
+    natural
+}
+
+/// Frequencies in equal ratios, and around each natural one.
+fn frequencies(request: &ResponseRequest, natural: &[(f64, f64)]) -> Vec<f64> {
+    let last = request.points.max(2) - 1;
+    let ratio = (request.to / request.from).ln();
+    let mut all: Vec<f64> = (0..=last)
+        .map(|k| match k {
+            0 => request.from,
+            k if k == last => request.to,
+            k => request.from * (ratio * k as f64 / last as f64).exp(),
+        })
+        .collect();
+    for &(frequency, damping) in natural {
+        let beside = damping.abs().max(BESIDE);
+        all.extend(
+            [1.0 - 3.0 * beside, 1.0 - beside, 1.0 + beside, 1.0 + 3.0 * beside].map(|f| f * frequency),
+        );
+        if damping.abs() >= UNDAMPED {
+            all.push(frequency);
+        }
+    }
+    all.retain(|&frequency| (request.from..=request.to).contains(&frequency));
+    all
+}
+
+/// A frequency and what is found there.
+#[derive(Clone)]
+struct Row {
+    frequency: f64,
+    amplitudes: Vec<Complex64>,
+}
+
+/// Responses by frequency, as they are found.
+struct Table<'p, 'm, 'a> {
+    solver: FrequencyResponse<'m, 'a>,
+    inputs: &'p [Input],
+    outputs: &'p [Observed],
+    right: Vec<Vec<f64>>,
+    /// Below these, changes of each response do not count.
+    small: Vec<f64>,
+    rows: Vec<Row>,
+}
+
+impl<'p, 'm, 'a> Table<'p, 'm, 'a> {
+    fn new(model: &'m LinearModel<'a>, inputs: &'p [Input], outputs: &'p [Observed]) -> Self {
+        let right = inputs.iter().map(|input| input.right.clone()).collect();
+        let small = vec![0.0; inputs.len() * outputs.len()];
+        Self { solver: model.frequency_response(), inputs, outputs, right, small, rows: Vec::new() }
+    }
+
+    fn at(&mut self, frequency: f64) -> Result<Row, FrequencyError> {
+        let s = Complex64::new(0.0, TAU * frequency);
+        let failed = |error| FrequencyError::Response { frequency, error };
+        let found = self.solver.amplitudes(s, &self.right).map_err(failed)?;
+        let mut amplitudes = Vec::with_capacity(self.small.len());
+        for (input, unknowns) in self.inputs.iter().zip(&found) {
+            for output in self.outputs {
+                let (amplitude, terms) = output.derivatives.amplitude(s, unknowns);
+                let small = &mut self.small[amplitudes.len()];
+                *small = small.max(SMALL * amplitude.norm()).max(ROUND_OFF * terms);
+                amplitudes.push(amplitude + output.direct(input));
+            }
+        }
+        Ok(Row { frequency, amplitudes })
+    }
+
+    /// Fills the rows of these frequencies, and of more between them where a response changes fast.
+    fn fill(&mut self, frequencies: &[f64]) -> Result<(), FrequencyError> {
+        let first = frequencies.iter().map(|&frequency| self.at(frequency)).collect::<Result<Vec<_>, _>>()?;
+        for (index, row) in first.iter().enumerate() {
+            if index > 0 {
+                self.between(&first[index - 1], row, DEPTH)?;
+            }
+            self.rows.push(row.clone());
+        }
+        Ok(())
+    }
+
+    fn between(&mut self, low: &Row, high: &Row, depth: usize) -> Result<(), FrequencyError> {
+        let changes = low
+            .amplitudes
+            .iter()
+            .zip(&high.amplitudes)
+            .zip(&self.small)
+            .any(|((a, b), &small)| (a - b).norm() > CHANGE * a.norm().max(b.norm()).max(small));
+        if !changes || depth == 0 || self.rows.len() >= MOST {
+            return Ok(());
+        }
+        let middle = self.at((low.frequency * high.frequency).sqrt())?;
+        self.between(low, &middle, depth - 1)?;
+        self.rows.push(middle.clone());
+        self.between(&middle, high, depth - 1)
+    }
+}
+
+impl ResponseReport {
+    /// The table `response.csv`: frequency [Hz], then for each pair magnitude, phase [°], real and imaginary part of output per
+    /// input.
+    pub fn csv(&self) -> String {
+        let mut text = "frequency".to_owned();
+        for transfer in &self.transfers {
+            for part in ["magnitude", "phase", "real", "imaginary"] {
+                text.push(',');
+                text.push_str(&quoted(&format!("{}.{part}", transfer.name())));
+            }
+        }
+        text.push('\n');
+        for (row, frequency) in self.frequencies.iter().enumerate() {
+            // Writing to a string cannot fail.
+            let _ = write!(text, "{frequency:?}");
+            for transfer in &self.transfers {
+                let value = transfer.amplitudes[row];
+                let (magnitude, phase) = (value.norm(), value.arg().to_degrees());
+                let _ = write!(text, ",{magnitude:?},{phase:?},{:?},{:?}", value.re, value.im);
+            }
+            text.push('\n');
+        }
+        text
+    }
+
+    /// The Bode plot.
+    pub fn figure(&self, title: &str) -> BodePlot {
+        let curve = |transfer: &Transfer| {
+            let of = |part: fn(&Complex64) -> f64| transfer.amplitudes.iter().map(part).collect();
+            (transfer.name(), of(|value| value.norm()), of(|value| value.arg()))
+        };
+        BodePlot {
+            name: "response".to_owned(),
+            title: title.to_owned(),
+            frequencies: self.frequencies.clone(),
+            curves: self.transfers.iter().map(curve).collect(),
+        }
+    }
+
+    /// The facts of `summary.json`.
+    pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
+        let mut summary = crate::summary::of_request("response", name, overrides, document);
+        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+        let of_document = document.warnings.problems().map(|problem| json!(problem.message));
+        tell("stopped", json!("end"));
+        tell("about", json!(self.about));
+        tell("frequencies", json!(self.frequencies.len()));
+        tell("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
+        tell("multipliers", json!(self.unknowns[1]));
+        let natural =
+            |&(frequency, damping): &(f64, f64)| json!({ "frequency": frequency, "damping": damping });
+        tell("natural_frequencies", self.natural.iter().map(natural).collect());
+        let peak = |transfer: &Transfer| {
+            let (frequency, most) = self.peak(transfer);
+            json!({
+                "transfer": transfer.name(),
+                "input": transfer.input,
+                "output": transfer.output.name(),
+                "unit": transfer.output.unit,
+                "peak_frequency": frequency,
+                "peak_magnitude": most,
+            })
+        };
+        tell("transfers", self.transfers.iter().map(peak).collect());
+        tell("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        tell("wall_seconds", json!(self.wall.as_secs_f64()));
+        summary
+    }
+
+    /// Frequency [Hz] and size of the largest magnitude of a response.
+    pub fn peak(&self, transfer: &Transfer) -> (f64, f64) {
+        let sizes = self.frequencies.iter().zip(&transfer.amplitudes).map(|(&f, value)| (f, value.norm()));
+        sizes.reduce(|most, one| if one.1 > most.1 { one } else { most }).unwrap_or((0.0, 0.0))
+    }
+}
