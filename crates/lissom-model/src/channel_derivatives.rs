@@ -114,7 +114,7 @@ impl Channel {
                     touched.held = 0..model.kinematics().held.len();
                 }
             }
-            Source::Energy | Source::Momentum => return None,
+            Source::Spring(..) | Source::Energy | Source::Momentum => return None,
         }
         Some(touched)
     }
