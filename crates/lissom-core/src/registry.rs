@@ -80,9 +80,11 @@ pub enum ParameterType {
     Positive,
     /// A finite number that must not be negative.
     NotNegative,
-    /// Three finite numbers.
+    /// Three finite numbers that are no vector of space, or one in axes that go with what they belong to: as they are written.
     Vector,
-    /// Three finite numbers, not all zero; only the direction counts.
+    /// Three finite numbers: a vector of space in global axes at the start. Inside of a part that is turned it turns with it.
+    GlobalVector,
+    /// Three finite numbers, not all zero; only the direction counts. In global axes, as a [`GlobalVector`](Self::GlobalVector).
     Direction,
     /// True or false.
     Flag,

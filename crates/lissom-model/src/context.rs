@@ -1,11 +1,12 @@
 //! What the decoders share: the names of a model, its parameters and points, and the list of problems.
 
-use std::cell::RefCell;
+use std::cell::{Ref, RefCell};
 use std::collections::BTreeMap;
 
 use lissom_core::registry::Function;
-use lissom_motion::Vector3;
 
+use crate::library::Library;
+use crate::parts::{Expanded, Frames, ROOT, Scope, ScopeId};
 use crate::report::{Problem, Severity, Sources, Span};
 use crate::suggest;
 use crate::text::{Node, Table, in_order};
@@ -15,23 +16,51 @@ pub(crate) struct Context<'a> {
     pub(crate) sources: &'a Sources,
     root: &'a Table,
     problems: RefCell<Vec<Problem>>,
-    pub(crate) parameters: RefCell<BTreeMap<String, f64>>,
-    /// Known points; without a place where the place itself is wrong.
-    pub(crate) points: RefCell<BTreeMap<String, Option<Vector3>>>,
+    /// Parameters of each scope.
+    parameters: RefCell<Vec<BTreeMap<String, f64>>>,
+    pub(crate) scopes: &'a [Scope],
+    /// Parts by name, with the scopes of their contents.
+    pub(crate) instances: &'a BTreeMap<String, ScopeId>,
+    pub(crate) frames: Frames,
+    pub(crate) library: &'a Library,
     /// Functions of time to try out once the times of the analysis are known, with their owners.
     pub(crate) functions: RefCell<Vec<(Function, Span, String)>>,
 }
 
 impl<'a> Context<'a> {
-    pub(crate) fn new(sources: &'a Sources, root: &'a Table) -> Self {
+    pub(crate) fn new(model: &'a Expanded) -> Self {
         Self {
-            sources,
-            root,
+            sources: &model.sources,
+            root: &model.root,
             problems: RefCell::default(),
-            parameters: RefCell::default(),
-            points: RefCell::default(),
+            parameters: RefCell::new(vec![BTreeMap::new(); model.scopes.len()]),
+            scopes: &model.scopes,
+            instances: &model.instances,
+            frames: Frames::default(),
+            library: &model.library,
             functions: RefCell::default(),
         }
+    }
+
+    /// The parameters that expressions of `scope` may name.
+    pub(crate) fn parameters_of(&self, scope: ScopeId) -> Ref<'_, BTreeMap<String, f64>> {
+        Ref::map(self.parameters.borrow(), |all| &all[scope])
+    }
+
+    /// Makes `value` known as the parameter `name` of `scope`.
+    pub(crate) fn set_parameter(&self, scope: ScopeId, name: &str, value: f64) {
+        self.parameters.borrow_mut()[scope].insert(name.to_owned(), value);
+    }
+
+    /// Makes the parameters of `from` known in `scope`.
+    pub(crate) fn inherit_parameters(&self, scope: ScopeId, from: ScopeId) {
+        let mut all = self.parameters.borrow_mut();
+        all[scope] = all[from].clone();
+    }
+
+    /// The parameters of the model itself.
+    pub(crate) fn own_parameters(&self) -> BTreeMap<String, f64> {
+        self.parameters.borrow()[ROOT].clone()
     }
 
     /// Notes a problem.
@@ -88,6 +117,11 @@ impl<'a> Context<'a> {
         self.table(table)?.get(name).map(|entry| &entry.node)
     }
 
+    /// The name of an entry as it was written, without those of the parts around it.
+    pub(crate) fn local_name<'n>(&self, name: &'n str, node: &Node) -> &'n str {
+        name.strip_prefix(self.scopes[node.scope].prefix.as_str()).unwrap_or(name)
+    }
+
     /// Whether `table` has an entry called `name`.
     pub(crate) fn has(&self, table: &str, name: &str) -> bool {
         self.entry(table, name).is_some()
@@ -127,6 +161,7 @@ pub(crate) fn singular(table: &str) -> &'static str {
         "signals" => "signal",
         "states" => "state",
         "parameters" => "parameter",
+        "parts" => "part",
         _ => "entry",
     }
 }

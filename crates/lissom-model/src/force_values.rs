@@ -52,7 +52,7 @@ impl Context<'_> {
             Value::Number(_) => Some(Arc::new(Constant(self.number(node, what)?))),
             Value::Table(_) => Some(Arc::new(self.read_table(node, what, Extrapolation::Linear)?)),
             Value::Text(text) => {
-                let formula = self.formula(node, what)?;
+                let formula = self.own_formula(node, what)?;
                 let known = || names.iter().copied();
                 let stranger = formula.arguments().iter().find(|name| !known().any(|own| own == name.text));
                 if let Some(name) = stranger {

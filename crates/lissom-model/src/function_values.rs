@@ -33,7 +33,8 @@ impl Context<'_> {
     /// The same of a text alone, where mistakes were told before.
     pub(crate) fn size_untold(&self, node: &Node) -> Option<Size> {
         let Value::Text(text) = &node.value else { return None };
-        let formula = Formula::parse(text, &self.parameters.borrow()).ok()?;
+        let formula = Formula::parse(text, &self.parameters_of(node.scope)).ok()?;
+        let formula = self.in_whole_model(formula, node.scope);
         (!formula.arguments().is_empty()).then_some(Size::Signal(formula))
     }
 

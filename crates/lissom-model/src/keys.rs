@@ -26,6 +26,12 @@ pub(crate) enum Shape {
     Flag,
     /// Three numbers.
     Vector,
+    /// Three numbers in global axes; those of the part inside of one.
+    GlobalVector,
+    /// Three numbers, or a place in the frame of a part.
+    Point,
+    /// Entries as in the table of this name at the top.
+    Entries(&'static str),
     /// Three numbers, not all zero.
     Direction,
     /// One of the words.
@@ -158,6 +164,7 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
         ParameterType::Positive => Shape::Positive,
         ParameterType::NotNegative => Shape::NotNegative,
         ParameterType::Vector => Shape::Vector,
+        ParameterType::GlobalVector => Shape::GlobalVector,
         ParameterType::Direction => Shape::Direction,
         ParameterType::Flag => Shape::Flag,
         ParameterType::Function => Shape::Function,

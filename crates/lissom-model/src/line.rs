@@ -1,7 +1,7 @@
 //! The reference line of a beam: straight, circular arc, or a curve given by expressions, and the frames along it.
 //! Knows no elements and no sections.
 
-use lissom_motion::{Matrix3, Vector3};
+use lissom_motion::{Matrix3, Motion, Vector3};
 
 use crate::expression::Expression;
 
@@ -28,6 +28,8 @@ pub enum Line {
     },
     /// Three expressions of `s` [m].
     Curve(Box<[Expression; 3]>),
+    /// Three expressions of `s` in a frame of their own [m].
+    PlacedCurve(Box<[Expression; 3]>, Motion),
 }
 
 /// Points that have no circle through them, or no distance from each other.
@@ -64,6 +66,23 @@ impl Line {
         Ok(Self::Arc { center: from + centre, radius, side, angle })
     }
 
+    /// The line turned and shifted as `frame` is.
+    #[must_use]
+    pub fn moved(self, frame: &Motion) -> Self {
+        if *frame == Motion::IDENTITY {
+            return self;
+        }
+        let (place, turn) = (|p: &Vector3| frame.transform_point(p), |v: &Vector3| frame.rotation.apply(v));
+        match self {
+            Self::Straight { from, to } => Self::Straight { from: place(&from), to: place(&to) },
+            Self::Arc { center, radius, side, angle } => {
+                Self::Arc { center: place(&center), radius: turn(&radius), side: turn(&side), angle }
+            }
+            Self::Curve(curve) => Self::PlacedCurve(curve, *frame),
+            Self::PlacedCurve(curve, own) => Self::PlacedCurve(curve, *frame * own),
+        }
+    }
+
     /// Place at the fraction `s` [m].
     pub fn position(&self, s: f64) -> Vector3 {
         match self {
@@ -72,6 +91,9 @@ impl Line {
                 center + radius * (angle * s).cos() + side * (angle * s).sin()
             }
             Self::Curve(curve) => Vector3::from_fn(|i, _| curve[i].jet(s).value),
+            Self::PlacedCurve(curve, frame) => {
+                frame.transform_point(&Vector3::from_fn(|i, _| curve[i].jet(s).value))
+            }
         }
     }
 
@@ -83,6 +105,9 @@ impl Line {
                 (side * (angle * s).cos() - radius * (angle * s).sin()) * *angle
             }
             Self::Curve(curve) => Vector3::from_fn(|i, _| curve[i].jet(s).first),
+            Self::PlacedCurve(curve, frame) => {
+                frame.rotation.apply(&Vector3::from_fn(|i, _| curve[i].jet(s).first))
+            }
         }
     }
 
@@ -92,7 +117,7 @@ impl Line {
             Self::Straight { from, to } => (to - from).norm(),
             Self::Arc { radius, angle, .. } => radius.norm() * angle,
             // Simpson's rule on 200 intervals.
-            Self::Curve(_) => {
+            Self::Curve(_) | Self::PlacedCurve(..) => {
                 let speed = |i: u32| self.derivative(f64::from(i) / 400.0).norm();
                 let interval = |i: u32| speed(2 * i) + 4.0 * speed(2 * i + 1) + speed(2 * i + 2);
                 (0..200).map(interval).sum::<f64>() / 1200.0

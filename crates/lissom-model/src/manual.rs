@@ -133,7 +133,9 @@ fn words(shape: &Shape) -> String {
         Shape::Between(least, most) => return format!("a number from {least:.4} to {most}"),
         Shape::Count(least, most) => return format!("a whole number from {least} to {most}"),
         Shape::Flag => "`true` or `false`",
-        Shape::Vector => "three numbers",
+        Shape::Vector | Shape::GlobalVector => "three numbers",
+        Shape::Point => "three numbers, or `{ in = \"part\", at = [x, y, z] }`",
+        Shape::Entries(table) => return format!("entries as in `[{table}]`"),
         Shape::Direction => "three numbers, not all zero",
         Shape::Choice(words) => {
             let quoted: Vec<String> = words.iter().map(|word| format!("`\"{word}\"`")).collect();

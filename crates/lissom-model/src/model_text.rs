@@ -1,7 +1,11 @@
 //! The text of a model, read once, and the documents it becomes under overrides.
 
+use std::path::Path;
+use std::sync::Arc;
+
 use crate::Document;
 use crate::document::decode::from_tree;
+use crate::library::Library;
 use crate::registry::Registry;
 use crate::report::Report;
 use crate::text::{self, Tree};
@@ -12,12 +16,26 @@ use crate::toml_text;
 pub struct ModelText(Tree);
 
 impl ModelText {
-    /// Reads `text` and lays `overrides` over it, as [`Document::parse_with`] does. `file_name` is for messages only.
+    /// Reads `text` and lays `overrides` over it, as [`Document::parse_with`] does. `file_name` is for messages, and the
+    /// files that the model includes are looked for beside it.
     ///
     /// # Errors
     /// If the text is not TOML, or an override leads nowhere.
     pub fn read(text: &str, file_name: &str, overrides: &[(String, String)]) -> Result<Self, Report> {
-        let tree = text::read(text, file_name, overrides);
+        Self::read_with(text, file_name, overrides, Arc::new(Library::beside(Path::new(file_name))))
+    }
+
+    /// The same with included files from `library`.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read).
+    pub fn read_with(
+        text: &str,
+        file_name: &str,
+        overrides: &[(String, String)],
+        library: Arc<Library>,
+    ) -> Result<Self, Report> {
+        let tree = text::read(text, file_name, overrides, library);
         if tree.problems.is_empty() { Ok(Self(tree)) } else { Err(Report::new(tree.problems, &tree.sources)) }
     }
 
@@ -31,7 +49,12 @@ impl ModelText {
         from_tree(tree, registry)
     }
 
-    /// The model as TOML, overrides in place, without comments. Every number comes back to the last bit.
+    /// The files that it includes, as far as documents were made of it.
+    pub fn library(&self) -> &Library {
+        &self.0.library
+    }
+
+    /// The model as TOML, overrides in place except those inside of parts, without comments. Files stay included. Every number comes back to the last bit.
     pub fn to_toml(&self) -> String {
         toml_text::file(&self.0.root)
     }

@@ -1,6 +1,7 @@
 //! Numbers of a model file by their paths, as `bodies.top.mass`.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::expression::Expression;
 use crate::text::{self, Value};
@@ -15,7 +16,7 @@ pub fn number_at(
     parameters: &BTreeMap<String, f64>,
     path: &str,
 ) -> Result<f64, String> {
-    let tree = text::read(text, "", overrides);
+    let tree = text::read(text, "", overrides, Arc::default());
     let mut keys = path.split('.').map(str::trim);
     let first = keys.next().unwrap_or_default();
     let mut node = tree.root.get(first).map(|entry| &entry.node);

@@ -8,6 +8,7 @@ use crate::context::Context;
 use crate::expression::Formula;
 use crate::function_values::Size;
 use crate::keys::{Key, Shape};
+use crate::parts::ScopeId;
 use crate::report::{Located, Problem, Span};
 use crate::suggest;
 use crate::text::{Node, Table, Value};
@@ -20,6 +21,8 @@ pub(crate) struct Reader<'c, 'a> {
     pub(crate) what: String,
     /// Its name in the text.
     pub(crate) name: Span,
+    /// Where it was written.
+    pub(crate) scope: ScopeId,
     keys: Vec<Key>,
 }
 
@@ -73,7 +76,7 @@ impl<'c, 'a> Reader<'c, 'a> {
             let unit = if key.unit.is_empty() { String::new() } else { format!(" [{}]", key.unit) };
             context.tell(problem.help(format!("add `{} = …`{unit}: {}", key.name, key.summary)));
         }
-        Some(Self { context, table, what, name, keys })
+        Some(Self { context, table, what, name, scope: node.scope, keys })
     }
 
     /// The value of `key`, if given.
@@ -196,12 +199,11 @@ impl<'c, 'a> Reader<'c, 'a> {
     /// The name of an entry of the table its key names.
     pub(crate) fn name_in(&self, key: &str) -> Option<Located<String>> {
         let text = self.text(key)?;
-        if let Shape::Name(table) = *self.shape(key)
-            && !self.context.is_known(table, text.value, text.span, &self.words(key))
-        {
-            return None;
-        }
-        Some(text.map(str::to_owned))
+        let Shape::Name(table) = *self.shape(key) else { return Some(text.map(str::to_owned)) };
+        let what = self.words(key);
+        let name = self.context.entry_named(table, text.value, self.node(key)?, &what)?;
+        let is_known = self.context.is_known(table, &name, text.span, &what);
+        is_known.then(|| Located::new(name, text.span))
     }
 
     /// True or false.
@@ -213,12 +215,17 @@ impl<'c, 'a> Reader<'c, 'a> {
         Some(Located::new(*flag, node.span))
     }
 
-    /// Three numbers; not all zero where the key asks for a direction.
+    /// Three numbers; not all zero where the key asks for a direction. Those in global axes are turned as the part is in
+    /// which they are written.
     pub(crate) fn vector(&self, key: &str) -> Option<Located<Vector3>> {
         let node = self.node(key)?;
         let what = self.words(key);
         let vector = match self.shape(key) {
             Shape::Direction => self.context.direction(node, &what)?,
+            Shape::GlobalVector => {
+                let vector = self.context.vector(node, &what)?;
+                self.context.turned(node.scope, &vector)?
+            }
             _ => self.context.vector(node, &what)?,
         };
         Some(Located::new(vector, node.span))
@@ -267,7 +274,7 @@ impl<'c, 'a> Reader<'c, 'a> {
                 ParameterType::Number | ParameterType::Positive | ParameterType::NotNegative => {
                     self.number(name).map(|number| Held::Number(number.value))
                 }
-                ParameterType::Vector | ParameterType::Direction => {
+                ParameterType::Vector | ParameterType::GlobalVector | ParameterType::Direction => {
                     self.vector(name).map(|vector| Held::Vector(vector.value))
                 }
                 ParameterType::Flag => self.flag(name).map(|flag| Held::Flag(flag.value)),

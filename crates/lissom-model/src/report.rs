@@ -1,9 +1,9 @@
 //! What is wrong with a model file: problems with the place they underline, gathered in a report.
 //! Knows texts and places, not what any key means.
 
+use std::collections::BTreeMap;
 use std::fmt;
 use std::ops::Range;
-use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
@@ -15,6 +15,32 @@ pub struct Span {
     pub start: usize,
     /// One past the last byte.
     pub end: usize,
+}
+
+/// Where a text stands that is there a second time.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Shift {
+    /// The text that is there again; what lies elsewhere, such as an override, stays.
+    within: Span,
+    /// How far behind it is there again.
+    by: usize,
+}
+
+impl Shift {
+    /// A text that was read as if it stood at the start.
+    pub(crate) fn of_text(length: usize, by: usize) -> Self {
+        Self { within: Span { start: 0, end: length }, by }
+    }
+}
+
+impl Span {
+    /// The same stretch where its text is there again.
+    pub(crate) fn moved(self, shift: Shift) -> Self {
+        if self.start < shift.within.start || self.start > shift.within.end {
+            return self;
+        }
+        Self { start: self.start + shift.by, end: self.end + shift.by }
+    }
 }
 
 impl From<Range<usize>> for Span {
@@ -107,12 +133,22 @@ impl Problem {
     }
 }
 
-/// One text of the model: the file, or one override.
+/// One text of the model: the file, an override, or what a part was made of.
 #[derive(Clone, Debug)]
 struct Piece {
     source: NamedSource<Arc<str>>,
     start: usize,
     end: usize,
+    origin: Option<Origin>,
+}
+
+/// Why a text is there a second time, or at all: a part that was made of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Origin {
+    /// Name of the part.
+    pub(crate) part: String,
+    /// Where the part is asked for.
+    pub(crate) place: Span,
 }
 
 /// The texts a model was read from, laid end to end so that a [`Span`] finds its way back.
@@ -134,10 +170,30 @@ impl Sources {
 
     /// Adds a text and tells where it starts.
     pub(crate) fn push(&mut self, name: &str, text: &str) -> usize {
+        self.push_shared(name, Arc::from(text), None)
+    }
+
+    /// Adds a text that others may share, for the part that `origin` tells, and tells where it starts.
+    pub(crate) fn push_shared(&mut self, name: &str, text: Arc<str>, origin: Option<Origin>) -> usize {
         let start = self.next_start();
-        let source = NamedSource::new(name, Arc::from(text)).with_language("TOML");
-        self.pieces.push(Piece { source, start, end: start + text.len() });
+        let end = start + text.len();
+        let source = NamedSource::new(name, text).with_language("TOML");
+        self.pieces.push(Piece { source, start, end, origin });
         start
+    }
+
+    /// Adds the text in which `span` lies once more, for the part that `origin` tells.
+    pub(crate) fn push_again(&mut self, span: Span, origin: Origin) -> Shift {
+        let Some(piece) = self.piece(span) else { return Shift::default() };
+        let (name, text) = (piece.source.name().to_owned(), Arc::clone(piece.source.inner()));
+        let within = Span { start: piece.start, end: piece.end };
+        let start = self.push_shared(&name, text, Some(origin));
+        Shift { within, by: start - within.start }
+    }
+
+    /// Name of the first text.
+    pub(crate) fn first_name(&self) -> &str {
+        self.pieces.first().map_or("", |piece| piece.source.name())
     }
 
     /// Where the next text will start.
@@ -145,12 +201,11 @@ impl Sources {
         self.pieces.last().map_or(0, |piece| piece.end + 1)
     }
 
-    /// The folder of the file that `span` is in; for overrides that of the model.
-    pub(crate) fn folder(&self, span: Span) -> PathBuf {
+    /// The file that `span` is in, as a path from the folder of the model; for overrides that of the model.
+    pub(crate) fn file(&self, span: Span) -> &str {
         let name = self.piece(span).map_or("", |piece| piece.source.name());
-        let model = self.pieces.first().map_or("", |piece| piece.source.name());
-        let file = if name == OVERRIDE { model } else { name };
-        Path::new(file).parent().map_or_else(PathBuf::new, Path::to_path_buf)
+        let folder = self.first_name().rsplit_once('/').map_or(0, |(folder, _)| folder.len() + 1);
+        if name == OVERRIDE { "" } else { name.get(folder..).unwrap_or(name) }
     }
 
     /// The text at `span`, empty where there is none.
@@ -171,8 +226,10 @@ impl Sources {
     }
 
     fn piece(&self, span: Span) -> Option<&Piece> {
-        let found = self.pieces.iter().find(|piece| span.start >= piece.start && span.start <= piece.end);
-        found.or(self.pieces.first())
+        // Pieces stand one after the other, and each begins behind the end of the former.
+        let after = self.pieces.partition_point(|piece| piece.start <= span.start);
+        let found = after.checked_sub(1).and_then(|index| self.pieces.get(index));
+        found.filter(|piece| span.start <= piece.end).or(self.pieces.first())
     }
 }
 
@@ -187,6 +244,40 @@ fn local(span: Span, piece: &Piece) -> Range<usize> {
 struct Shown {
     problem: Problem,
     piece: Option<Piece>,
+    /// Parts that were made of the text, from the inside outwards.
+    origins: Vec<Included>,
+}
+
+/// The place where a part was asked for whose text has a problem.
+#[derive(Clone, Debug)]
+struct Included {
+    words: String,
+    span: Span,
+    piece: Option<Piece>,
+}
+
+impl fmt::Display for Included {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.words)
+    }
+}
+
+impl std::error::Error for Included {}
+
+impl Diagnostic for Included {
+    fn severity(&self) -> Option<miette::Severity> {
+        Some(miette::Severity::Advice)
+    }
+
+    fn source_code(&self) -> Option<&dyn SourceCode> {
+        self.piece.as_ref().map(|piece| &piece.source as &dyn SourceCode)
+    }
+
+    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
+        let piece = self.piece.as_ref()?;
+        let label = LabeledSpan::new_primary_with_span(Some("here".to_owned()), local(self.span, piece));
+        Some(Box::new(std::iter::once(label)))
+    }
 }
 
 impl fmt::Display for Shown {
@@ -213,6 +304,13 @@ impl Diagnostic for Shown {
         self.piece.as_ref().map(|piece| &piece.source as &dyn SourceCode)
     }
 
+    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
+        if self.origins.is_empty() {
+            return None;
+        }
+        Some(Box::new(self.origins.iter().map(|origin| origin as &dyn Diagnostic)))
+    }
+
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         let piece = self.piece.as_ref()?;
         let inside = |span: &Span| span.start >= piece.start && span.start <= piece.end;
@@ -223,6 +321,53 @@ impl Diagnostic for Shown {
             also.map(|(span, words)| LabeledSpan::new_with_span(Some(words.clone()), local(*span, piece)));
         Some(Box::new(std::iter::once(first).chain(others)))
     }
+}
+
+/// Problems with the names of further parts made of the same text that have it too: a mistake in a text that is included
+/// a hundred times is one mistake.
+fn once_per_text(problems: Vec<Problem>, sources: &Sources) -> Vec<(Problem, Vec<String>)> {
+    let mut known: Vec<(Problem, Vec<String>)> = Vec::new();
+    let mut first_of = BTreeMap::new();
+    for problem in problems {
+        let part = sources.piece(problem.span).and_then(|piece| {
+            let text = piece.source.inner().as_ptr() as usize;
+            piece.origin.as_ref().map(|origin| (text, local(problem.span, piece), &origin.part))
+        });
+        let Some((text, place, part)) = part else {
+            known.push((problem, Vec::new()));
+            continue;
+        };
+        let key = (text, place.start, place.end, problem.label.clone(), problem.help.clone());
+        if let Some(&index) = first_of.get(&key) {
+            let (_, others): &mut (Problem, Vec<String>) = &mut known[index];
+            if !others.contains(part) {
+                others.push(part.clone());
+            }
+        } else {
+            first_of.insert(key, known.len());
+            known.push((problem, Vec::new()));
+        }
+    }
+    known
+}
+
+/// The parts that were made of the text at `span`, from the inside outwards; `also` have the same problem.
+fn origins(sources: &Sources, span: Span, also: &[String]) -> Vec<Included> {
+    let mut found = Vec::new();
+    let mut piece = sources.piece(span);
+    while let Some(origin) = piece.and_then(|piece| piece.origin.as_ref()) {
+        let others = match also {
+            others if !found.is_empty() || others.is_empty() => String::new(),
+            [other] => format!("; the same in `{other}`"),
+            others => {
+                format!("; the same in {} more parts, `{}` the last", others.len(), others[others.len() - 1])
+            }
+        };
+        piece = sources.piece(origin.place);
+        let words = format!("this is in the part `{}`{others}", origin.part);
+        found.push(Included { words, span: origin.place, piece: piece.cloned() });
+    }
+    found
 }
 
 /// All that is wrong with a model.
@@ -238,8 +383,12 @@ impl Report {
         problems.sort_by_key(|problem| (problem.severity == Severity::Warning, problem.span));
         problems.dedup();
         let name = sources.pieces.first().map_or("model", |piece| piece.source.name()).to_owned();
-        let show = |problem: Problem| Shown { piece: sources.piece(problem.span).cloned(), problem };
-        Self { name, shown: problems.into_iter().map(show).collect() }
+        let shown = once_per_text(problems, sources).into_iter().map(|(problem, also)| Shown {
+            piece: sources.piece(problem.span).cloned(),
+            origins: origins(sources, problem.span, &also),
+            problem,
+        });
+        Self { name, shown: shown.collect() }
     }
 
     /// The problems, errors first, each group in the order of the text.

@@ -110,7 +110,17 @@ fn of_shape(shape: &Shape) -> Value {
         Shape::Between(least, most) => number(&json!({ "minimum": least, "maximum": most })),
         Shape::Count(least, most) => number(&json!({ "type": "integer", "minimum": least, "maximum": most })),
         Shape::Flag => json!({ "type": "boolean" }),
-        Shape::Vector | Shape::Direction | Shape::Curve => vector(),
+        Shape::Vector | Shape::GlobalVector | Shape::Direction | Shape::Curve => vector(),
+        Shape::Point => {
+            let placed = json!({
+                "type": "object",
+                "properties": { "in": text(), "at": vector() },
+                "required": ["in"],
+                "additionalProperties": false,
+            });
+            any_of(&[vector(), placed])
+        }
+        Shape::Entries(table) => json!({ "$ref": format!("#/properties/{table}") }),
         Shape::Choice(words) => json!({ "enum": words }),
         Shape::Choices(words) => {
             json!({ "type": "array", "minItems": 1, "uniqueItems": true, "items": { "enum": words } })

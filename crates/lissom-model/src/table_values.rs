@@ -2,8 +2,8 @@
 
 use crate::context::Context;
 use crate::data_file::{DataError, two_columns};
-use crate::files;
 use crate::keys::{Key, Shape, choice, optional};
+use crate::library::joined;
 use crate::reader::Reader;
 use crate::report::Problem;
 use crate::suggest;
@@ -15,7 +15,12 @@ pub(crate) fn table_keys() -> Vec<Key> {
     let words = choice(&["linear", "spline", "monotone"]);
     vec![
         optional("table", Shape::Rows, "", "rows [argument, value], arguments ascending; give it or `file`"),
-        optional("file", Shape::Text, "", "a text file with named columns; relative to the model's folder"),
+        optional(
+            "file",
+            Shape::Text,
+            "",
+            "a text file with named columns; relative to the file that names it",
+        ),
         optional("columns", Shape::Words, "", "names of its two columns; default the first two"),
         optional("interpolation", words, "", "between the rows, default linear"),
         optional(
@@ -87,14 +92,13 @@ impl Context<'_> {
             None => None,
             Some(node) => Some(self.two_words(node, &reader.words("columns"))?),
         };
-        let path = self.sources.folder(file.span).join(name);
+        let path = joined(self.sources.file(file.span), name);
         let what = &reader.what;
-        let text = match files::read_text(&path) {
+        let text = match self.library.text(&path) {
             Ok(text) => text,
             Err(error) => {
-                let help = error.help.clone();
                 let problem = Problem::error(file.span, format!("{what} {error}"));
-                self.tell(problem.label("named here").maybe_help(help));
+                self.tell(problem.label("named here").maybe_help(error.help));
                 return None;
             }
         };

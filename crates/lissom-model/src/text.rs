@@ -1,18 +1,23 @@
 //! From text and overrides to one tree of values with their places. Knows TOML, not what any key means.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 use crate::document::tables;
-use crate::report::{OVERRIDE, Problem, Sources, Span};
+use crate::library::Library;
+use crate::parts::{ROOT, ScopeId};
+use crate::report::{OVERRIDE, Problem, Shift, Sources, Span};
 use crate::suggest;
 
 /// A value and its place.
 #[derive(Clone, Debug)]
 pub(crate) struct Node {
     pub(crate) span: Span,
+    /// Where its names and places count.
+    pub(crate) scope: ScopeId,
     pub(crate) value: Value,
 }
 
@@ -46,6 +51,24 @@ impl Node {
             _ => None,
         }
     }
+
+    /// The same value where its text is there again, in another scope.
+    pub(crate) fn moved(&self, by: Shift, scope: ScopeId) -> Self {
+        let value = match &self.value {
+            Value::List(list) => Value::List(list.iter().map(|entry| entry.moved(by, scope)).collect()),
+            Value::Table(table) => Value::Table(moved(table, by, scope)),
+            other => other.clone(),
+        };
+        Self { span: self.span.moved(by), scope, value }
+    }
+}
+
+/// The same entries where their text is there again, in another scope.
+pub(crate) fn moved(table: &Table, by: Shift, scope: ScopeId) -> Table {
+    let entry = |(name, entry): (&String, &Entry)| {
+        (name.clone(), Entry { key: entry.key.moved(by), node: entry.node.moved(by, scope) })
+    };
+    table.iter().map(entry).collect()
 }
 
 fn node(value: Spanned<DeValue<'_>>) -> Node {
@@ -62,7 +85,7 @@ fn node(value: Spanned<DeValue<'_>>) -> Node {
         DeValue::Array(array) => Value::List(array.into_iter().map(node).collect()),
         DeValue::Table(inner) => Value::Table(table(inner)),
     };
-    Node { span, value }
+    Node { span, scope: ROOT, value }
 }
 
 fn table(table: DeTable<'_>) -> Table {
@@ -79,16 +102,25 @@ pub(crate) struct Tree {
     pub(crate) root: Table,
     pub(crate) sources: Sources,
     pub(crate) problems: Vec<Problem>,
+    /// Overrides of entries that are there only when parts are put in their places.
+    pub(crate) deferred: Vec<Patch>,
+    /// The files it includes.
+    pub(crate) library: Arc<Library>,
 }
 
-/// Reads the file's `text` and lays the overrides `(path, value)` over it.
-pub(crate) fn read(text: &str, file_name: &str, overrides: &[(String, String)]) -> Tree {
+/// Reads the file's `text` and lays the overrides `(path, value)` over it. Included files are looked for in `library`.
+pub(crate) fn read(
+    text: &str,
+    file_name: &str,
+    overrides: &[(String, String)],
+    library: Arc<Library>,
+) -> Tree {
     let sources = Sources::new(file_name, text);
     let (root, problems) = match parse(text) {
         Ok(root) => (root, Vec::new()),
         Err(problem) => (Table::new(), vec![*problem]),
     };
-    let mut tree = Tree { root, sources, problems };
+    let mut tree = Tree { root, sources, problems, deferred: Vec::new(), library };
     tree.lay(overrides);
     tree
 }
@@ -102,14 +134,21 @@ impl Tree {
             let (shown, patch) = parse_override(path, value, start);
             self.sources.push(OVERRIDE, &shown);
             // Without a readable file there is nothing to override.
-            let done = patch.and_then(|patch| if readable { patch.apply(&mut self.root) } else { Ok(()) });
+            let done = patch.and_then(|patch| match () {
+                () if !readable => Ok(()),
+                () if patch.is_of_part(&self.root) => {
+                    self.deferred.push(patch);
+                    Ok(())
+                }
+                () => patch.apply(&mut self.root),
+            });
             self.problems.extend(done.err().map(|problem| *problem));
         }
     }
 }
 
 /// Only the first mistake in the text is told: what follows it is mostly its echo.
-fn parse(text: &str) -> Result<Table, Box<Problem>> {
+pub(crate) fn parse(text: &str) -> Result<Table, Box<Problem>> {
     let (root, errors) = DeTable::parse_recoverable(text);
     let place = |error: &toml::de::Error| error.span().map_or(Span::default(), Span::from);
     if let Some(first) = errors.iter().min_by_key(|error| place(error)) {
@@ -137,9 +176,10 @@ fn syntax_problem(message: &str, mut span: Span, text: &str) -> Problem {
 }
 
 /// A value and the keys that lead to it.
-struct Patch {
-    path: Vec<(String, Span)>,
-    value: Node,
+#[derive(Clone, Debug)]
+pub(crate) struct Patch {
+    pub(crate) path: Vec<(String, Span)>,
+    pub(crate) value: Node,
 }
 
 /// Reads `path = value` as if it stood at `start`. A value that is no TOML counts as a text.
@@ -182,22 +222,41 @@ fn descend(mut table: Table, depth: usize) -> Result<Patch, Box<Problem>> {
         path.push((name, key));
         match node.value {
             Value::Table(inner) if path.len() < depth => table = inner,
-            value => return Ok(Patch { path, value: Node { span: node.span, value } }),
+            value => return Ok(Patch { path, value: Node { value, ..node } }),
         }
     }
 }
 
 impl Patch {
+    /// Whether it leads into a part, which has no entries yet, as `leg2.rod.mass` or `bodies."leg2.rod".mass` do.
+    fn is_of_part(&self, root: &Table) -> bool {
+        let has_parts = root.get("parts").is_some_and(|entry| entry.node.table().is_some());
+        match self.path.as_slice() {
+            [(first, _), (second, _), ..] if tables::tops().any(|top| top.name == first) => {
+                has_parts && tables::has_named_entries(first) && second.contains('.')
+            }
+            [_, _, ..] => has_parts,
+            _ => false,
+        }
+    }
+
     /// Puts the value in its place.
-    fn apply(self, root: &mut Table) -> Result<(), Box<Problem>> {
+    pub(crate) fn apply(self, root: &mut Table) -> Result<(), Box<Problem>> {
         self.check(root)?;
-        let Self { mut path, value } = self;
+        let Self { mut path, mut value } = self;
         let Some((last, key)) = path.pop() else { return Ok(()) };
         let mut table = root;
         for (name, key) in path {
-            let empty = || Entry { key, node: Node { span: key, value: Value::Table(Table::new()) } };
+            let value_scope = value.scope;
+            let empty = || Entry {
+                key,
+                node: Node { span: key, scope: value_scope, value: Value::Table(Table::new()) },
+            };
             let message = format!("`{name}` is a value, not a table: the path leads nowhere");
-            let Value::Table(inner) = &mut table.entry(name).or_insert_with(empty).node.value else {
+            let node = &mut table.entry(name).or_insert_with(empty).node;
+            // What is put into a part is understood there.
+            value = value.moved(Shift::default(), node.scope);
+            let Value::Table(inner) = &mut node.value else {
                 return Err(Box::new(Problem::error(key, message).help("leave out what follows it")));
             };
             table = inner;

@@ -49,7 +49,7 @@ impl Context<'_> {
         let Value::Text(text) = &node.value else {
             return self.number(node, what).map(Expression::of_constant);
         };
-        match Expression::parse(text, variable, &self.parameters.borrow()) {
+        match Expression::parse(text, variable, &self.parameters_of(node.scope)) {
             Ok(expression) => Some(expression),
             Err(error) => {
                 self.tell(self.expression_problem(node, text, &error, what));
@@ -58,12 +58,18 @@ impl Context<'_> {
         }
     }
 
-    /// An expression of time and of named quantities.
+    /// An expression of time and of named quantities of the model.
     pub(crate) fn formula(&self, node: &Node, what: &str) -> Option<Formula> {
+        self.own_formula(node, what).map(|formula| self.in_whole_model(formula, node.scope))
+    }
+
+    /// An expression of time and of quantities whose names are its own.
+    pub(crate) fn own_formula(&self, node: &Node, what: &str) -> Option<Formula> {
         let Value::Text(text) = &node.value else {
             return self.number(node, what).map(Formula::of_constant);
         };
-        match Formula::parse(text, &self.parameters.borrow()) {
+        let parsed = Formula::parse(text, &self.parameters_of(node.scope));
+        match parsed {
             Ok(formula) => Some(formula),
             Err(error) => {
                 self.tell(self.expression_problem(node, text, &error, what));
@@ -114,8 +120,14 @@ impl Context<'_> {
         self.numbers::<3>(node, what).map(Vector3::from)
     }
 
-    /// Three numbers that are not all zero.
+    /// Three numbers that are not all zero; a direction in the axes of the part it is written in, as global ones.
     pub(crate) fn direction(&self, node: &Node, what: &str) -> Option<Vector3> {
+        let vector = self.own_direction(node, what)?;
+        self.turned(node.scope, &vector)
+    }
+
+    /// Three numbers that are not all zero, as they are written.
+    pub(crate) fn own_direction(&self, node: &Node, what: &str) -> Option<Vector3> {
         let vector = self.vector(node, what)?;
         if vector.norm() > f64::MIN_POSITIVE && vector.norm().is_finite() {
             return Some(vector);

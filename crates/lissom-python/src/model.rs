@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use lissom::core::analysis::mobility::{Redundant, mobility};
 use lissom::{Model, Override, Record, Session, SessionError, Stopped, summary};
-use lissom_model::ModelText;
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;
 use pyo3::prelude::*;
@@ -74,7 +73,7 @@ impl NativeModel {
         if self.overrides.is_empty() {
             return Ok(self.model.text().to_owned());
         }
-        let text = ModelText::read(self.model.text(), self.model.name(), &self.overrides);
+        let text = self.model.model_text(&self.overrides);
         text.map(|text| text.to_toml()).map_err(|report| of_report(&report))
     }
 

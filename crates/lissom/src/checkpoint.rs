@@ -50,6 +50,8 @@ pub struct Checkpoint {
     pub model: String,
     /// Its text.
     pub text: String,
+    /// The texts of the files it includes, by their paths.
+    pub included: std::collections::BTreeMap<String, String>,
     /// What was changed in it.
     pub overrides: Vec<Override>,
     /// Whether plots are wanted.

@@ -1,21 +1,25 @@
 //! A model as it was written, and the documents it becomes under overrides. Knows no simulation.
 
-use std::path::Path;
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use lissom_model::files::{self, FileError};
 use lissom_model::lower::registry::registry;
-use lissom_model::{Document, Report};
+use lissom_model::{Document, Library, ModelText, Report};
 
 use crate::session::{Session, SessionError};
 
 /// A path into the model file and the value to put there, as `("analysis.step", "1e-4")`.
 pub type Override = (String, String);
 
-/// The text of a model file. It is read once and may be opened many times, with different overrides.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// The text of a model file and of the files it includes. Each is read once and may be opened many times, with different
+/// overrides.
+#[derive(Clone, Debug)]
 pub struct Model {
     name: String,
     text: String,
+    library: Arc<Library>,
 }
 
 impl Model {
@@ -24,12 +28,42 @@ impl Model {
     /// # Errors
     /// If the file cannot be read.
     pub fn read(path: &Path) -> Result<Self, FileError> {
-        Ok(Self { name: path.display().to_string(), text: files::read_text(path)? })
+        Ok(Self {
+            name: path.display().to_string(),
+            text: files::read_text(path)?,
+            library: Arc::new(Library::beside(path)),
+        })
     }
 
-    /// A model from a text; `name` is what complaints call it.
+    /// A model from a text; `name` is what complaints call it, and files that it includes are looked for beside a file of
+    /// this name.
     pub fn from_text(name: &str, text: &str) -> Self {
-        Self { name: name.to_owned(), text: text.to_owned() }
+        let library = Arc::new(Library::beside(Path::new(name)));
+        Self { name: name.to_owned(), text: text.to_owned(), library }
+    }
+
+    /// The same with included files of which the texts are known, by their paths; no other file is read.
+    #[must_use]
+    pub fn with_included(self, texts: BTreeMap<String, String>) -> Self {
+        Self { library: Arc::new(Library::of_texts(texts)), ..self }
+    }
+
+    /// The texts of the files it includes, by their paths, as far as documents were made of it.
+    pub fn included(&self) -> BTreeMap<String, String> {
+        self.library.texts()
+    }
+
+    /// The files it includes, or would, as far as documents were made of it.
+    pub fn included_files(&self) -> Vec<PathBuf> {
+        self.library.files()
+    }
+
+    /// The text as a tree of values, with `overrides` put in place.
+    ///
+    /// # Errors
+    /// If the text is not TOML, or an override leads nowhere.
+    pub fn model_text(&self, overrides: &[Override]) -> Result<ModelText, Report> {
+        ModelText::read_with(&self.text, &self.name, overrides, Arc::clone(&self.library))
     }
 
     /// Path or name.
@@ -47,7 +81,7 @@ impl Model {
     /// # Errors
     /// All that is wrong with the text or with an override.
     pub fn document(&self, overrides: &[Override]) -> Result<Document, Report> {
-        Document::parse_with(&self.text, &self.name, &registry(), overrides)
+        self.model_text(overrides)?.document(&registry(), &[])
     }
 
     /// A session at its start, with `overrides` put in place.

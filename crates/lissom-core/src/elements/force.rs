@@ -20,7 +20,7 @@ pub const KIND: ElementKind = ElementKind {
 pub(super) const LOAD_PARAMETERS: &[Parameter] = &[
     Parameter::required(
         "vector",
-        ParameterType::Vector,
+        ParameterType::GlobalVector,
         "N or N m",
         "Force or moment at scale 1, in global axes at the start.",
     ),

@@ -72,7 +72,9 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
         let value = match parameter.holds {
             ParameterType::Number => Value::Number(random.number()),
             ParameterType::Positive | ParameterType::NotNegative => Value::Number(1.5 + random.number()),
-            ParameterType::Vector | ParameterType::Direction => Value::Vector(random.vector()),
+            ParameterType::Vector | ParameterType::GlobalVector | ParameterType::Direction => {
+                Value::Vector(random.vector())
+            }
             ParameterType::Flag => Value::Flag(flag),
             ParameterType::Function | ParameterType::Size => {
                 Value::Function(if flag { Arc::new(Wave) } else { Arc::new(Constant(0.6)) })

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use lissom_motion::Vector3;
+use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::decode::each;
 use super::places::PlaceOrNode;
@@ -25,6 +25,8 @@ struct Draft {
     order: usize,
     up: Option<Located<Vector3>>,
     twist: Expression,
+    /// The frame in which it is written.
+    frame: Motion,
 }
 
 enum Form {
@@ -51,6 +53,7 @@ pub(super) fn beams(context: &Context<'_>, bodies: &[Body], point_masses: &[Poin
             order: order.map_or(3, |order| order.value),
             up,
             twist: twist?,
+            frame: reader.context.frame(reader.scope)?,
         })
     });
     let mut fixed = BTreeMap::new();
@@ -234,7 +237,7 @@ fn line(
         },
     };
     let line = match &draft.form {
-        Form::Curve(curve) => Line::Curve(curve.clone()),
+        Form::Curve(curve) => Line::Curve(curve.clone()).moved(&draft.frame),
         Form::Ends { from, through, to } => {
             let (from, to) = (at(from)?, at(to)?);
             if (to - from).norm() <= 1e-12 * from.norm().max(to.norm()) {
@@ -271,7 +274,15 @@ fn line(
 
 fn finish(context: &Context<'_>, draft: Draft, line: Line) -> Option<Beam> {
     let up = match draft.up {
-        None => line.default_up(),
+        // The same direction in each of many parts, however they are turned.
+        None => {
+            let inside = line.clone().moved(&draft.frame.inverse()).default_up();
+            if draft.frame.rotation == Rotation::IDENTITY {
+                inside
+            } else {
+                draft.frame.rotation.apply(&inside)
+            }
+        }
         Some(up) if line.is_parallel_somewhere(&up.value) => {
             let message = format!("`up` of beam `{}` is parallel to the beam", draft.name.value);
             let problem = Problem::error(up.span, message).label("along the beam");

@@ -10,6 +10,7 @@ use crate::line::are_parallel;
 use crate::reader::Reader;
 use crate::registry::Registry;
 use crate::report::Located;
+use crate::text::Node;
 
 pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
     each(context, "bodies", |reader, name| {
@@ -30,28 +31,40 @@ pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
     })
 }
 
-/// The place `position`, the origin where it is not given.
+/// The place `position`, the origin of the axes around it where it is not given.
 fn position(reader: &Reader<'_, '_>) -> Option<Vector3> {
     match reader.node("position") {
-        None => Some(Vector3::zeros()),
+        None => reader.context.to_global(reader.scope, &Vector3::zeros()),
         Some(node) => reader.context.place(node, &reader.words("position")).map(|place| place.value),
     }
 }
 
-/// Body axes as columns, from a rotation vector or from the first two axes.
+/// Body axes as columns in global axes.
 fn axes(reader: &Reader<'_, '_>) -> Option<Matrix3> {
-    let Some(node) = reader.node("axes") else {
-        let rotation = reader.vector("rotation").map_or(Vector3::zeros(), |vector| vector.value);
-        return Some(Rotation::exponential(&rotation).matrix());
+    let own = body_axes(reader.context, (reader.node("rotation"), reader.node("axes")), &reader.what)?;
+    let around = reader.context.frame(reader.scope)?.rotation;
+    Some(if around == Rotation::IDENTITY { own } else { around.matrix() * own })
+}
+
+/// Body axes as columns in the axes around the body, from a rotation vector or from the first two axes.
+pub(crate) fn body_axes(
+    context: &Context<'_>,
+    (rotation, axes): (Option<&Node>, Option<&Node>),
+    what: &str,
+) -> Option<Matrix3> {
+    let Some(node) = axes else {
+        let rotation = rotation.map(|node| context.vector(node, &format!("`rotation` of {what}")));
+        let rotation = rotation.map_or(Some(Vector3::zeros()), |vector| vector);
+        return Some(Rotation::exponential(&rotation?).matrix());
     };
-    let (context, what) = (reader.context, reader.words("axes"));
-    if reader.has("rotation") {
-        let message = format!("{} has both `rotation` and `axes`", reader.what);
+    if rotation.is_some() {
+        let message = format!("{what} has both `rotation` and `axes`");
         return context.fail(node.span, message, "leave one out");
     }
+    let what = format!("`axes` of {what}");
     let list = context.list(node, 2, &what)?;
-    let first = context.direction(&list[0], &format!("the first of {what}"));
-    let second = context.direction(&list[1], &format!("the second of {what}"));
+    let first = context.own_direction(&list[0], &format!("the first of {what}"));
+    let second = context.own_direction(&list[1], &format!("the second of {what}"));
     let (first, second) = (first?, second?);
     if are_parallel(&first, &second) {
         return context.fail(node.span, format!("{what} are parallel"), "give two directions that differ");
@@ -66,21 +79,40 @@ fn axes(reader: &Reader<'_, '_>) -> Option<Matrix3> {
     Some(Matrix3::from_columns(&[one, three.cross(&one), three]))
 }
 
+/// The plane of the global axes that `plane` of the axes around the point mass is.
+fn global_plane(reader: &Reader<'_, '_>, plane: Plane) -> Option<Plane> {
+    let normal = match plane {
+        Plane::Xy => Vector3::z(),
+        Plane::Yz => Vector3::x(),
+        Plane::Zx => Vector3::y(),
+    };
+    let turned = reader.context.turned(reader.scope, &normal)?;
+    let planes = [(Plane::Yz, turned.x), (Plane::Zx, turned.y), (Plane::Xy, turned.z)];
+    let found = planes.into_iter().find(|(_, cosine)| cosine.abs() > 1.0 - 1e-12);
+    found.map(|(plane, _)| plane).or_else(|| {
+        let message =
+            format!("the plane of {} is none of the global axes, as its part is turned", reader.what);
+        reader.context.fail(reader.name, message, "leave out `plane`, and hold the point mass by a joint")
+    })
+}
+
 pub(super) fn point_masses(context: &Context<'_>) -> Vec<PointMass> {
     each(context, "point_masses", |reader, name| {
         let (mass, position, velocity) = (reader.number("mass"), position(reader), reader.vector("velocity"));
-        let plane = reader.choice("plane").map(|plane| match plane.value {
-            "xy" => Plane::Xy,
-            "yz" => Plane::Yz,
-            _ => Plane::Zx,
-        });
+        let plane = match reader.choice("plane").map(|plane| plane.value) {
+            None => None,
+            Some("xy") => Some(global_plane(reader, Plane::Xy)?),
+            Some("yz") => Some(global_plane(reader, Plane::Yz)?),
+            Some(_) => Some(global_plane(reader, Plane::Zx)?),
+        };
         if let (Some(plane), Some(velocity)) = (plane, &velocity) {
             let across = match plane {
                 Plane::Xy => velocity.value.z,
                 Plane::Yz => velocity.value.x,
                 Plane::Zx => velocity.value.y,
             };
-            if across != 0.0 {
+            // A velocity that was turned has round-off across the plane.
+            if across.abs() > 1e-12 * velocity.value.norm() {
                 let message = format!("the velocity of {} leaves its plane", reader.what);
                 let help = "the component across the plane must be 0";
                 return context.fail(velocity.span, message, help);

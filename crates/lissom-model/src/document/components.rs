@@ -1,6 +1,6 @@
 //! Joints, springs and loads of a model file: what they are attached to, and the parameters of their kind.
 
-use lissom_motion::Vector3;
+use lissom_motion::{Rotation, Vector3};
 
 use super::connections::Places;
 use super::decode::each_of_kind;
@@ -44,6 +44,10 @@ fn attachment(
     // A part that could not be read has no place; its own error is enough.
     let at = |key: &str, node: &Located<NodeReference>| match reader.node(key) {
         Some(place) => reader.context.place(place, &reader.words(key)).map(|place| place.value),
+        // The ground has its place where the part is that names it.
+        None if node.value == NodeReference::Ground => {
+            reader.context.frame(reader.scope).map(|frame| frame.position)
+        }
         None => places.of(&node.value),
     };
     match acts_on {
@@ -97,7 +101,12 @@ fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
         FrameRule::None => Some((None, None)),
         FrameRule::Axis => Some((Some(reader.vector("axis")?), None)),
         FrameRule::GivenOrGlobal if reader.node("axis").is_none() && reader.node("second_axis").is_none() => {
-            Some((None, None))
+            let frame = reader.context.frame(reader.scope)?.rotation;
+            // In a part that is turned the axes are the part's.
+            let axis = |own: Vector3| {
+                (frame != Rotation::IDENTITY).then(|| Located::new(frame.apply(&own), reader.name))
+            };
+            Some((axis(Vector3::x()), axis(Vector3::y())))
         }
         FrameRule::TwoAxes | FrameRule::GivenOrGlobal => {
             for (key, other) in [("axis", "second_axis"), ("second_axis", "axis")] {

@@ -1,6 +1,8 @@
 //! The order in which the tables of a model file are read and checked.
 
 use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::Arc;
 
 use lissom_motion::Vector3;
 
@@ -8,6 +10,8 @@ use super::tables::{self, Holds, variants};
 use super::{Document, analysis, beams, bodies, components, connections, materials, outputs, signals};
 use crate::context::{Context, singular};
 use crate::expression;
+use crate::library::Library;
+use crate::parts;
 use crate::reader::Reader;
 use crate::registry::Registry;
 use crate::report::{Problem, Report, Severity, Span};
@@ -15,7 +19,7 @@ use crate::suggest;
 use crate::text::{self, Node, Tree, Value};
 
 impl Document {
-    /// Reads a model file's text. `file_name` is for messages only.
+    /// Reads a model file's text. `file_name` is for messages, and files that the model includes are looked for beside it.
     ///
     /// # Errors
     /// If anything is wrong: a report of all mistakes that could be found.
@@ -34,7 +38,8 @@ impl Document {
         registry: &Registry,
         overrides: &[(String, String)],
     ) -> Result<Self, Report> {
-        from_tree(text::read(text, file_name, overrides), registry)
+        let library = Arc::new(Library::beside(Path::new(file_name)));
+        from_tree(text::read(text, file_name, overrides, library), registry)
     }
 }
 
@@ -43,19 +48,20 @@ pub(crate) fn from_tree(tree: Tree, registry: &Registry) -> Result<Document, Rep
     if !tree.problems.is_empty() {
         return Err(Report::new(tree.problems, &tree.sources));
     }
-    let context = Context::new(&tree.sources, &tree.root);
+    let model = parts::expand(tree).map_err(|(problems, sources)| Report::new(problems, &sources))?;
+    let context = Context::new(&model);
     let document = decode(&context, registry);
     let problems = context.into_problems();
     if problems.iter().any(|problem| problem.severity == Severity::Error) {
-        return Err(Report::new(problems, &tree.sources));
+        return Err(Report::new(problems, &model.sources));
     }
-    let warnings = Report::new(problems, &tree.sources);
+    let warnings = Report::new(problems, &model.sources);
     if let Some(document) = document {
-        return Ok(Document { warnings, sources: tree.sources, ..document });
+        return Ok(Document { warnings, sources: model.sources, ..document });
     }
     // Every decoder that gives nothing has told why; this is for the case that one forgot.
     let problem = Problem::error(Span::default(), "the model could not be read");
-    Err(Report::new(vec![problem], &tree.sources))
+    Err(Report::new(vec![problem], &model.sources))
 }
 
 fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
@@ -166,7 +172,8 @@ fn check_names(context: &Context<'_>) {
         !name.is_empty() && name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' '))
     };
     for top in tables::tops().filter(|top| tables::has_named_entries(top.name)) {
-        for (name, span) in context.names(top.name) {
+        for (name, span, node) in context.entries(top.name) {
+            let name = context.local_name(name, node);
             if !usable(name) {
                 let message = format!("`{name}` cannot be the name of a {}", singular(top.name));
                 context.fail::<()>(span, message, "names are made of letters, digits, `_`, `-` and blanks");
@@ -176,7 +183,7 @@ fn check_names(context: &Context<'_>) {
     let mut parts: BTreeMap<&str, (Span, &str)> = BTreeMap::new();
     for table in ["beams", "bodies", "point_masses"] {
         for (name, span) in context.names(table) {
-            if name == "ground" {
+            if name == "ground" || name.ends_with(".ground") {
                 let message = format!("a {} cannot be called `ground`", singular(table));
                 context.fail::<()>(span, message, "`ground` is the fixed frame; choose another name");
             }
@@ -184,6 +191,10 @@ fn check_names(context: &Context<'_>) {
                 let message = format!("the {} `{name}` has the name of a {other}", singular(table));
                 let problem = Problem::error(span, message).label("again").also(first, "first here");
                 context.tell(problem.help("beams, bodies and point masses need different names"));
+            }
+            if context.instances.contains_key(name) {
+                let message = format!("the {} `{name}` has the name of a part", singular(table));
+                context.fail::<()>(span, message, "give it, or the entry of [parts], another name");
             }
         }
     }
@@ -197,29 +208,34 @@ fn title(context: &Context<'_>) -> Option<String> {
     }
 }
 
-/// A parameter may name those above it.
+/// A parameter may name those above it; one of a part also those around it, if it is not of a file of its own.
 fn parameters(context: &Context<'_>) -> BTreeMap<String, f64> {
-    for (name, span, node) in context.entries("parameters") {
-        let what = format!("parameter `{name}`");
-        if expression::is_reserved(name) {
-            let message = format!("a parameter cannot be called `{name}`");
-            context.fail::<()>(span, message, "expressions give this word another meaning");
-            continue;
+    for (scope, own) in context.scopes.iter().enumerate() {
+        if let (Some(parent), parts::Outside::All) = (own.parent, &own.outside) {
+            context.inherit_parameters(scope, parent);
         }
-        // A wrong parameter stays known, or every expression that names it would be wrong as well.
-        let value = context.number(node, &what).unwrap_or(1.0);
-        context.parameters.borrow_mut().insert(name.to_owned(), value);
+        if let Some((index, count)) = own.index {
+            context.set_parameter(scope, "index", index as f64);
+            context.set_parameter(scope, "count", count as f64);
+        }
+        for (name, span, node) in &own.parameters {
+            let what = format!("parameter `{name}`");
+            if expression::is_reserved(name) {
+                let message = format!("a parameter cannot be called `{name}`");
+                context.fail::<()>(*span, message, "expressions give this word another meaning");
+                continue;
+            }
+            // A wrong parameter stays known, or every expression that names it would be wrong as well.
+            let value = context.number(node, &what).unwrap_or(1.0);
+            context.set_parameter(scope, name, value);
+        }
     }
-    context.parameters.borrow().clone()
+    context.own_parameters()
 }
 
 fn points(context: &Context<'_>) -> BTreeMap<String, Vector3> {
-    for (name, _, node) in context.entries("points") {
-        let place = context.vector(node, &format!("point `{name}`"));
-        context.points.borrow_mut().insert(name.to_owned(), place);
-    }
-    let points = context.points.borrow();
-    points.iter().filter_map(|(name, place)| place.map(|place| (name.clone(), place))).collect()
+    let place = |(name, _): (&str, Span)| Some((name.to_owned(), context.point(name)?));
+    context.names("points").into_iter().filter_map(place).collect()
 }
 
 /// Reads every entry of a table that has a single form.

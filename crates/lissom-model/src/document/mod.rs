@@ -24,6 +24,8 @@ use crate::line::Line;
 use crate::report::{Located, Problem, Report, Sources, Span};
 use crate::sections::{Isotropic, SectionProperties, Shape};
 
+pub(crate) use bodies::body_axes;
+
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use outputs::{Output, OutputKind, OutputSource};
 pub use signals::{SignalEntry, StateEntry};

@@ -202,8 +202,10 @@ fn signal(reader: &Reader<'_, '_>) -> Option<Located<String>> {
     let name = reader.text("of")?;
     let tables = ["signals", "inputs", "states"];
     let known = || tables.iter().flat_map(|table| reader.context.names(table)).map(|(name, _)| name);
-    if known().any(|known| known == name.value) {
-        return Some(name.map(str::to_owned));
+    let scope = reader.node("of")?.scope;
+    let exists = |full: &str| tables.iter().any(|table| reader.context.has(table, full));
+    if let Some(full) = reader.context.resolve(name.value, scope, &exists) {
+        return Some(Located::new(full, name.span));
     }
     let message =
         format!("{} names `{}`, which is no signal, input or state", reader.words("of"), name.value);

@@ -4,6 +4,7 @@ use lissom_motion::Vector3;
 
 use super::NodeReference;
 use crate::context::Context;
+use crate::parts::ScopeId;
 use crate::report::{Located, Problem, Span};
 use crate::suggest;
 use crate::text::Node;
@@ -18,17 +19,19 @@ pub(super) enum PlaceOrNode {
 
 impl Context<'_> {
     /// The name of a point, or three numbers.
-    pub(super) fn place(&self, node: &Node, what: &str) -> Option<Located<Vector3>> {
+    pub(crate) fn place(&self, node: &Node, what: &str) -> Option<Located<Vector3>> {
         let place = match &node.value {
             Value::Text(name) => {
-                let known = self.points.borrow().get(name.as_str()).copied();
-                let Some(place) = known else {
-                    self.is_known("points", name, node.span, what);
+                let name = self.entry_named("points", name, node, what)?;
+                if !self.is_known("points", &name, node.span, what) {
                     return None;
-                };
-                place?
+                }
+                self.point(&name)?
             }
-            Value::List(_) => self.vector(node, what)?,
+            Value::List(_) => {
+                let own = self.vector(node, what)?;
+                self.to_global(node.scope, &own)?
+            }
             _ => return self.wrong_type(node, what, "the name of a point, or three numbers"),
         };
         Some(Located::new(place, node.span))
@@ -37,9 +40,9 @@ impl Context<'_> {
     /// The name of a point, three numbers, or a node of a part.
     pub(super) fn place_or_node(&self, node: &Node, what: &str) -> Option<PlaceOrNode> {
         if let Value::Text(name) = &node.value
-            && !self.points.borrow().contains_key(name.as_str())
+            && !self.has("points", &self.entry_named("points", name, node, what)?)
         {
-            if self.looks_like_node(name) {
+            if self.looks_like_node(name) || self.node_resolved(name, node.scope).is_some() {
                 return self.node(node, what).map(PlaceOrNode::Node);
             }
             let points = self.names("points");
@@ -68,7 +71,23 @@ impl Context<'_> {
                 "the name of a node, such as \"ground\", \"body\" or \"beam.end\"",
             );
         };
+        let written = self.written(text, (node.span, node.scope), what)?;
+        let full = self.node_resolved(&written, node.scope);
+        let text = full.as_deref().unwrap_or(&written);
         self.node_named(text, node.span, what).map(|found| Located::new(found, node.span))
+    }
+
+    /// The name in the whole model of a node, or of a part without a node of its own.
+    fn node_resolved(&self, text: &str, scope: ScopeId) -> Option<String> {
+        self.resolve(text, scope, &|full| {
+            let is_there =
+                |name: &str| ["beams", "bodies", "point_masses"].iter().any(|table| self.has(table, name));
+            let beam = full
+                .strip_suffix(".start")
+                .or(full.strip_suffix(".end"))
+                .or(full.split_once('@').map(|(beam, _)| beam));
+            full == "ground" || is_there(full) || beam.is_some_and(|beam| self.has("beams", beam))
+        })
     }
 
     fn node_named(&self, text: &str, span: Span, what: &str) -> Option<NodeReference> {

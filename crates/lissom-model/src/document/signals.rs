@@ -6,6 +6,7 @@ use super::decode::each;
 use crate::context::{Context, singular};
 use crate::expression::{self, Formula};
 use crate::keys::Shape;
+use crate::parts::ROOT;
 use crate::reader::Reader;
 use crate::report::{Located, Problem, Span};
 use crate::text::Value;
@@ -39,17 +40,25 @@ pub(super) fn check_names(context: &Context<'_>) {
     let mut known: BTreeMap<&str, (Span, &str)> =
         context.names("parameters").into_iter().map(|(name, span)| (name, (span, "parameter"))).collect();
     for table in ["inputs", "signals", "states"] {
-        for (name, span) in context.names(table) {
+        for (name, span, node) in context.entries(table) {
             let what = singular(table);
-            let mut letters = name.chars();
+            let local = context.local_name(name, node);
+            let mut letters = local.chars();
             let is_word = letters.next().is_some_and(|first| first.is_ascii_alphabetic() || first == '_')
                 && letters.all(|letter| letter.is_ascii_alphanumeric() || letter == '_');
             if !is_word {
                 let message =
                     format!("`{name}` cannot be the name of a {what}: expressions could not write it");
                 context.fail::<()>(span, message, "use letters, digits and `_`, a letter first");
-            } else if expression::is_reserved(name) {
-                let message = format!("a {what} cannot be called `{name}`");
+            } else if node.scope != ROOT && context.parameters_of(node.scope).contains_key(local) {
+                let message = format!("the {what} `{name}` has the name of a parameter that is known there");
+                context.fail::<()>(
+                    span,
+                    message,
+                    "parameters, inputs, signals and states need different names",
+                );
+            } else if expression::is_reserved(local) {
+                let message = format!("a {what} cannot be called `{local}`");
                 context.fail::<()>(span, message, "expressions give this word another meaning");
             } else if let Some((first, other)) = known.insert(name, (span, what)) {
                 let message = format!("the {what} `{name}` has the name of a {other}");

@@ -36,14 +36,20 @@ const fn top(name: &'static str, holds: Holds, required: bool, summary: &'static
 pub const VERSION: usize = 1;
 
 /// All the words at the top.
-pub(crate) static TOP: [Top; 18] = [
+pub(crate) static TOP: [Top; 19] = [
     top("lissom", Holds::Value(Shape::Version), true, "Version of the file format."),
     top("title", Holds::Value(Shape::Text), false, "One line about the model."),
     top("gravity", Holds::Value(Shape::Vector), false, "Acceleration of gravity [m/s²]; none when left out."),
     top("parameters", Holds::Values(Shape::Number), false, "Numbers that expressions may name."),
     top("materials", Holds::Entries, false, "Isotropic elastic materials."),
     top("sections", Holds::Entries, false, "Cross sections; axis 1 along the beam, 2 and 3 across."),
-    top("points", Holds::Values(Shape::Vector), false, "Named places [m]."),
+    top("points", Holds::Values(Shape::Point), false, "Named places [m]."),
+    top(
+        "parts",
+        Holds::Entries,
+        false,
+        "Sub-assemblies that are named, placed and repeated; names inside are `part.name`.",
+    ),
     top("beams", Holds::Entries, false, "Flexible beams."),
     top("bodies", Holds::Entries, false, "Rigid bodies."),
     top("point_masses", Holds::Entries, false, "Masses without extension."),
@@ -118,6 +124,7 @@ pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
         "sections" => (Some("shape"), sections()),
         "beams" => (None, vec![single(beam())]),
         "bodies" => (None, vec![single(body())]),
+        "parts" => (None, vec![single(part())]),
         "point_masses" => (None, vec![single(point_mass())]),
         "joints" => (Some("kind"), kinds(&registry.joints)),
         "springs" => (Some("kind"), kinds(&registry.springs)),
@@ -196,6 +203,7 @@ fn sections() -> Vec<Variant> {
 
 fn beam() -> Vec<Key> {
     vec![
+        placed_in(),
         optional("section", Shape::Name("sections"), "", "name of a section; give it or `stations`"),
         optional(
             "stations",
@@ -219,8 +227,46 @@ fn beam() -> Vec<Key> {
     ]
 }
 
+/// The key that names the part in whose frame an entry is placed.
+fn placed_in() -> Key {
+    optional(
+        "in",
+        Shape::Text,
+        "",
+        "body, point mass or part in whose frame at the start places and directions are given; default the one around",
+    )
+}
+
+/// Keys of a part.
+pub(crate) fn part() -> Vec<Key> {
+    let mut keys = vec![
+        optional("include", Shape::Text, "", "path of the file that it is made of, relative to this file"),
+        optional("like", Shape::Text, "", "part of the same table of which it is a copy, turned and shifted"),
+        optional(
+            "count",
+            Shape::Count(1, 20_000),
+            "",
+            "an array `name1`, `name2` …; `index` and `count` are parameters in it",
+        ),
+        placed_in(),
+        optional("position", Shape::Place, "m", "place of its origin"),
+        optional("rotation", Shape::Vector, "rad", "rotation vector of its axes"),
+        optional("parameters", Shape::Table, "", "its parameters, in place of the defaults of its file"),
+        optional(
+            "names",
+            Shape::Table,
+            "",
+            "names in the included file that mean something outside, as { hub = \"hub\" }",
+        ),
+    ];
+    let tables = TOP.iter().filter(|top| has_named_entries(top.name) && top.name != "parameters");
+    keys.extend(tables.map(|top| optional(top.name, Shape::Entries(top.name), "", top.summary)));
+    keys
+}
+
 fn body() -> Vec<Key> {
     vec![
+        placed_in(),
         required("mass", Shape::Positive, "kg", "mass"),
         required(
             "inertia",
@@ -232,17 +278,18 @@ fn body() -> Vec<Key> {
         optional("rotation", Shape::Vector, "rad", "rotation vector of the reference frame"),
         optional("axes", Shape::Axes, "", "instead of rotation: first and second body axis"),
         optional("center_of_mass", Shape::Vector, "m", "in body axes, from the reference point"),
-        optional("velocity", Shape::Vector, "m/s", "of the reference point at the start, global axes"),
+        optional("velocity", Shape::GlobalVector, "m/s", "of the reference point at the start, global axes"),
         optional("angular_velocity", Shape::Vector, "rad/s", "at the start, body axes"),
     ]
 }
 
 fn point_mass() -> Vec<Key> {
     vec![
+        placed_in(),
         required("mass", Shape::Positive, "kg", "mass"),
         optional("position", Shape::Place, "m", "place at the start"),
         optional("plane", choice(&["xy", "yz", "zx"]), "", "move in this plane only"),
-        optional("velocity", Shape::Vector, "m/s", "at the start, global axes"),
+        optional("velocity", Shape::GlobalVector, "m/s", "at the start, global axes"),
     ]
 }
 
@@ -250,6 +297,7 @@ fn kinds(table: &[KindEntry]) -> Vec<Variant> {
     let words: Vec<&'static str> = table.iter().map(|entry| entry.name).collect();
     let variant = |entry: &KindEntry| {
         let mut keys = vec![required("kind", Shape::Choice(Cow::Owned(words.clone())), "", "its kind")];
+        keys.push(placed_in());
         keys.extend(attachment(entry.acts_on));
         keys.extend(entry.parameters.iter().map(of_parameter));
         Variant { word: entry.name, summary: entry.summary, keys }

@@ -41,6 +41,13 @@ impl Formula {
         Self { steps: vec![Step::Constant(value)], arguments: Vec::new(), text: value.to_string() }
     }
 
+    /// Gives names other texts; two that become the same stay two arguments of the same value.
+    pub(crate) fn rename(&mut self, change: &dyn Fn(&str) -> String) {
+        for name in &mut self.arguments {
+            name.text = change(&name.text);
+        }
+    }
+
     /// The names it depends on, each once, in the order of the arguments.
     pub fn arguments(&self) -> &[Name] {
         &self.arguments

@@ -177,7 +177,7 @@ fn resolve(
         let place = document.within(expression.span, expression.value.text(), &name.range);
         Problem::error(place, format!("{what} cannot be read: {message}")).label("here")
     };
-    let Some((owner, component)) = name.text.split_once('.') else {
+    let Some((owner, component)) = name.text.rsplit_once('.') else {
         let owners = document.outputs.iter().map(|output| output.name.value.as_str());
         let known = names.signals.keys().map(String::as_str).chain(["t", "pi"]);
         let known = known.chain(document.parameters.keys().map(String::as_str));

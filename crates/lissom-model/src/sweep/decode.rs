@@ -1,12 +1,14 @@
 //! Reads a sweep file: words, values, and the table of samples.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use super::sampling::{Draw, SAMPLINGS, SamplingKind, WORDS};
 use super::statistic::{self, STATISTICS};
 use super::{Collected, MOST_MEMBERS, SweepFile, SweepValue, VERSION, Variation, Varied};
 use crate::context::Context;
 use crate::keys::{Key, Shape, choice, optional, required};
+use crate::parts::{Expanded, ROOT};
 use crate::reader::Reader;
 use crate::report::{Problem, Report, Severity, Span};
 use crate::suggest;
@@ -23,12 +25,13 @@ impl SweepFile {
     /// # Errors
     /// If anything is wrong: a report of all mistakes that could be found.
     pub fn parse(text: &str, file_name: &str) -> Result<Self, Report> {
-        let tree = text::read(text, file_name, &[]);
+        let tree = text::read(text, file_name, &[], Arc::default());
         if !tree.problems.is_empty() {
             return Err(Report::new(tree.problems, &tree.sources));
         }
-        let context = Context::new(&tree.sources, &tree.root);
-        let root = Node { span: Span::default(), value: Value::Table(tree.root.clone()) };
+        let plain = Expanded::plain(tree.root.clone(), tree.sources.clone());
+        let context = Context::new(&plain);
+        let root = Node { span: Span::default(), scope: ROOT, value: Value::Table(tree.root.clone()) };
         let sweep = decode(&context, &root);
         let problems = context.into_problems();
         match sweep {

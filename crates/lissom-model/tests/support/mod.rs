@@ -32,7 +32,7 @@ const TORSIONAL: &[Parameter] = &[
     Parameter::optional("angle", ParameterType::Number, "rad", "angle without moment"),
 ];
 const LOAD: &[Parameter] = &[
-    Parameter::required("vector", ParameterType::Vector, "N or N m", "direction and size"),
+    Parameter::required("vector", ParameterType::GlobalVector, "N or N m", "direction and size"),
     Parameter::optional("scale", ParameterType::Function, "", "factor in time, default 1"),
     Parameter::optional("follower", ParameterType::Flag, "", "whether it turns with the node"),
 ];

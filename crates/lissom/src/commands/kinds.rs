@@ -104,7 +104,7 @@ fn holds(holds: ParameterType) -> String {
         ParameterType::Number => "number".to_owned(),
         ParameterType::Positive => "positive number".to_owned(),
         ParameterType::NotNegative => "number, not negative".to_owned(),
-        ParameterType::Vector => "three numbers".to_owned(),
+        ParameterType::Vector | ParameterType::GlobalVector => "three numbers".to_owned(),
         ParameterType::Direction => "direction".to_owned(),
         ParameterType::Flag => "true or false".to_owned(),
         ParameterType::Function => "number or expression of t".to_owned(),

@@ -203,7 +203,8 @@ impl Run {
         if let Some(folder) = &self.resume {
             let checkpoint = Checkpoint::read(folder).map_err(|error| Failure::new(Exit::BadModel, error))?;
             return Ok(Task {
-                model: Model::from_text(&checkpoint.model, &checkpoint.text),
+                model: Model::from_text(&checkpoint.model, &checkpoint.text)
+                    .with_included(checkpoint.included.clone()),
                 overrides: checkpoint.overrides.clone(),
                 folder: folder.clone(),
                 plots: checkpoint.plots && !self.no_plots,
@@ -287,10 +288,12 @@ impl Task {
         let every = self.every.clone()?;
         let parsed = every.parse().ok()?;
         let (model, text) = (self.model.name().to_owned(), self.model.text().to_owned());
+        let included = self.model.included();
         let (overrides, plots) = (self.overrides.clone(), self.plots);
         let frame = move |session, [history_length, motion_length]: [u64; 2]| Checkpoint {
             model: model.clone(),
             text: text.clone(),
+            included: included.clone(),
             overrides: overrides.clone(),
             plots,
             every: every.clone(),

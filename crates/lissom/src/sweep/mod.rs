@@ -102,7 +102,7 @@ impl Sweep {
     pub fn new(model: &Model, file: SweepFile, overrides: &[Override]) -> Result<Self, SweepError> {
         let mut all = file.set.clone();
         all.extend_from_slice(overrides);
-        let text = ModelText::read(model.text(), model.name(), &all)?;
+        let text = model.model_text(&all)?;
         let registry = registry();
         let mut first = None;
         for member in 0..file.len() {
@@ -161,10 +161,18 @@ impl Sweep {
     /// All that results depend on, as one line of JSON: version of the program, model, what is varied and collected.
     /// Sweeps with the same line have the same members and the same table.
     pub fn definition(&self) -> String {
+        // Members may include other files than the first does.
+        for member in 0..self.len() {
+            let overrides = self.file.overrides(member);
+            if overrides.iter().any(|(path, _)| path.starts_with("parts.")) {
+                let _ = self.text.document(&self.registry, &overrides);
+            }
+        }
         let definition = json!({
             "lissom_sweep": lissom_model::sweep::VERSION,
             "version": crate::VERSION,
             "model": self.text.to_toml(),
+            "included": self.text.library().texts(),
             "sweep": self.file,
             "members": self.len(),
         });

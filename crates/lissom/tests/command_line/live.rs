@@ -253,3 +253,23 @@ fn a_model_that_is_not_there_is_told() {
     assert_eq!(ended.code, 2);
     assert!(ended.errors.contains("no such file"), "{}", ended.errors);
 }
+
+#[test]
+fn a_change_in_an_included_file_is_seen() {
+    let folder = Folder::new("live-included");
+    let (parts, analysis) = CANTILEVER.split_once("[analysis]").unwrap();
+    folder.write("part.toml", parts);
+    folder.write(
+        "model.toml",
+        &format!("lissom = 1\n[parts.a]\ninclude = \"part.toml\"\n[analysis]{analysis}"),
+    );
+    let live = Live::start("model.toml", folder.path());
+    let first = live.after(0);
+    assert_eq!(first["notice"], Value::Null, "{first}");
+    folder.write("part.toml", &parts.replace("elements = 4", "elements = -4"));
+    let wrong = live.after(version(&first));
+    assert!(wrong["notice"]["text"].as_str().unwrap().contains("part.toml:"), "{wrong}");
+    folder.write("part.toml", &parts.replace("elements = 4", "elements = 5"));
+    let right = live.after(version(&wrong));
+    assert_eq!(right["notice"], Value::Null, "{right}");
+}

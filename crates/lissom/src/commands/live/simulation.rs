@@ -10,7 +10,7 @@ use std::time::{Duration, Instant, SystemTime};
 
 use lissom::motion::MotionRecorder;
 use lissom::view::{Notice, Results};
-use lissom::{Model, Override, Record, Session, Writer, summary};
+use lissom::{FileError, Model, Override, Record, Session, Writer, summary};
 use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
 use serde_json::{Value, json};
@@ -80,14 +80,23 @@ pub(super) fn start(model: PathBuf, set: Vec<Override>, shared: &Arc<Shared>) {
     std::thread::spawn(move || {
         let mut last = None;
         let mut bases = BTreeMap::new();
+        let mut included = Vec::new();
         loop {
-            let now = Seen::of(&model, &shared);
+            let now = Seen::of(&model, &included, &shared);
             if last.as_ref() == Some(&now) || now.is_younger_than(SETTLED) {
                 std::thread::sleep(LOOK);
                 continue;
             }
-            let is_current = || Seen::of(&model, &shared) == now;
-            let message = simulate(&model, &set, &now.parameters, &mut bases, &is_current);
+            // Which files are included is known once the model has been read.
+            if let Ok(text) = Model::read(&model) {
+                let _ = text.document(&set);
+                included = text.included_files();
+            }
+            // The files are read only after they were looked at: a change in between is seen the next time.
+            let now = Seen::of(&model, &included, &shared);
+            let text = Model::read(&model);
+            let is_current = || Seen::of(&model, &included, &shared) == now;
+            let message = simulate(text, &set, &now.parameters, &mut bases, &is_current);
             let is_mistake = message.as_ref().is_some_and(|message| message["result"].is_null());
             let sure = if now.length == 0 { SURE_TO_BE_EMPTY } else { SURE };
             while is_mistake && now.modified.is_some() && now.is_younger_than(sure) && is_current() {
@@ -107,32 +116,40 @@ pub(super) fn start(model: PathBuf, set: Vec<Override>, shared: &Arc<Shared>) {
 struct Seen {
     length: u64,
     modified: Option<SystemTime>,
+    /// Lengths and times of the included files.
+    included: Vec<(u64, Option<SystemTime>)>,
     asked: u64,
     parameters: BTreeMap<String, f64>,
 }
 
 impl Seen {
-    fn of(model: &Path, shared: &Shared) -> Self {
-        let file = std::fs::metadata(model).ok();
+    fn of(model: &Path, included: &[PathBuf], shared: &Shared) -> Self {
+        let look = |path: &Path| {
+            let file = std::fs::metadata(path).ok();
+            let length = file.as_ref().map_or(0, Metadata::len);
+            (length, file.and_then(|file| file.modified().ok()))
+        };
+        let (length, modified) = look(model);
         let state = shared.lock();
         Self {
-            length: file.as_ref().map_or(0, Metadata::len),
-            modified: file.and_then(|file| file.modified().ok()),
+            length,
+            modified,
+            included: included.iter().map(|path| look(path)).collect(),
             asked: state.asked,
             parameters: state.parameters.clone(),
         }
     }
 
-    /// Whether the file was changed so shortly before.
+    /// Whether a file was changed so shortly before.
     fn is_younger_than(&self, limit: Duration) -> bool {
-        let age = self.modified.and_then(|modified| modified.elapsed().ok());
-        age.is_some_and(|age| age < limit)
+        let times = std::iter::once(self.modified).chain(self.included.iter().map(|(_, modified)| *modified));
+        times.flatten().filter_map(|modified| modified.elapsed().ok()).any(|age| age < limit)
     }
 }
 
 /// Simulates the model once; nothing if it has changed meanwhile. `bases` are the file's own values of the parameters.
 fn simulate(
-    path: &Path,
+    model: Result<Model, FileError>,
     set: &[Override],
     sliders: &BTreeMap<String, f64>,
     bases: &mut BTreeMap<String, f64>,
@@ -143,7 +160,7 @@ fn simulate(
         let notice = if is_code { Notice::error(text).with_code() } else { Notice::error(text) };
         Some(json!({ "notice": notice, "result": null, "parameters": null }))
     };
-    let model = match Model::read(path) {
+    let model = match model {
         Ok(model) => model,
         Err(error) => return failed(error.to_string(), false),
     };

@@ -1,0 +1,109 @@
+//! The texts that a model includes, and its data files: read once, then the same for all that is made of them. Knows no
+//! format.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::files;
+
+/// Why there is no text.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{message}")]
+pub struct Missing {
+    /// One sentence.
+    pub message: String,
+    /// A remedy.
+    pub help: Option<String>,
+}
+
+/// A text, or why there is none.
+type Found = Result<Arc<str>, Missing>;
+
+/// Texts by their paths relative to the folder of the model.
+#[derive(Debug, Default)]
+pub struct Library {
+    /// Where they are looked for; none where all are known.
+    folder: Option<PathBuf>,
+    found: Mutex<BTreeMap<String, Found>>,
+}
+
+impl Library {
+    /// Texts in the folder in which the file `model` lies.
+    pub fn beside(model: &Path) -> Self {
+        let folder = model.parent().map(Path::to_owned).unwrap_or_default();
+        Self { folder: Some(folder), found: Mutex::default() }
+    }
+
+    /// Texts that were read before, by their paths; no file is looked for.
+    pub fn of_texts(texts: impl IntoIterator<Item = (String, String)>) -> Self {
+        let found = texts.into_iter().map(|(path, text)| (path, Ok(Arc::from(text)))).collect();
+        Self { folder: None, found: Mutex::new(found) }
+    }
+
+    /// The text at `path`, which [`joined`] has made.
+    ///
+    /// # Errors
+    /// If there is none.
+    pub fn text(&self, path: &str) -> Found {
+        let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = found.get(path) {
+            return known.clone();
+        }
+        let text = match &self.folder {
+            None => {
+                Err(Missing { message: format!("`{path}` was not among the files of the model"), help: None })
+            }
+            Some(folder) => files::read_text(&folder.join(path))
+                .map(Arc::from)
+                .map_err(|error| Missing { message: error.to_string(), help: error.help }),
+        };
+        found.insert(path.to_owned(), text.clone());
+        text
+    }
+
+    /// All texts that were read so far, by their paths.
+    pub fn texts(&self) -> BTreeMap<String, String> {
+        let found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
+        let text = |(path, text): (&String, &Found)| Some((path.clone(), text.as_ref().ok()?.to_string()));
+        found.iter().filter_map(text).collect()
+    }
+
+    /// The files that were asked for so far, whether they are there or not.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
+        let folder = self.folder.clone().unwrap_or_default();
+        found.keys().map(|path| folder.join(path)).collect()
+    }
+}
+
+/// The path that `path`, written in the file `from`, leads to, without detours.
+pub(crate) fn joined(from: &str, path: &str) -> String {
+    let folder = from.rsplit_once('/').map_or("", |(folder, _)| folder);
+    let is_absolute = path.starts_with('/');
+    let mut parts: Vec<&str> = if is_absolute { Vec::new() } else { folder.split('/').collect() };
+    for part in path.split('/') {
+        match part {
+            ".." if parts.last().is_some_and(|last| !last.is_empty() && *last != "..") => {
+                parts.pop();
+            }
+            part => parts.push(part),
+        }
+    }
+    parts.retain(|part| !part.is_empty() && *part != ".");
+    format!("{}{}", if is_absolute { "/" } else { "" }, parts.join("/"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn paths_are_told_by_one_name() {
+        assert_eq!(joined("", "leg.toml"), "leg.toml");
+        assert_eq!(joined("parts/arm.toml", "./leg.toml"), "parts/leg.toml");
+        assert_eq!(joined("parts/arm.toml", "../leg.toml"), "leg.toml");
+        assert_eq!(joined("arm.toml", "../../leg.toml"), "../../leg.toml");
+        assert_eq!(joined("parts/arm.toml", "/a/b/../leg.toml"), "/a/leg.toml");
+    }
+}

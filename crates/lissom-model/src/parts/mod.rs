@@ -1,0 +1,111 @@
+//! Parts that repeat: sub-assemblies from files or from the model itself, named, placed and put into the model's tables
+//! under names such as `leg2.rod`. What a name, a parameter or a place means depends on the scope it was written in.
+
+mod expand;
+mod frames;
+mod names;
+mod overrides;
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use crate::library::Library;
+use crate::report::{Sources, Span};
+use crate::text::{Node, Table};
+
+pub(crate) use expand::expand;
+pub(crate) use frames::Frames;
+
+/// Number of a scope.
+pub(crate) type ScopeId = usize;
+
+/// The scope of the model itself.
+pub(crate) const ROOT: ScopeId = 0;
+
+/// Most parts that a model may be made of: more is a mistake in a count.
+const MOST_PARTS: usize = 20_000;
+
+/// Tables whose entries may be placed relative to another part by `in`.
+const PLACED_TABLES: [&str; 7] = ["points", "bodies", "point_masses", "beams", "joints", "springs", "loads"];
+
+/// Where a text was written: what its names, parameters and places mean.
+#[derive(Clone, Debug)]
+pub(crate) struct Scope {
+    /// The scope around it; none for the model's.
+    pub(crate) parent: Option<ScopeId>,
+    /// What its names begin with in the whole model, as `leg2.`.
+    pub(crate) prefix: String,
+    /// Names of the scope around it that are known here.
+    pub(crate) outside: Outside,
+    /// Its own parameters, in the order in which they may name each other.
+    pub(crate) parameters: Vec<(String, Span, Node)>,
+    /// The number of the part among all of its array, from 1, and their count.
+    pub(crate) index: Option<(usize, usize)>,
+    /// How it is placed in the scope around it, the inmost first.
+    pub(crate) placements: Vec<Placement>,
+    /// Where it is asked for.
+    pub(crate) place: Span,
+}
+
+/// What is known of the names around a scope.
+#[derive(Clone, Debug)]
+pub(crate) enum Outside {
+    /// All of them.
+    All,
+    /// Those that were handed in, under names of the scope's own.
+    Handed(Vec<(String, Node)>),
+}
+
+/// A turn about the origin of a frame, and then a shift.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Placement {
+    /// The part to whose frame it is relative; the scope around it where there is none.
+    pub(crate) part: Option<Node>,
+    /// Place of the origin.
+    pub(crate) position: Option<Node>,
+    /// Rotation vector.
+    pub(crate) rotation: Option<Node>,
+}
+
+impl Scope {
+    /// The scope of the model itself.
+    fn root() -> Self {
+        Self {
+            parent: None,
+            prefix: String::new(),
+            outside: Outside::All,
+            parameters: Vec::new(),
+            index: None,
+            placements: Vec::new(),
+            place: Span::default(),
+        }
+    }
+
+    /// A scope in `parent` with all that is known there.
+    fn within(parent: ScopeId, prefix: &str, place: Span) -> Self {
+        Self { parent: Some(parent), prefix: prefix.to_owned(), place, ..Self::root() }
+    }
+}
+
+/// A model whose parts stand in its tables.
+pub(crate) struct Expanded {
+    pub(crate) root: Table,
+    pub(crate) scopes: Vec<Scope>,
+    /// Parts by name, with the scopes of their contents.
+    pub(crate) instances: BTreeMap<String, ScopeId>,
+    pub(crate) sources: Sources,
+    pub(crate) library: Arc<Library>,
+}
+
+impl Expanded {
+    /// A text without parts.
+    pub(crate) fn plain(root: Table, sources: Sources) -> Self {
+        Self {
+            root,
+            scopes: vec![Scope::root()],
+            instances: BTreeMap::new(),
+            sources,
+            library: Arc::default(),
+        }
+    }
+}
