@@ -8,6 +8,8 @@ use std::sync::Arc;
 
 use lissom_motion::Vector3;
 
+use crate::joints::coupling::Relation;
+
 /// A function of time with exact first and second derivatives.
 pub trait TimeFunction: Send + Sync + fmt::Debug {
     /// Value at `time` [s].
@@ -98,6 +100,10 @@ pub enum ParameterType {
     Force(&'static [&'static str; 2]),
     /// Two ascending numbers, which may be infinite.
     Range,
+    /// A number, an expression of one variable of this name, or a table of it.
+    FunctionOf(&'static str),
+    /// An expression of coordinates of joints and of the time `t`.
+    Equation,
     /// One of the listed words.
     Choice(&'static [&'static str]),
     /// Some of the listed words, each at most once.
@@ -149,6 +155,22 @@ pub const COORDINATE: Parameter = Parameter::optional(
     "Which of the joint's coordinates, counted from 1; default the first that fits.",
 );
 
+/// Which coordinate of the first joint, for kinds that couple two.
+pub const WHICH_COORDINATE: Parameter = Parameter::optional(
+    "coordinate",
+    ParameterType::Positive,
+    "",
+    "Which coordinate of `joint`, counted from 1; may be left out where it has one.",
+);
+
+/// Which coordinate of the other joint, for kinds that couple two.
+pub const OTHER_COORDINATE: Parameter = Parameter::optional(
+    "other_coordinate",
+    ParameterType::Positive,
+    "",
+    "Which coordinate of `other`, counted from 1; may be left out where it has one.",
+);
+
 /// A parameter's value.
 #[derive(Clone, Debug)]
 pub enum Value {
@@ -168,6 +190,8 @@ pub enum Value {
     Force(Force),
     /// Two ascending numbers.
     Range([f64; 2]),
+    /// An equation between coordinates.
+    Relation(Arc<dyn Relation>),
 }
 
 /// The parameters given for one component, by name.
@@ -252,6 +276,17 @@ impl Parameters {
     /// If it is given and no vector.
     pub fn vector_or(&self, name: &str, default: Vector3) -> Result<Vector3, ParameterError> {
         if self.has(name) { self.vector(name) } else { Ok(default) }
+    }
+
+    /// An equation between coordinates that must be there.
+    ///
+    /// # Errors
+    /// If it is missing or something else.
+    pub fn relation(&self, name: &str) -> Result<Arc<dyn Relation>, ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Relation(value)) => Ok(Arc::clone(value)),
+            other => Err(wrong(name, "an expression of coordinates", other)),
+        }
     }
 
     /// A flag, or `default` where it is not given.

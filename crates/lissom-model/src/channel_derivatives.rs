@@ -105,6 +105,11 @@ impl Channel {
                 let multiplier = system.drives()[*index].multiplier;
                 touched.multipliers = multiplier..multiplier + 1;
             }
+            Source::Coupling(index) => {
+                let coupling = &system.couplings()[*index];
+                touched.coordinates.extend(&coupling.coordinates);
+                touched.multipliers = coupling.multiplier..coupling.multiplier + 1;
+            }
             Source::Coordinates(coordinates) => touched.coordinates.extend(coordinates),
             Source::Signal(argument) => {
                 let (nodes, coordinates) = system.signals().touched_by(*argument);

@@ -57,6 +57,7 @@ pub(crate) enum Source {
     Place(Place, Motion),
     Joint(usize),
     Drive(usize),
+    Coupling(usize),
     Coordinates(Vec<CoordinateId>),
     Spring(ElementId, Quantity),
     Energy,
@@ -123,6 +124,10 @@ impl Channel {
             }
             Source::Drive(index) => {
                 out.push(-state.multipliers[system.drives()[*index].multiplier]);
+            }
+            Source::Coupling(index) => {
+                let coupling = &system.couplings()[*index];
+                out.extend(coupling.forces(at, state.multipliers[coupling.multiplier]));
             }
             Source::Coordinates(coordinates) => {
                 for &coordinate in coordinates {
@@ -245,6 +250,9 @@ fn joint_source(
     if let Some(index) = system.joints().iter().position(|joint| joint.name == name.value) {
         return Ok(Source::Joint(index));
     }
+    if let Some(index) = system.couplings().iter().position(|coupling| coupling.name == name.value) {
+        return Ok(Source::Coupling(index));
+    }
     system
         .drives()
         .iter()
@@ -318,6 +326,16 @@ fn components(kind: OutputKind, source: &Source, system: &System) -> (Vec<String
                 Quantity::Angle => words(&["moment"], &["N m"]),
                 Quantity::Length | Quantity::State => words(&["force"], &["N"]),
             }
+        }
+        (OutputKind::Reaction, Source::Coupling(index)) => {
+            let coordinates = &system.couplings()[*index].coordinates;
+            let each = coordinates.iter().enumerate().map(|(k, &coordinate)| {
+                match system.layout().coordinate_quantity(coordinate) {
+                    Quantity::Angle => (format!("moment{}", k + 1), "N m"),
+                    Quantity::Length | Quantity::State => (format!("force{}", k + 1), "N"),
+                }
+            });
+            each.unzip()
         }
         (OutputKind::Reaction, _) => {
             words(&["f1", "f2", "f3", "m1", "m2", "m3"], &["N", "N", "N", "N m", "N m", "N m"])

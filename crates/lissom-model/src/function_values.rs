@@ -54,4 +54,25 @@ impl Context<'_> {
         self.functions.borrow_mut().push((Arc::clone(&function), node.span, what.to_owned()));
         Some(function)
     }
+
+    /// A number, an expression of `variable`, or a table of rows.
+    pub(crate) fn function_of(&self, node: &Node, variable: &'static str, what: &str) -> Option<Function> {
+        if self.parameters_of(node.scope).contains_key(variable) {
+            let message =
+                format!("{what} is a function of `{variable}`, which is the name of a parameter too");
+            return self.fail(node.span, message, "give the parameter another name");
+        }
+        match node.value {
+            Value::Table(_) => Some(Arc::new(self.read_table(node, what, Extrapolation::Linear)?)),
+            Value::List(_) | Value::Flag(_) | Value::Date => {
+                let wanted = format!(
+                    "a number, an expression of {variable}, or {{ table = [[{variable}, value], …] }}"
+                );
+                self.wrong_type(node, what, &wanted)
+            }
+            Value::Number(_) | Value::Text(_) => {
+                Some(of_expression(self.expression(node, Some(variable), what)?))
+            }
+        }
+    }
 }

@@ -36,6 +36,10 @@ pub(crate) enum Shape {
     Direction,
     /// One of the words.
     Choice(Cow<'static, [&'static str]>),
+    /// A number, an expression of this variable, or a table of it.
+    FunctionOf(&'static str),
+    /// An expression of coordinates of joints and of `t`.
+    Equation,
     /// Some of these words, each at most once.
     Choices(&'static [&'static str]),
     /// The name of an entry of a table.
@@ -173,6 +177,8 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
         ParameterType::Range => Shape::Range,
         ParameterType::Choice(words) => choice(words),
         ParameterType::Choices(words) => Shape::Choices(words),
+        ParameterType::FunctionOf(variable) => Shape::FunctionOf(variable),
+        ParameterType::Equation => Shape::Equation,
     };
     let Parameter { name, required, unit, summary, .. } = *parameter;
     Key { name, holds, required, unit, summary }

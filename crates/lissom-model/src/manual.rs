@@ -150,6 +150,10 @@ fn words(shape: &Shape) -> String {
         Shape::PlaceOrNode => "a place or a node",
         Shape::Node => "a node",
         Shape::Function => "a function of time",
+        Shape::FunctionOf(variable) => {
+            return format!("an expression of `{variable}`, or a table of it written as a function of time");
+        }
+        Shape::Equation => "an expression of coordinates of joints, as `arm.angle`, and of `t`",
         Shape::Size => "a size",
         Shape::Formula => "an expression of signals",
         Shape::Signal => "an expression of signals, or `{ value, sample, start }`",

@@ -255,8 +255,16 @@ impl<'c, 'a> Reader<'c, 'a> {
         self.context.size(node, &self.words(key))
     }
 
-    /// The size of a load that is more than a function of time, and its key.
+    /// A function of a variable.
+    fn function_of(&self, key: &str, variable: &'static str) -> Option<Function> {
+        self.context.function_of(self.node(key)?, variable, &self.words(key))
+    }
+
+    /// An equation, or the size of a load that is more than a function of time, and its key.
     pub(crate) fn signal(&self, table: &[Parameter]) -> Option<(&'static str, Located<Formula>)> {
+        if let Some(parameter) = table.iter().find(|parameter| parameter.holds == ParameterType::Equation) {
+            return Some((parameter.name, self.formula(parameter.name)?));
+        }
         let parameter = table.iter().find(|parameter| parameter.holds == ParameterType::Size)?;
         let node = self.node(parameter.name)?;
         match self.context.size_untold(node)? {
@@ -284,6 +292,9 @@ impl<'c, 'a> Reader<'c, 'a> {
                     // The load of size one is multiplied.
                     Size::Signal(_) => Held::Number(1.0),
                 }),
+                ParameterType::FunctionOf(variable) => self.function_of(name, variable).map(Held::Function),
+                // Resolved with the whole model at hand.
+                ParameterType::Equation => None,
                 ParameterType::Choices(_) => self.choices(name).map(Held::Words),
                 ParameterType::Force(names) => self
                     .node(name)

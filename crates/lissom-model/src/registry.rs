@@ -28,6 +28,10 @@ pub enum ActsOn {
     OneNode,
     /// A relative coordinate of `joint`: a rotation or a displacement.
     JointCoordinate(Quantity),
+    /// A relative coordinate of `joint` and one of `other`.
+    TwoJointCoordinates,
+    /// The relative coordinates that an expression names.
+    NamedCoordinates,
 }
 
 /// One kind of joint, spring or load.

@@ -104,7 +104,7 @@ fn of_shape(shape: &Shape) -> Value {
     match shape {
         Shape::Text => json!({ "type": "string" }),
         Shape::Version => json!({ "const": VERSION }),
-        Shape::Number | Shape::Profile | Shape::Formula => plain(),
+        Shape::Number | Shape::Profile | Shape::Formula | Shape::Equation => plain(),
         Shape::Positive => number(&json!({ "exclusiveMinimum": 0 })),
         Shape::NotNegative => number(&json!({ "minimum": 0 })),
         Shape::Between(least, most) => number(&json!({ "minimum": least, "maximum": most })),
@@ -127,7 +127,9 @@ fn of_shape(shape: &Shape) -> Value {
         }
         Shape::Name(_) | Shape::Node => text(),
         Shape::Place | Shape::PlaceOrNode => any_of(&[text(), vector()]),
-        Shape::Function | Shape::Size | Shape::Force(_) => any_of(&[plain(), of_keys(&table_keys())]),
+        Shape::Function | Shape::FunctionOf(_) | Shape::Size | Shape::Force(_) => {
+            any_of(&[plain(), of_keys(&table_keys())])
+        }
         Shape::Signal => any_of(&[plain(), of_keys(&Shape::signal_keys())]),
         Shape::Axes => list(&vector(), 2),
         Shape::Inertia => any_of(&[vector(), matrix(3)]),

@@ -6,10 +6,11 @@
 //!
 //! The share itself is taken as constant.
 
-use nalgebra::SMatrix;
+use nalgebra::{SMatrix, SVector};
 
 use super::coupled::{Coupled, STAGES};
 use crate::joints::attached::{AttachedJoint, Increments, LocalGradient};
+use crate::joints::coupling::{Coupling, MOST_COUPLED};
 use crate::joints::derivatives::{LOCAL, OWN, TIP};
 use crate::joints::passage::Visit;
 use crate::joints::{Equations, MOST_EQUATIONS};
@@ -17,6 +18,9 @@ use crate::scaling::Scaled;
 use crate::schemes::Tableau;
 use crate::system::places::Run;
 use crate::system::{Course, System};
+
+/// One number per coordinate of a coupling.
+type Gradient = SVector<f64, MOST_COUPLED>;
 
 impl Coupled {
     /// Adds the rows and columns of all constraints.
@@ -43,6 +47,58 @@ impl Coupled {
                 self.add(positions[0], stage, stage, scaled.augmented_factor() * weight);
                 self.add(positions[1], stage, stage, scaled.scale());
                 self.add(positions[2], stage, stage, scaled.scale());
+            }
+        }
+        for coupling in system.couplings() {
+            self.add_coupling(system, coupling, (course, tableau), scaled);
+        }
+    }
+
+    /// As for joints: see the formula above.
+    fn add_coupling(
+        &mut self,
+        system: &System,
+        coupling: &Coupling,
+        (course, tableau): (&Course<'_>, &Tableau),
+        scaled: &Scaled,
+    ) {
+        let (passage, count) = (&course.passage, coupling.count());
+        let visits = system.coupling_visits(coupling, course);
+        let row = system.layout().coordinate_count() + coupling.multiplier;
+        let weight =
+            scaled.augmented_factor() * course.augmentation.relative(system.layout().quantities()[row]);
+        let transports = self.transports.last().expect("one for coordinates");
+        let shares: [[f64; STAGES]; STAGES] =
+            transports.each_ref().map(|own| own.rate.map(|rate| rate[(0, 0)]));
+        // N_jk.
+        let rates: [[Gradient; STAGES]; STAGES] = std::array::from_fn(|j| {
+            let at = passage.stages[j];
+            let gradient = Gradient::from(coupling.gradient(at));
+            let bending = Gradient::from(coupling.second(at, (1.0, &coupling.rates(at))));
+            std::array::from_fn(|k| {
+                let own = if j == k { bending } else { Gradient::zeros() };
+                gradient * shares[j][k] + own
+            })
+        });
+        let end = Gradient::from(coupling.gradient(passage.end));
+        for stage in 0..STAGES {
+            let [first, second] = passage.durations[stage];
+            let share = first * visits[0].share + second * visits[1].share;
+            for other in 0..STAGES {
+                let by_rates = [rates[0][other], rates[1][other]];
+                let missed = end * tableau.reached[other] - passage.whole(by_rates);
+                let derivative = by_rates[0] * first + by_rates[1] * second + missed * share;
+                let rows = &visits[stage].rows;
+                for (entry, &position) in coupling.positions.iter().enumerate() {
+                    let (i, j) = (entry % (count + 1), entry / (count + 1));
+                    let value = match (i < count, j < count) {
+                        (true, true) => weight * rows[i] * derivative[j],
+                        (false, true) => scaled.scale() * derivative[j],
+                        (true, false) if other == stage => scaled.scale() * rows[i],
+                        _ => continue,
+                    };
+                    self.add(position, stage, other, value);
+                }
             }
         }
     }

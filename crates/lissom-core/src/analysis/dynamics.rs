@@ -550,7 +550,8 @@ impl Projection {
         self.initial.velocities(system, state)?;
         let after = system.energy(&state.kinematics).kinetic;
         let wanted = after + (1.0 - self.tableau.dissipation) * (before - after);
-        if system.drives().is_empty() && after > 0.0 && wanted > after {
+        let is_driven = !system.drives().is_empty() || system.has_timed_coupling(&state.kinematics);
+        if !is_driven && after > 0.0 && wanted > after {
             let factor = (wanted / after).sqrt();
             for node in &mut state.kinematics.nodes {
                 node.twist *= factor;

@@ -7,11 +7,15 @@
 pub mod attached;
 pub mod base_axes;
 pub mod blocks;
+pub mod cam;
 pub mod clamp;
 pub mod constant_velocity;
+pub mod coupling;
 pub mod cylindrical;
 pub mod derivatives;
 pub mod distance;
+pub mod equation;
+pub mod gear;
 pub mod generic;
 pub mod inline;
 pub mod moved;
@@ -33,11 +37,14 @@ pub mod spherical;
 pub mod swing_arm;
 pub mod universal;
 
+use std::sync::Arc;
+
 use lissom_motion::{Matrix3, Motion, Real, Rotation, Screw, Vector3, Vector6};
 use nalgebra::{SMatrix, SVector};
 
 use attached::AttachedJoint;
 use blocks::Batches;
+use coupling::Relation;
 use moved::{Moved, OwnMoved};
 
 use crate::registry::{Function, Parameter, ParameterError, Parameters};
@@ -312,6 +319,18 @@ pub struct Geometry {
 /// Makes the equations of a joint.
 pub type MakeJoint = fn(&Parameters, &Geometry) -> Result<Box<dyn AnyJoint>, ParameterError>;
 
+/// Makes a relation between coordinates; they have these values at the start [rad, m].
+pub type MakeRelation = fn(&Parameters, &[f64]) -> Result<Arc<dyn Relation>, ParameterError>;
+
+/// Which coordinates a relation is between.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Coupled {
+    /// One of a joint, and one of another joint.
+    Two,
+    /// Those that its expression names.
+    Named,
+}
+
 /// How a joint is made.
 #[derive(Clone, Copy, Debug)]
 pub enum Build {
@@ -319,6 +338,8 @@ pub enum Build {
     Relative(Frames, MakeJoint),
     /// Prescribes an algebraic coordinate of another joint, of this quantity, as a function of time.
     Coordinate(Quantity, fn(&Parameters) -> Result<Function, ParameterError>),
+    /// Relates algebraic coordinates of other joints.
+    Coupling(Coupled, MakeRelation),
 }
 
 /// A kind of joint, as the model file and the tests know it.
@@ -338,10 +359,13 @@ pub struct JointKind {
 
 /// All kinds of joints, one line each.
 pub static KINDS: &[JointKind] = &[
+    cam::KIND,
     clamp::KIND,
     constant_velocity::KIND,
     cylindrical::KIND,
     distance::KIND,
+    equation::KIND,
+    gear::KIND,
     generic::KIND,
     inline::KIND,
     parallel_axes::KIND,

@@ -15,7 +15,7 @@ use super::{Equations, MOST_EQUATIONS, Quantity};
 use crate::elements::passage::{Passage, STAGES, above_round_off, weigh};
 
 /// Round-off of a change of violation, in units of what its terms cancel from.
-const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
+pub(crate) const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 
 /// Velocities and violations of a joint at a stage.
 pub(crate) struct Visit {

@@ -152,6 +152,7 @@ impl System {
             });
         }
         self.add_drives(point, out);
+        self.add_couplings(point, out);
     }
 
     /// The same on several threads, to the last bit.
@@ -179,6 +180,7 @@ impl System {
             }
         }
         self.add_drives(point, out);
+        self.add_couplings(point, out);
     }
 
     /// Rows of a joint's local unknowns and equations.
@@ -223,6 +225,7 @@ impl System {
         for drive in &self.drives {
             out[drive.multiplier] = drive_violation(drive, point);
         }
+        self.coupling_violations(point, out);
     }
 
     /// Linearisation at `point` with respect to the unknowns of `chart`.
@@ -264,6 +267,7 @@ impl System {
         for drive in &self.drives {
             out.add_drive(drive.positions, self.relative_weight(point, drive.multiplier));
         }
+        self.linearize_couplings(point, out);
     }
 
     /// Ḃ v + ∂²c/∂t² by multiplier: what the constraints' second time derivative holds besides B v̇.
@@ -285,6 +289,9 @@ impl System {
         for drive in &self.drives {
             out[drive.multiplier] = -drive.prescribed.value.second_derivative(at.time);
         }
+        for coupling in &self.couplings {
+            out[coupling.multiplier] = coupling.acceleration(at);
+        }
     }
 
     /// ∂c/∂t by multiplier.
@@ -292,6 +299,9 @@ impl System {
         out.fill(0.0);
         for drive in &self.drives {
             out[drive.multiplier] = -drive.prescribed.value.first_derivative(at.time);
+        }
+        for coupling in &self.couplings {
+            out[coupling.multiplier] = coupling.by_time(at);
         }
     }
 }

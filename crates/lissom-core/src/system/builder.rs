@@ -1,11 +1,14 @@
 //! Puts a system together: nodes, elements, joints; then numbers the unknowns and checks what can be
 //! checked without solving.
 
+mod coupling;
+
 use std::sync::Arc;
 
 use lissom_motion::{Matrix6, Motion, Rotation, Vector3, Vector6};
 use lissom_solver::{Group, Pattern, Structure};
 
+use self::coupling::rows_of_coupling;
 use super::batch::{AnyBatch, Batch};
 use super::feedback::{Feedback, Target};
 use super::layout::{Freedoms, LOCKED, Layout};
@@ -16,6 +19,7 @@ use crate::elements::Element;
 use crate::elements::inertia::{Gravity, Inertia};
 use crate::joints::attached::{AttachedJoint, CarriedFrame};
 use crate::joints::blocks::Batches;
+use crate::joints::coupling::Coupling;
 use crate::joints::derivatives::{LOCAL, OWN, TIP};
 use crate::joints::prescribed::Prescribed;
 use crate::joints::{Build, Frames, Geometry, JointKind, Quantity};
@@ -74,6 +78,7 @@ pub struct Builder {
     batches: Vec<Box<dyn AnyBatch>>,
     joints: Vec<AttachedJoint>,
     drives: Vec<Drive>,
+    couplings: Vec<Coupling>,
     multipliers: Vec<(String, &'static str)>,
     multiplier_quantities: Vec<Quantity>,
     gravity: Gravity,
@@ -107,6 +112,7 @@ impl Builder {
             batches: Vec::new(),
             joints: Vec::new(),
             drives: Vec::new(),
+            couplings: Vec::new(),
             multipliers: Vec::new(),
             multiplier_quantities: Vec::new(),
             gravity: Gravity::constant(Vector3::zeros()),
@@ -398,6 +404,7 @@ impl Builder {
             .chain(
                 self.drives.iter().map(of_drive).map(|(coordinate, multiplier)| vec![coordinate, multiplier]),
             )
+            .chain(self.couplings.iter().map(|coupling| rows_of_coupling(coupling, &layout)))
             .collect();
         let pattern = Arc::new(Pattern::from_cliques(layout.size(), cliques.iter().map(Vec::as_slice)));
         for batch in &mut self.batches {
@@ -413,6 +420,11 @@ impl Builder {
             let (coordinate, multiplier) = of_drive(drive);
             drive.positions = [(coordinate, coordinate), (coordinate, multiplier), (multiplier, coordinate)]
                 .map(|(row, column)| position_of(&pattern, row, column));
+        }
+        for coupling in &mut self.couplings {
+            let rows = rows_of_coupling(coupling, &layout);
+            let entries = rows.iter().flat_map(|&column| rows.iter().map(move |&row| (row, column)));
+            coupling.positions = entries.map(|(row, column)| position_of(&pattern, row, column)).collect();
         }
         let structure = Structure::new(pattern, self.groups(&layout))
             .map_err(|error| BuildError::Structure(error.to_string()))?;
@@ -430,6 +442,7 @@ impl Builder {
             joint_batches: Batches::new(&self.joints),
             joints: self.joints,
             drives: self.drives,
+            couplings: self.couplings,
             structure,
             joint_places,
             joint_starts,
@@ -506,6 +519,10 @@ impl Builder {
                 unknowns: vec![multipliers + drive.multiplier],
                 hosts: vec![first_coordinate + drive.prescribed.coordinate],
             });
+        }
+        for coupling in &self.couplings {
+            let hosts = coupling.coordinates.iter().map(|&coordinate| first_coordinate + coordinate);
+            groups.push(Group { unknowns: vec![multipliers + coupling.multiplier], hosts: hosts.collect() });
         }
         groups
     }

@@ -3,6 +3,7 @@
 mod assembly;
 mod batch;
 mod builder;
+mod couplings;
 mod feedback;
 mod layout;
 mod passage;
@@ -30,6 +31,7 @@ use crate::elements::Energy;
 use crate::elements::inertia::Inertia;
 use crate::joints::attached::AttachedJoint;
 use crate::joints::blocks::{Batches, JointStarts};
+use crate::joints::coupling::Coupling;
 use crate::joints::prescribed::Prescribed;
 use crate::signals::Graph;
 use batch::AnyBatch;
@@ -67,6 +69,7 @@ pub struct System {
     pub(crate) joints: Vec<AttachedJoint>,
     pub(crate) joint_batches: Batches,
     pub(crate) drives: Vec<Drive>,
+    pub(crate) couplings: Vec<Coupling>,
     pub(crate) structure: Structure,
     /// Where every joint's local matrix lies in the pattern.
     pub(crate) joint_places: Places,
@@ -170,7 +173,7 @@ impl System {
             let forces = [from.1, to.1].map(|multipliers| -multipliers[drive.multiplier]);
             batch::along(forces, end.value - start.value, [start.rate, end.rate], to.0.time - from.0.time)
         };
-        self.drives.iter().map(of_drive).sum()
+        self.drives.iter().map(of_drive).sum::<f64>() + self.work_of_couplings(from, to)
     }
 
     /// Times at which loads and prescribed motions are known not to be smooth [s], in ascending order.
@@ -220,6 +223,9 @@ impl System {
         for drive in &self.drives {
             let value = at.coordinates[drive.prescribed.coordinate].value;
             out[drive.multiplier] = drive.prescribed.violation(value, at.time);
+        }
+        for coupling in &self.couplings {
+            out[coupling.multiplier] = coupling.violation(at);
         }
     }
 }

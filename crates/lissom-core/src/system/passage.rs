@@ -91,6 +91,7 @@ impl System {
                 out[stage][rows[0]] += course.multipliers[stage][drive.multiplier] + weight * violation;
             }
         }
+        self.add_coupling_course(course, out);
     }
 }
 

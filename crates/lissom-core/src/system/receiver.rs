@@ -98,6 +98,19 @@ impl Receiver<'_> {
         }
     }
 
+    /// Adds stiffness, BᵀWB and constraint at one position.
+    pub(super) fn add_constraint_entry(&mut self, position: usize, [place, augmented, constraint]: [f64; 3]) {
+        match self {
+            Self::Apart(out) => {
+                out.stiffness[position] += place;
+                out.gram[position] += augmented;
+                out.constraint[position] += constraint;
+            }
+            Self::Real(sum) => sum.add_constraint_entry(position, [place, augmented, constraint]),
+            Self::Complex(sum) => sum.add_constraint_entry(position, [place, augmented, constraint]),
+        }
+    }
+
     /// Adds a drive's derivatives: `weight` to BᵀWB, 1 to B and Bᵀ, at these positions.
     pub(super) fn add_drive(&mut self, [gram, column, row]: [usize; 3], weight: f64) {
         match self {
@@ -145,6 +158,11 @@ impl<T: Scalar> Sum<'_, T> {
                 *sum += joint.stiffness(i);
             }
         }
+    }
+
+    fn add_constraint_entry(&mut self, position: usize, [place, augmented, constraint]: [f64; 3]) {
+        let Blend { place: p, augmented: a, constraint: c, .. } = self.blend;
+        self.values[position] += T::from_real(p * place + a * augmented + c * constraint);
     }
 
     fn add_drive(&mut self, [gram, column, row]: [usize; 3], weight: f64) {

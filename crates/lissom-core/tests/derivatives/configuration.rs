@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use lissom_core::joints::attached::Increments;
+use lissom_core::joints::coupling::{Relation, RelationPoint};
 use lissom_core::registry::{
     Constant, ForceFunction, Parameter, ParameterType, Parameters, TimeFunction, Value,
 };
@@ -65,6 +66,21 @@ impl ForceFunction for Waves {
     }
 }
 
+/// sin(q₀) q₁ + t q₀ + t² + q₁.
+#[derive(Debug)]
+pub(crate) struct Bent;
+
+impl Relation for Bent {
+    fn jet(&self, (time, q): RelationPoint<'_>, (of_time, v): RelationPoint<'_>) -> [f64; 3] {
+        let (sine, cosine) = q[0].sin_cos();
+        [
+            sine * q[1] + time * q[0] + time * time + q[1],
+            cosine * v[0] * q[1] + sine * v[1] + of_time * q[0] + time * v[0] + 2.0 * time * of_time + v[1],
+            -sine * v[0] * v[0] * q[1] + 2.0 * (cosine * v[0] * v[1] + of_time * v[0] + of_time * of_time),
+        ]
+    }
+}
+
 /// A value for every parameter of a kind, but free play, which would leave most configurations without force.
 pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &mut Random) -> Parameters {
     let mut result = Parameters::new();
@@ -83,6 +99,8 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
             // Differences do not see kinks; tests of their own do.
             ParameterType::Range => Value::Range([-1e3, 1e3]),
             ParameterType::Choice(words) => Value::Text(words[0].to_owned()),
+            ParameterType::FunctionOf(_) => Value::Function(Arc::new(Wave)),
+            ParameterType::Equation => Value::Relation(Arc::new(Bent)),
             ParameterType::Choices(words) => {
                 let chosen = words.iter().filter(|_| random.number() > 0.0);
                 let mut chosen: Vec<String> = chosen.map(|&word| word.to_owned()).collect();

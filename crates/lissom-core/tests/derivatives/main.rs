@@ -10,6 +10,7 @@ use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
 use lissom_core::joints::derivatives::IncrementTangent;
 use lissom_core::joints::{self, Build, JointKind, Quantity};
+use lissom_core::registry::Parameters;
 use lissom_core::system::{
     Blend, Builder, Chart, Freedoms, Linearization, Placement, Receiver, Scratch, State, Sum, System,
 };
@@ -218,6 +219,14 @@ fn all_joints() {
                         )
                         .expect("valid");
                     builder.add_drive("drive", kind, coordinates[0], &parameters).expect("valid");
+                }
+                Build::Coupling(..) => {
+                    let cylindrical =
+                        joints::KINDS.iter().find(|kind| kind.name == "cylindrical").expect("there");
+                    let none = Parameters::new();
+                    let coordinates =
+                        builder.add_joint("joint", cylindrical, &placement, &none).expect("valid");
+                    builder.add_coupling("relation", kind, &coordinates, &parameters).expect("valid");
                 }
             }
             let (system, state) = builder.build(0.0).expect("valid");

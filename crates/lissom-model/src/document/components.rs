@@ -73,6 +73,11 @@ fn attachment(
             Some(Attachment::OneNode { at: at("at", &on)?, on })
         }
         ActsOn::JointCoordinate(_) => joint_coordinate(reader, name, registry),
+        ActsOn::TwoJointCoordinates => {
+            let (joint, other) = (reader.name_in("joint"), reader.name_in("other"));
+            Some(Attachment::JointCoordinates { joint: joint?, other: other? })
+        }
+        ActsOn::NamedCoordinates => Some(Attachment::NamedCoordinates),
     }
 }
 

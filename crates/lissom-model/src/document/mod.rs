@@ -317,6 +317,15 @@ pub enum Attachment {
         /// Name of the joint.
         joint: Located<String>,
     },
+    /// Relative coordinates of two joints, or two of one.
+    JointCoordinates {
+        /// Name of the first joint.
+        joint: Located<String>,
+        /// Name of the other joint.
+        other: Located<String>,
+    },
+    /// The relative coordinates that its expression names.
+    NamedCoordinates,
 }
 
 /// A joint, spring or load of a registered kind.

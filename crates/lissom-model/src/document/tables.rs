@@ -362,6 +362,13 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
             };
             vec![required("joint", Shape::Name("joints"), "", words)]
         }
+        ActsOn::NamedCoordinates => Vec::new(),
+        ActsOn::TwoJointCoordinates => {
+            vec![
+                required("joint", Shape::Name("joints"), "", "the joint whose coordinate leads"),
+                required("other", Shape::Name("joints"), "", "the joint whose coordinate follows"),
+            ]
+        }
     }
 }
 

@@ -76,6 +76,16 @@ impl Formula {
     }
 }
 
+impl Formula {
+    /// Value, and first and second derivative along a direction: `time` and `argument` give values and the direction's
+    /// components.
+    pub fn jet(&self, time: (f64, f64), argument: impl Fn(usize) -> (f64, f64)) -> [f64; 3] {
+        let along = |(value, first): (f64, f64)| Jet { value, first, second: 0.0 };
+        let Jet { value, first, second } = run(&self.steps, along(time), |index| along(argument(index)));
+        [value, first, second]
+    }
+}
+
 impl SignalFunction for Formula {
     fn value(&self, time: f64, arguments: &[f64]) -> f64 {
         run(&self.steps, Jet::constant(time), |index| Jet::constant(arguments[index])).value

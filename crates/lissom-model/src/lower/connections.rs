@@ -13,21 +13,26 @@ use crate::document::{Attachment, Component, Document};
 use crate::functions::Ramp;
 use crate::report::{Located, Problem};
 
-/// Adds all connections: joints between nodes first, then drives of their coordinates.
+/// Adds all connections: joints between nodes first, then drives of their coordinates, then relations between them.
 pub(super) fn add(
     document: &Document,
     builder: &mut Builder,
     names: &mut Names,
     problems: &mut Vec<Problem>,
 ) {
-    for drives in [false, true] {
+    for order in 0..3 {
         for component in &document.joints {
             let Some(kind) = joints::KINDS.iter().find(|kind| kind.name == component.kind.value) else {
                 problems.push(unknown_kind(component));
                 continue;
             };
-            if matches!(kind.build, Build::Coordinate(..)) == drives
-                && let Err(problem) = joint(component, kind, builder, names)
+            let own = match kind.build {
+                Build::Relative(..) => 0,
+                Build::Coordinate(..) => 1,
+                Build::Coupling(..) => 2,
+            };
+            if own == order
+                && let Err(problem) = joint(document, (component, kind), builder, names)
             {
                 problems.push(problem);
             }
@@ -59,8 +64,8 @@ fn unknown_kind(component: &Component) -> Problem {
 }
 
 fn joint(
-    component: &Component,
-    kind: &JointKind,
+    document: &Document,
+    (component, kind): (&Component, &JointKind),
     builder: &mut Builder,
     names: &mut Names,
 ) -> Result<(), Problem> {
@@ -70,7 +75,7 @@ fn joint(
         Attachment::JointCoordinate { joint } => {
             let wanted = match kind.build {
                 Build::Coordinate(wanted, _) => wanted,
-                Build::Relative(..) => Quantity::Angle,
+                Build::Relative(..) | Build::Coupling(..) => Quantity::Angle,
             };
             let coordinate = coordinate(component, joint, wanted, builder, names)?;
             builder.add_drive(name, kind, coordinate, &component.parameters).map_err(fault)?;
@@ -93,6 +98,9 @@ fn joint(
         },
         Attachment::OneNode { on, .. } => {
             return Err(Problem::error(on.span, format!("joint `{name}` needs two nodes")));
+        }
+        Attachment::JointCoordinates { .. } | Attachment::NamedCoordinates => {
+            return super::couplings::add(document, (component, kind), builder, names);
         }
     };
     if placement.nodes[0] == placement.nodes[1] {
@@ -160,6 +168,16 @@ fn element(
         Attachment::TwoNodes { base, tip, at, .. } => {
             let nodes = [names.node(base)?, names.node(tip)?];
             Attached::TwoNodes(nodes, nodes.map(|node| local(builder, node, at)))
+        }
+        Attachment::JointCoordinates { joint: on, .. } => {
+            return Err(Problem::error(
+                on.span,
+                format!("`{}` acts on one coordinate", component.name.value),
+            ));
+        }
+        Attachment::NamedCoordinates => {
+            let message = format!("`{}` acts on nothing", component.name.value);
+            return Err(Problem::error(component.name.span, message));
         }
         Attachment::JointCoordinate { joint } => {
             let wanted = match kind.attachment {

@@ -4,6 +4,7 @@
 mod analysis;
 mod beginning;
 mod connections;
+mod couplings;
 mod measurements;
 mod parts;
 pub mod registry;
@@ -126,6 +127,7 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
         .map_err(|error| document.report(vec![Problem::error(document.analysis.span, error.to_string())]));
     let (system, state) = built?;
     let warnings = beginning::drives(document, &system, &state, &mut problems);
+    couplings::check(document, &system, &state, &mut problems);
     let channels = channels::of(document, &system, &state, &names.resolver(), &mut problems);
     stop_at(document, &mut problems)?;
     Ok(Lowered { system, state, settings, plan, channels, names, warnings })

@@ -1,7 +1,7 @@
 //! The core's tables of joints, springs, loads, schemes and solvers, in the words of the model file.
 
 use lissom_core::elements::{Attachment, ElementKind, LOADS, SPRINGS};
-use lissom_core::joints::{self, Build, Frames, JointKind};
+use lissom_core::joints::{self, Build, Coupled, Frames, JointKind};
 use lissom_core::registry::{Parameter, ParameterType};
 use lissom_core::schemes;
 
@@ -57,6 +57,8 @@ fn joint(kind: &JointKind) -> KindEntry {
         Build::Relative(Frames::GivenOrGlobalAxes, _) => ActsOn::TwoNodes(FrameRule::GivenOrGlobal),
         Build::Relative(Frames::Span, _) => ActsOn::TwoPlaces,
         Build::Coordinate(quantity, _) => ActsOn::JointCoordinate(quantity),
+        Build::Coupling(Coupled::Two, _) => ActsOn::TwoJointCoordinates,
+        Build::Coupling(Coupled::Named, _) => ActsOn::NamedCoordinates,
     };
     KindEntry {
         name: kind.name,

@@ -114,6 +114,8 @@ fn holds(holds: ParameterType) -> String {
         }
         ParameterType::Range => "two ascending numbers".to_owned(),
         ParameterType::Choice(words) => words.join(" | "),
+        ParameterType::FunctionOf(variable) => format!("number, expression of {variable} or table"),
+        ParameterType::Equation => "expression of coordinates, as arm.angle, and of t".to_owned(),
         ParameterType::Choices(words) => format!("list of {}", words.join(", ")),
     }
 }
@@ -133,6 +135,10 @@ fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
         }
         ActsOn::TwoPlaces => ("base, tip, at_base, at_tip (default: the nodes' places)", PLACES),
         ActsOn::OneNode => ("on, at (default: the node's place)", "on = \"my_body\""),
+        ActsOn::TwoJointCoordinates => {
+            ("joint, other: those whose coordinates it relates", "joint = \"my_hinge\"\nother = \"my_slide\"")
+        }
+        ActsOn::NamedCoordinates => ("the coordinates that its expression names", ""),
         ActsOn::JointCoordinate(Quantity::Angle) => {
             ("joint, the one whose relative rotation it acts on", "joint = \"my_hinge\"")
         }

@@ -1,0 +1,54 @@
+//! Cam: a coordinate of one joint is a function of that of another, c = q₂ - f(q₁).
+
+use std::sync::Arc;
+
+use super::coupling::{Relation, RelationPoint};
+use super::{Build, Coupled, JointKind};
+use crate::registry::{
+    Function, OTHER_COORDINATE, Parameter, ParameterError, ParameterType, WHICH_COORDINATE,
+};
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "cam",
+    summary: "A coordinate of `other`, the follower, is a function of that of `joint`: a cam, or any curve.",
+    sample: "profile = \"0.02*(1 - cos(x))\"",
+    parameters: &[
+        Parameter::required(
+            "profile",
+            ParameterType::FunctionOf("x"),
+            "m or rad",
+            "The other coordinate as a function of the first, `x`.",
+        ),
+        WHICH_COORDINATE,
+        OTHER_COORDINATE,
+    ],
+    build: Build::Coupling(Coupled::Two, |parameters, _| {
+        let profile = parameters.function("profile")?;
+        if let Some(kink) = profile.kinks().first() {
+            let problem = format!(
+                "has a kink at x = {kink}: the follower would jump in speed there; give a table `interpolation = \
+                 \"spline\"`, or another function"
+            );
+            return Err(ParameterError::new("profile", problem));
+        }
+        Ok(Arc::new(Cam { profile }))
+    }),
+};
+
+/// A follower on a profile.
+#[derive(Clone, Debug)]
+struct Cam {
+    profile: Function,
+}
+
+impl Relation for Cam {
+    fn jet(&self, (_, q): RelationPoint<'_>, (_, v): RelationPoint<'_>) -> [f64; 3] {
+        let slope = self.profile.first_derivative(q[0]);
+        [
+            q[1] - self.profile.value(q[0]),
+            v[1] - slope * v[0],
+            -self.profile.second_derivative(q[0]) * v[0] * v[0],
+        ]
+    }
+}

@@ -1,0 +1,248 @@
+//! A relation between coordinates of joints, c(q, t) = 0: gears, cams, equations. The forces on the coordinates are
+//! -μ ∂c/∂q; they do no work together where c does not depend on time.
+//!
+//! ```text
+//! ċ = ∂c/∂q q̇ + ∂c/∂t,      c̈ = ∂c/∂q q̈ + d²c/dε² (q + ε q̇, t + ε)
+//! ```
+//!
+//! Derivatives come from second-order jets along directions: d²c/dε² along u + v, u and v gives the mixed one of u and v.
+
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use crate::system::{CoordinateId, Kinematics};
+
+/// Most coordinates that one relation may name.
+pub const MOST_COUPLED: usize = 16;
+
+/// One number per coordinate; those that are not there stay zero.
+pub type Coupled = [f64; MOST_COUPLED];
+
+/// An instant: time [s] and coordinates [rad, m]; or a direction in both.
+pub type RelationPoint<'a> = (f64, &'a [f64]);
+
+/// An equation between coordinates and time.
+pub trait Relation: Send + Sync + Debug {
+    /// Value, and first and second derivative along a direction.
+    fn jet(&self, at: RelationPoint<'_>, direction: RelationPoint<'_>) -> [f64; 3];
+
+    /// Change from one instant to another without cancellation, `elapsed` [s] and `change` later. Default: the
+    /// difference of the values, or over short ways, where that is round-off, the integral of the derivative.
+    fn change(&self, from: RelationPoint<'_>, elapsed: f64, change: &[f64]) -> f64 {
+        const OFFSET: f64 = 0.774_596_669_241_483_4;
+        let (time, start) = from;
+        let at = |share: f64| {
+            let mut there = Coupled::default();
+            for (k, (start, change)) in start.iter().zip(change).enumerate() {
+                there[k] = start + share * change;
+            }
+            self.jet((time + share * elapsed, &there[..start.len()]), (elapsed, change))
+        };
+        let slope = |x: f64| at(0.5 + 0.5 * x)[1];
+        // Three Gauss points.
+        let integral = (5.0 * (slope(-OFFSET) + slope(OFFSET)) + 8.0 * slope(0.0)) / 18.0;
+        let ([before, ..], [after, ..]) = (at(0.0), at(1.0));
+        let difference = after - before;
+        // What values round, and what they do because their arguments are rounded.
+        let by_arguments: f64 = (0..start.len())
+            .map(|k| {
+                let mut unit = Coupled::default();
+                unit[k] = start[k];
+                self.jet(from, (0.0, &unit[..start.len()]))[1].abs()
+            })
+            .sum();
+        let by_time = self.jet(from, (time, &Coupled::default()[..start.len()]))[1].abs();
+        let rounding = 4.0 * f64::EPSILON * (before.abs() + after.abs() + by_arguments + by_time);
+        if (integral - difference).abs() <= rounding { integral } else { difference }
+    }
+}
+
+/// A relation with its place in the system.
+#[derive(Debug)]
+pub struct Coupling {
+    /// Name in the model.
+    pub name: String,
+    /// Its coordinates.
+    pub coordinates: Vec<CoordinateId>,
+    /// Its multiplier among all.
+    pub multiplier: usize,
+    pub(crate) relation: Arc<dyn Relation>,
+    /// The equation is multiplied by this, so that its largest derivative at the start is 1.
+    pub(crate) scale: f64,
+    /// In the tangent's pattern: the square matrix of its coordinates and its multiplier, column by column.
+    pub(crate) positions: Vec<usize>,
+}
+
+impl Coupling {
+    /// Number of coordinates.
+    pub fn count(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    fn values(&self, at: &Kinematics) -> Coupled {
+        self.each(|coordinate| at.coordinates[coordinate].value)
+    }
+
+    /// Rates of its coordinates.
+    pub(crate) fn rates(&self, at: &Kinematics) -> Coupled {
+        self.each(|coordinate| at.coordinates[coordinate].rate)
+    }
+
+    /// Numbers of its coordinates.
+    pub(crate) fn each(&self, of: impl Fn(CoordinateId) -> f64) -> Coupled {
+        let mut out = Coupled::default();
+        for (value, &coordinate) in out.iter_mut().zip(&self.coordinates) {
+            *value = of(coordinate);
+        }
+        out
+    }
+
+    fn jet(&self, at: &Kinematics, (time, direction): (f64, &Coupled)) -> [f64; 3] {
+        let count = self.count();
+        let values = self.values(at);
+        self.relation
+            .jet((at.time, &values[..count]), (time, &direction[..count]))
+            .map(|value| self.scale * value)
+    }
+
+    /// Violation, evaluated outright.
+    pub fn violation(&self, at: &Kinematics) -> f64 {
+        self.jet(at, (0.0, &Coupled::default()))[0]
+    }
+
+    /// Change of the violation since `start`: `changes` of all coordinates over the time `elapsed` [s] that ends at `time`.
+    pub fn violation_change(&self, start: &Kinematics, changes: &[f64], (time, elapsed): (f64, f64)) -> f64 {
+        let count = self.count();
+        let (values, changes) = (self.values(start), self.each(|coordinate| changes[coordinate]));
+        self.scale * self.relation.change((time - elapsed, &values[..count]), elapsed, &changes[..count])
+    }
+
+    /// ∂c/∂q.
+    pub fn gradient(&self, at: &Kinematics) -> Coupled {
+        self.by_coordinate(|unit| self.jet(at, (0.0, unit))[1])
+    }
+
+    /// ∂c/∂t.
+    pub(crate) fn by_time(&self, at: &Kinematics) -> f64 {
+        self.jet(at, (1.0, &Coupled::default()))[1]
+    }
+
+    /// What c̈ holds besides ∂c/∂q q̈.
+    pub(crate) fn acceleration(&self, at: &Kinematics) -> f64 {
+        self.jet(at, (1.0, &self.rates(at)))[2]
+    }
+
+    /// ∂²c/∂q² times `direction` and `time` times ∂²c/∂q∂t.
+    pub(crate) fn second(&self, at: &Kinematics, (time, direction): (f64, &Coupled)) -> Coupled {
+        let own = self.jet(at, (time, direction))[2];
+        self.by_coordinate(|unit| {
+            let mut both = *direction;
+            both.iter_mut().zip(unit).for_each(|(value, unit)| *value += unit);
+            0.5 * (self.jet(at, (time, &both))[2] - own - self.jet(at, (0.0, unit))[2])
+        })
+    }
+
+    /// Unit vector by unit vector.
+    fn by_coordinate(&self, of: impl Fn(&Coupled) -> f64) -> Coupled {
+        let mut out = Coupled::default();
+        for (k, value) in out.iter_mut().enumerate().take(self.count()) {
+            let mut unit = Coupled::default();
+            unit[k] = 1.0;
+            *value = of(&unit);
+        }
+        out
+    }
+
+    /// ∂²c/∂q² as columns.
+    pub(crate) fn hessian(&self, at: &Kinematics) -> [Coupled; MOST_COUPLED] {
+        let mut out = [Coupled::default(); MOST_COUPLED];
+        for (k, column) in out.iter_mut().enumerate().take(self.count()) {
+            let mut unit = Coupled::default();
+            unit[k] = 1.0;
+            *column = self.second(at, (0.0, &unit));
+        }
+        out
+    }
+
+    /// Forces on its coordinates for the multiplier `mu` [N, N m].
+    pub fn forces(&self, at: &Kinematics, mu: f64) -> impl Iterator<Item = f64> {
+        self.gradient(at).into_iter().take(self.count()).map(move |by| -mu * by)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// sin(q₀) q₁ + t q₀.
+    #[derive(Debug)]
+    struct Bent;
+
+    impl Relation for Bent {
+        fn jet(&self, (time, q): RelationPoint<'_>, (of_time, v): RelationPoint<'_>) -> [f64; 3] {
+            let (sine, cosine) = q[0].sin_cos();
+            [
+                sine * q[1] + time * q[0],
+                cosine * v[0] * q[1] + sine * v[1] + of_time * q[0] + time * v[0],
+                -sine * v[0] * v[0] * q[1] + 2.0 * cosine * v[0] * v[1] + 2.0 * of_time * v[0],
+            ]
+        }
+    }
+
+    #[test]
+    fn short_changes_keep_their_digits_and_long_ones_are_exact() {
+        let value = |time: f64, q: [f64; 2]| Bent.jet((time, &q), (0.0, &[0.0; 2]))[0];
+        let (time, q) = (0.7, [0.4, 1.3]);
+        for exponent in 0..10 {
+            let width = 10.0_f64.powi(-exponent);
+            let change = [0.3 * width, -0.2 * width];
+            let found = Bent.change((time, &q), width, &change);
+            if exponent < 3 {
+                let wanted = value(time + width, [q[0] + change[0], q[1] + change[1]]) - value(time, q);
+                assert!((found - wanted).abs() < 1e-14, "{exponent}");
+            } else {
+                // To second order; the third is below round-off of the first for the shortest.
+                let [_, first, second] = Bent.jet((time, &q), (width, &change));
+                let wanted = first + 0.5 * second;
+                assert!((found - wanted).abs() < width.powi(3) + 4e-16 * wanted.abs(), "{exponent}");
+            }
+        }
+    }
+
+    #[test]
+    fn derivatives_of_jets() {
+        let coupling = Coupling {
+            name: "bent".to_owned(),
+            coordinates: vec![1, 0],
+            multiplier: 0,
+            relation: Arc::new(Bent),
+            scale: 2.0,
+            positions: Vec::new(),
+        };
+        let motion = |value, rate| crate::system::CoordinateMotion { value, rate, acceleration: 0.0 };
+        let at = Kinematics {
+            time: 0.7,
+            elapsed: 0.0,
+            nodes: Vec::new(),
+            coordinates: vec![motion(1.3, 0.5), motion(0.4, -0.2)],
+            held: Vec::new(),
+        };
+        let (sine, cosine) = 0.4_f64.sin_cos();
+        let close =
+            |found: f64, wanted: f64| assert!((found - 2.0 * wanted).abs() < 1e-14, "{found} {wanted}");
+        close(coupling.violation(&at), sine * 1.3 + 0.28);
+        let gradient = coupling.gradient(&at);
+        close(gradient[0], cosine * 1.3 + 0.7);
+        close(gradient[1], sine);
+        let hessian = coupling.hessian(&at);
+        close(hessian[0][0], -sine * 1.3);
+        close(hessian[0][1], cosine);
+        close(hessian[1][0], cosine);
+        close(hessian[1][1], 0.0);
+        close(coupling.by_time(&at), 0.4);
+        close(coupling.acceleration(&at), -sine * 0.04 * 1.3 - 2.0 * cosine * 0.1 - 0.4);
+        let second = coupling.second(&at, (1.0, &coupling.rates(&at)));
+        close(second[0], -sine * 1.3 * -0.2 + cosine * 0.5 + 1.0);
+        close(second[1], cosine * -0.2);
+    }
+}

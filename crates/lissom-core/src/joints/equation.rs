@@ -1,0 +1,18 @@
+//! Equation: any expression of joints' coordinates and of time vanishes, c = f(q, t).
+
+use super::{Build, Coupled, JointKind};
+use crate::registry::{Parameter, ParameterType};
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "equation",
+    summary: "An expression of coordinates of joints, and of the time, is zero: planetary gears, differentials, curves.",
+    sample: "equation = \"20*(sun.angle - carrier.angle) + 10*planet.angle\"",
+    parameters: &[Parameter::required(
+        "equation",
+        ParameterType::Equation,
+        "",
+        "What is zero: an expression of coordinates such as `arm.angle` and `slide.displacement`, and of `t`.",
+    )],
+    build: Build::Coupling(Coupled::Named, |parameters, _| parameters.relation("equation")),
+};

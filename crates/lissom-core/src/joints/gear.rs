@@ -1,0 +1,47 @@
+//! Gear: a coordinate of one joint changes in proportion to that of another, c = (q₂ - q₂(0)) - i (q₁ - q₁(0)).
+
+use std::sync::Arc;
+
+use super::coupling::{Relation, RelationPoint};
+use super::{Build, Coupled, JointKind};
+use crate::registry::{OTHER_COORDINATE, Parameter, ParameterType, WHICH_COORDINATE};
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "gear",
+    summary: "A coordinate of `other` changes by `ratio` times the change of that of `joint`: gears, racks, belts.",
+    sample: "ratio = -2.5",
+    parameters: &[
+        Parameter::required(
+            "ratio",
+            ParameterType::Number,
+            "1, m/rad or rad/m",
+            "Change of the other coordinate per change of the first; negative for gears that mesh outside.",
+        ),
+        WHICH_COORDINATE,
+        OTHER_COORDINATE,
+    ],
+    build: Build::Coupling(Coupled::Two, |parameters, start| {
+        let ratio = parameters.number("ratio")?;
+        let [first, other] = [0, 1].map(|k| start.get(k).copied().unwrap_or(0.0));
+        Ok(Arc::new(Gear { ratio, offset: other - ratio * first }))
+    }),
+};
+
+/// Two coordinates in proportion.
+#[derive(Clone, Copy, Debug)]
+struct Gear {
+    ratio: f64,
+    /// q₂ - i q₁ at the start.
+    offset: f64,
+}
+
+impl Relation for Gear {
+    fn jet(&self, (_, q): RelationPoint<'_>, (_, v): RelationPoint<'_>) -> [f64; 3] {
+        [q[1] - self.ratio * q[0] - self.offset, v[1] - self.ratio * v[0], 0.0]
+    }
+
+    fn change(&self, _: RelationPoint<'_>, _: f64, change: &[f64]) -> f64 {
+        change[1] - self.ratio * change[0]
+    }
+}

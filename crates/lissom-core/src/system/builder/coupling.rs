@@ -1,0 +1,74 @@
+//! Adds relations between coordinates.
+
+use super::Builder;
+use crate::joints::coupling::{Coupling, MOST_COUPLED, Relation, RelationPoint};
+use crate::joints::{Build, JointKind, Quantity};
+use crate::registry::{ParameterError, Parameters};
+use crate::system::CoordinateId;
+use crate::system::layout::Layout;
+
+impl Builder {
+    /// Relates coordinates, with a relation of a kind that does; they are those of the relation, in its order.
+    ///
+    /// # Errors
+    /// If a parameter is missing, a coordinate is named twice, or the relation does not depend on its coordinates.
+    pub fn add_coupling(
+        &mut self,
+        name: &str,
+        kind: &JointKind,
+        coordinates: &[CoordinateId],
+        parameters: &Parameters,
+    ) -> Result<(), ParameterError> {
+        let Build::Coupling(_, build) = kind.build else {
+            return Err(ParameterError::new("kind", "relates no coordinates"));
+        };
+        let count = coordinates.len();
+        if count == 0 || count > MOST_COUPLED {
+            let problem =
+                format!("relates {count} coordinates of joints, but must relate 1 to {MOST_COUPLED}");
+            return Err(ParameterError::new("kind", problem));
+        }
+        if (1..count).any(|k| coordinates[..k].contains(&coordinates[k])) {
+            return Err(ParameterError::new("other", "names the same coordinate as `joint`"));
+        }
+        let start: Vec<f64> = coordinates.iter().map(|&k| self.coordinates[k].value).collect();
+        let relation = build(parameters, &start)?;
+        let quantities: Vec<Quantity> = coordinates.iter().map(|&k| self.coordinates[k].quantity).collect();
+        let quantity =
+            if quantities.contains(&Quantity::Length) { Quantity::Length } else { Quantity::Angle };
+        let largest = largest_slope(&*relation, &start, |k| quantities[k] == quantity);
+        if !(largest.is_finite() && largest > 0.0) {
+            let problem = "does not change with its coordinates as they are at the start: give their values there, or \
+                           another equation";
+            return Err(ParameterError::new(kind.parameters[0].name, problem));
+        }
+        self.couplings.push(Coupling {
+            name: name.to_owned(),
+            coordinates: coordinates.to_vec(),
+            multiplier: self.multipliers.len(),
+            relation,
+            scale: 1.0 / largest,
+            positions: Vec::new(),
+        });
+        self.multipliers.push((name.to_owned(), "coupling"));
+        self.multiplier_quantities.push(quantity);
+        Ok(())
+    }
+}
+
+/// Rows of a coupling's coordinates and of its multiplier.
+pub(super) fn rows_of_coupling(coupling: &Coupling, layout: &Layout) -> Vec<usize> {
+    let coordinates = coupling.coordinates.iter().map(|&coordinate| layout.row_of_coordinate(coordinate));
+    coordinates.chain([layout.coordinate_count + coupling.multiplier]).collect()
+}
+
+/// The largest derivative of a relation by one of the chosen coordinates at the start.
+fn largest_slope(relation: &dyn Relation, start: &[f64], is_chosen: impl Fn(usize) -> bool) -> f64 {
+    let at: RelationPoint<'_> = (0.0, start);
+    let slope = |k: usize| {
+        let mut unit = vec![0.0; start.len()];
+        unit[k] = 1.0;
+        relation.jet(at, (0.0, &unit))[1].abs()
+    };
+    (0..start.len()).filter(|&k| is_chosen(k)).map(slope).fold(0.0, f64::max)
+}

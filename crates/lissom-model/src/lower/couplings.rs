@@ -1,0 +1,180 @@
+//! Relations between coordinates of joints: gears, cams and equations.
+
+use std::sync::Arc;
+
+use lissom_core::joints::coupling::{MOST_COUPLED, Relation, RelationPoint};
+use lissom_core::joints::{JointKind, Quantity};
+use lissom_core::registry::Value;
+use lissom_core::signals::coordinate::Of;
+use lissom_core::system::{Builder, CoordinateId, State, System};
+
+use super::signals::relative_components;
+use super::{Names, parameter_problem};
+use crate::document::{Attachment, Component, Document};
+use crate::expression::{Formula, Name};
+use crate::report::{Located, Problem};
+use crate::suggest;
+
+/// Value of an equation at the start that is round-off of given numbers [m, rad].
+const SAME_PLACE: f64 = 1e-6;
+
+/// An expression of coordinates: each argument is one of them.
+#[derive(Debug)]
+struct Equation {
+    formula: Formula,
+    /// Which coordinate each argument is.
+    arguments: Vec<usize>,
+}
+
+impl Relation for Equation {
+    fn jet(&self, (time, values): RelationPoint<'_>, (of_time, direction): RelationPoint<'_>) -> [f64; 3] {
+        self.formula.jet((time, of_time), |argument| {
+            let coordinate = self.arguments[argument];
+            (values[coordinate], direction[coordinate])
+        })
+    }
+}
+
+/// Adds a relation.
+pub(super) fn add(
+    document: &Document,
+    (component, kind): (&Component, &JointKind),
+    builder: &mut Builder,
+    names: &mut Names,
+) -> Result<(), Problem> {
+    let name = &component.name.value;
+    let fault = |error| parameter_problem(component, &error);
+    let mut parameters = component.parameters.clone();
+    let coordinates = match (&component.attachment, &component.signal) {
+        (Attachment::JointCoordinates { joint, other }, _) => {
+            let first = only(component, joint, "coordinate", names)?;
+            vec![first, only(component, other, "other_coordinate", names)?]
+        }
+        (_, Some((key, formula))) => {
+            let mut coordinates = Vec::new();
+            let mut arguments = Vec::new();
+            for argument in formula.value.arguments() {
+                let coordinate = named(document, (component, formula), argument, builder, names)?;
+                let known = coordinates.iter().position(|&known| known == coordinate);
+                arguments.push(known.unwrap_or(coordinates.len()));
+                if known.is_none() {
+                    coordinates.push(coordinate);
+                }
+            }
+            let relation: Arc<dyn Relation> =
+                Arc::new(Equation { formula: formula.value.clone(), arguments });
+            parameters.insert(key, Value::Relation(relation));
+            coordinates
+        }
+        _ => return Err(Problem::error(component.name.span, format!("`{name}` relates no coordinates"))),
+    };
+    if coordinates.is_empty() || coordinates.len() > MOST_COUPLED {
+        let span = component.span_of("equation");
+        let message = format!("equation `{name}` names {} coordinates of joints", coordinates.len());
+        return Err(Problem::error(span, message)
+            .help(format!("name at least one and at most {MOST_COUPLED}, such as `arm.angle`")));
+    }
+    builder.add_coupling(name, kind, &coordinates, &parameters).map_err(fault)
+}
+
+/// The coordinate of a joint that has one, or the one that `key` chooses.
+fn only(
+    component: &Component,
+    joint: &Located<String>,
+    key: &str,
+    names: &Names,
+) -> Result<CoordinateId, Problem> {
+    let coordinates = names.coordinates.get(&joint.value).map_or(&[][..], Vec::as_slice);
+    if coordinates.is_empty() {
+        let message = format!("joint `{}` has no relative coordinate", joint.value);
+        return Err(Problem::error(joint.span, message)
+            .label("nothing to relate")
+            .help("name a joint that has one, such as a revolute, screw, cylindrical or prismatic joint"));
+    }
+    if !component.parameters.has(key) {
+        if coordinates.len() == 1 {
+            return Ok(coordinates[0]);
+        }
+        let message = format!("joint `{}` has {} coordinates", joint.value, coordinates.len());
+        let help = format!("give `{key}`, a whole number from 1 to {}", coordinates.len());
+        return Err(Problem::error(joint.span, message).label("which one?").help(help));
+    }
+    let number = component.parameters.number(key).map_err(|error| parameter_problem(component, &error))?;
+    let index = number as usize;
+    if index as f64 != number || index == 0 || index > coordinates.len() {
+        let message = format!("joint `{}` has no coordinate {number}", joint.value);
+        return Err(Problem::error(component.span_of(key), message)
+            .help(format!("give a whole number from 1 to {}", coordinates.len())));
+    }
+    Ok(coordinates[index - 1])
+}
+
+/// The coordinate that an expression names.
+fn named(
+    document: &Document,
+    (component, expression): (&Component, &Located<Formula>),
+    name: &Name,
+    builder: &Builder,
+    names: &Names,
+) -> Result<CoordinateId, Problem> {
+    let problem = |message: String| {
+        let place = document.within(expression.span, expression.value.text(), &name.range);
+        Problem::error(place, format!("equation `{}` cannot be read: {message}", component.name.value))
+            .label("here")
+    };
+    let Some((owner, word)) = name.text.rsplit_once('.') else {
+        let known = document.parameters.keys().map(String::as_str).chain(["t", "pi"]);
+        let help = match suggest::help(&name.text, known) {
+            Some(help) => help,
+            None => "name coordinates of joints, such as `arm.angle` or `slide.displacement`".to_owned(),
+        };
+        return Err(problem(format!("unknown name `{}`", name.text)).help(help));
+    };
+    let Some(coordinates) = names.coordinates.get(owner) else {
+        let known = names.coordinates.keys().map(String::as_str);
+        let message = format!("there is no joint `{owner}` that has coordinates");
+        return Err(problem(message).maybe_help(suggest::help(owner, known)));
+    };
+    let components = relative_components(coordinates, builder);
+    match components.iter().find(|(known, ..)| known == word) {
+        Some((_, coordinate, Of::Value)) => Ok(*coordinate),
+        Some(_) => Err(problem(format!("`{}` is a rate, and equations relate places", name.text))
+            .help("for forces that depend on rates use a damper, or a load with an expression")),
+        None => {
+            let known = components.iter().map(|(known, ..)| known.as_str());
+            let message = format!("`{owner}` has no coordinate `{word}`");
+            Err(problem(message).maybe_help(suggest::help(word, known)))
+        }
+    }
+}
+
+/// Refuses relations that do not hold at the start.
+pub(super) fn check(document: &Document, system: &System, state: &State, problems: &mut Vec<Problem>) {
+    for coupling in system.couplings() {
+        let Some(component) = document.joints.iter().find(|joint| joint.name.value == coupling.name) else {
+            continue;
+        };
+        let violation = coupling.violation(&state.kinematics);
+        // A value that is not a number is refused too.
+        if violation.abs() <= SAME_PLACE {
+            continue;
+        }
+        let layout = system.layout();
+        let values = coupling.coordinates.iter().map(|&coordinate| {
+            let unit = if layout.coordinate_quantity(coordinate) == Quantity::Angle { "rad" } else { "m" };
+            let name = layout.name_of(layout.row_of_coordinate(coordinate));
+            format!("{name} = {} {unit}", state.kinematics.coordinates[coordinate].value)
+        });
+        let values: Vec<String> = values.collect();
+        let key = if component.signal.is_some() { "equation" } else { "profile" };
+        let message = format!(
+            "`{}` does not hold at the start: it misses by {violation:.6e}, with {}",
+            coupling.name,
+            values.join(", ")
+        );
+        let help =
+            "place the parts and give the joints' values at the start so that they agree, or add a constant";
+        problems
+            .push(Problem::error(component.span_of(key), message).label("not zero at the start").help(help));
+    }
+}
