@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::Arc;
 
-use lissom_motion::Vector3;
+use lissom_motion::{Matrix6, Vector3};
 
 use crate::joints::coupling::Relation;
 
@@ -104,6 +104,9 @@ pub enum ParameterType {
     FunctionOf(&'static str),
     /// An expression of coordinates of joints and of the time `t`.
     Equation,
+    /// Six numbers not less than zero, the diagonal of a matrix, or a symmetric 6 x 6 matrix without negative
+    /// eigenvalues.
+    Matrix,
     /// One of the listed words.
     Choice(&'static [&'static str]),
     /// Some of the listed words, each at most once.
@@ -192,6 +195,8 @@ pub enum Value {
     Range([f64; 2]),
     /// An equation between coordinates.
     Relation(Arc<dyn Relation>),
+    /// A 6 x 6 matrix.
+    Matrix(Box<Matrix6>),
 }
 
 /// The parameters given for one component, by name.
@@ -346,6 +351,18 @@ impl Parameters {
             None => Ok(None),
             Some(Value::Range([low, high])) if low < high => Ok(Some([*low, *high])),
             other => Err(wrong(name, "two ascending numbers", other)),
+        }
+    }
+
+    /// A 6 x 6 matrix, or zeros where it is not given.
+    ///
+    /// # Errors
+    /// If it is given and no matrix.
+    pub fn matrix_or_zero(&self, name: &str) -> Result<Matrix6, ParameterError> {
+        match self.values.get(name) {
+            None => Ok(Matrix6::zeros()),
+            Some(Value::Matrix(value)) => Ok(**value),
+            other => Err(wrong(name, "six numbers or a 6 x 6 matrix", other)),
         }
     }
 

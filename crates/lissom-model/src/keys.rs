@@ -64,8 +64,12 @@ pub(crate) enum Shape {
     Curve,
     /// Two vectors.
     Axes,
-    /// Three numbers, or a 3 x 3 matrix.
+    /// A number greater than zero, or a table of a density.
+    Mass,
+    /// Three numbers, a 3 x 3 matrix, or a table of a solid.
     Inertia,
+    /// A table of friction in a joint.
+    Friction,
     /// Six numbers, or a 6 x 6 matrix.
     Stiffness,
     /// A 6 x 6 matrix, or a table of mass per length, inertia and centre.
@@ -109,6 +113,49 @@ impl Shape {
                 "time from sample to sample; the value is held in between",
             ),
             optional("start", Self::Number, "", "value before the first sample, default 0"),
+        ]
+    }
+
+    /// Keys of a mass that is given by a density.
+    pub(crate) fn density_keys() -> Vec<Key> {
+        vec![required(
+            "density",
+            Self::Positive,
+            "kg/m³",
+            "mass per volume of the solid that `inertia` names",
+        )]
+    }
+
+    /// Keys of an inertia that is given by a solid.
+    pub(crate) fn solid_keys() -> Vec<Key> {
+        vec![
+            optional("box", Self::Vector, "m", "sides along the body axes; give one of the solids"),
+            optional("cylinder", Self::Pair, "m", "[radius, length]"),
+            optional("tube", Self::Vector, "m", "[outer radius, inner radius, length]"),
+            optional("sphere", Self::Positive, "m", "radius"),
+            optional("axis", choice(&["x", "y", "z"]), "", "axis of a cylinder or tube, default z"),
+        ]
+    }
+
+    /// Keys of friction in a joint.
+    pub(crate) fn friction_keys() -> Vec<Key> {
+        vec![
+            required("coulomb", Self::Positive, "N, N m", "sliding friction"),
+            optional(
+                "static",
+                Self::Positive,
+                "N, N m",
+                "friction at rest, not below `coulomb`; default equal",
+            ),
+            optional(
+                "stribeck",
+                Self::Positive,
+                "m/s, rad/s",
+                "rate at which the difference is 1/e; default 0.01",
+            ),
+            optional("viscous", Self::NotNegative, "N s/m, N m s/rad", "force per rate besides, default 0"),
+            optional("deflection", Self::Positive, "m, rad", "elastic motion before it slips, default 1e-4"),
+            optional("damping", Self::NotNegative, "N s/m, N m s/rad", "of the elastic motion, default 0"),
         ]
     }
 
@@ -175,6 +222,7 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
         ParameterType::Size => Shape::Size,
         ParameterType::Force(names) => Shape::Force(names),
         ParameterType::Range => Shape::Range,
+        ParameterType::Matrix => Shape::Stiffness,
         ParameterType::Choice(words) => choice(words),
         ParameterType::Choices(words) => Shape::Choices(words),
         ParameterType::FunctionOf(variable) => Shape::FunctionOf(variable),

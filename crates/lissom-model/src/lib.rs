@@ -28,6 +28,7 @@ mod report;
 pub mod scene;
 mod schema;
 pub mod sections;
+mod solid;
 mod suggest;
 pub mod sweep;
 pub mod table;

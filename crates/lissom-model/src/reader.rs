@@ -282,8 +282,13 @@ impl<'c, 'a> Reader<'c, 'a> {
                 ParameterType::Number | ParameterType::Positive | ParameterType::NotNegative => {
                     self.number(name).map(|number| Held::Number(number.value))
                 }
-                ParameterType::Vector | ParameterType::GlobalVector | ParameterType::Direction => {
+                ParameterType::Vector | ParameterType::GlobalVector => {
                     self.vector(name).map(|vector| Held::Vector(vector.value))
+                }
+                ParameterType::Direction => {
+                    self.vector(name).zip(self.node(name)).and_then(|(vector, node)| {
+                        self.context.turned(node.scope, &vector.value).map(Held::Vector)
+                    })
                 }
                 ParameterType::Flag => self.flag(name).map(|flag| Held::Flag(flag.value)),
                 ParameterType::Function => self.function(name).map(|function| Held::Function(function.value)),
@@ -299,6 +304,11 @@ impl<'c, 'a> Reader<'c, 'a> {
                 ParameterType::Force(names) => self
                     .node(name)
                     .and_then(|node| self.context.force(node, &self.words(name), names).map(Held::Force)),
+                ParameterType::Matrix => self.node(name).and_then(|node| {
+                    self.context
+                        .semidefinite_matrix(node, &self.words(name))
+                        .map(|matrix| Held::Matrix(Box::new(matrix)))
+                }),
                 ParameterType::Range => self
                     .node(name)
                     .and_then(|node| self.context.range(node, &self.words(name)).map(Held::Range)),

@@ -193,6 +193,25 @@ impl Context<'_> {
         Some(matrix)
     }
 
+    /// Six numbers, or a symmetric 6 x 6 matrix; without negative eigenvalues.
+    pub(crate) fn semidefinite_matrix(&self, node: &Node, what: &str) -> Option<Matrix6> {
+        let matrix = if Self::is_list_of_lists(node) {
+            let rows = self.matrix::<6>(node, what)?;
+            Matrix6::from_fn(|i, j| rows[i][j])
+        } else {
+            Matrix6::from_diagonal(&Vector6::from(self.numbers::<6>(node, what)?))
+        };
+        // Scaled to a unit diagonal, so that units do not decide.
+        let diagonal = matrix.diagonal();
+        let scale = diagonal.map(|entry| if entry > 0.0 { 1.0 / entry.sqrt() } else { 1.0 });
+        let scaled = Matrix6::from_fn(|i, j| matrix[(i, j)] * scale[i] * scale[j]);
+        if scaled.iter().all(|entry| entry.is_finite()) && scaled.symmetric_eigenvalues().min() > -1e-10 {
+            return Some(matrix);
+        }
+        let help = "with a negative eigenvalue it would push away, or put energy in";
+        self.fail(node.span, format!("{what} must not have negative eigenvalues"), help)
+    }
+
     /// Six numbers, or a symmetric 6 x 6 matrix; positive definite.
     pub(crate) fn definite_matrix(&self, node: &Node, what: &str) -> Option<Matrix6> {
         let matrix = if Self::is_list_of_lists(node) {

@@ -5,10 +5,12 @@
 
 pub mod beam;
 pub mod blocks;
+pub mod bushing;
 pub mod coordinate_spring;
 pub mod force;
 pub mod force_law;
 pub mod friction;
+pub mod gyrostat;
 pub mod inertia;
 mod inertia_blocks;
 pub mod joint_load;
@@ -17,6 +19,7 @@ pub mod passage;
 pub mod point_spring;
 pub mod quadrature;
 pub mod shape;
+pub mod stop;
 
 use crate::joints::Quantity;
 use crate::registry::{Parameter, ParameterError, Parameters};
@@ -306,7 +309,11 @@ pub static SPRINGS: &[ElementKind] = &[
     coordinate_spring::TORSIONAL,
     friction::AXIAL,
     friction::TORSIONAL,
+    bushing::KIND,
+    stop::AXIAL,
+    stop::TORSIONAL,
 ];
 
 /// Loads, one line each.
-pub static LOADS: &[ElementKind] = &[force::KIND, moment::KIND, joint_load::TORQUE, joint_load::FORCE];
+pub static LOADS: &[ElementKind] =
+    &[force::KIND, moment::KIND, joint_load::TORQUE, joint_load::FORCE, gyrostat::KIND];

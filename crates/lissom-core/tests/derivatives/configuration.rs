@@ -8,7 +8,7 @@ use lissom_core::registry::{
     Constant, ForceFunction, Parameter, ParameterType, Parameters, TimeFunction, Value,
 };
 use lissom_core::system::{Augmentation, Kinematics, LOCKED, Layout, MotionChange, Point, State, System};
-use lissom_motion::{Motion, Vector3, Vector6};
+use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
 
 /// A small generator of numbers in -1 … 1 that is the same on every machine.
 pub(crate) struct Random(u64);
@@ -81,11 +81,15 @@ impl Relation for Bent {
     }
 }
 
-/// A value for every parameter of a kind, but free play, which would leave most configurations without force.
+/// Free play would leave most configurations without force; the others are another way to give `dissipation`.
+const LEFT_OUT: [&str; 3] = ["backlash", "restitution", "impact_velocity"];
+
+/// A value for every parameter of a kind.
 pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &mut Random) -> Parameters {
     let mut result = Parameters::new();
-    for parameter in parameters.iter().filter(|parameter| parameter.name != "backlash") {
+    for parameter in parameters.iter().filter(|parameter| !LEFT_OUT.contains(&parameter.name)) {
         let value = match parameter.holds {
+            ParameterType::Positive if parameter.name == "exponent" => Value::Number(1.7),
             ParameterType::Number => Value::Number(random.number()),
             ParameterType::Positive | ParameterType::NotNegative => Value::Number(1.5 + random.number()),
             ParameterType::Vector | ParameterType::GlobalVector | ParameterType::Direction => {
@@ -96,7 +100,12 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
                 Value::Function(if flag { Arc::new(Wave) } else { Arc::new(Constant(0.6)) })
             }
             ParameterType::Force(_) => Value::Force(Arc::new(Waves)),
-            // Differences do not see kinks; tests of their own do.
+            // Differences do not see kinks; tests of their own do. Stops are touched.
+            ParameterType::Range if parameter.name == "range" => Value::Range([-3.0, -2.0]),
+            ParameterType::Matrix => {
+                let root = Matrix6::from_fn(|_, _| random.number());
+                Value::Matrix(Box::new(root * root.transpose()))
+            }
             ParameterType::Range => Value::Range([-1e3, 1e3]),
             ParameterType::Choice(words) => Value::Text(words[0].to_owned()),
             ParameterType::FunctionOf(_) => Value::Function(Arc::new(Wave)),

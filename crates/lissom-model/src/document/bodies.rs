@@ -6,22 +6,25 @@ use super::decode::each;
 use super::tables::variants;
 use super::{Body, InitialMotion, Plane, PointMass};
 use crate::context::Context;
+use crate::keys::Shape;
 use crate::line::are_parallel;
 use crate::reader::Reader;
 use crate::registry::Registry;
 use crate::report::Located;
-use crate::text::Node;
+use crate::solid::Solid;
+use crate::text::{Node, Value};
 
 pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
     each(context, "bodies", |reader, name| {
-        let (mass, inertia) = (reader.number("mass"), reader.inertia("inertia"));
+        let mass_and_inertia = mass_and_inertia(reader);
         let (position, axes) = (position(reader), axes(reader));
         let (velocity, angular_velocity) = (reader.vector("velocity"), reader.vector("angular_velocity"));
         let center_of_mass = reader.vector("center_of_mass").map_or(Vector3::zeros(), |center| center.value);
+        let (mass, inertia) = mass_and_inertia?;
         Some(Body {
             name: Located::new(name.to_owned(), reader.name),
-            mass: mass?.value,
-            inertia: inertia?.value,
+            mass,
+            inertia,
             position: position?,
             axes: axes?,
             center_of_mass,
@@ -29,6 +32,75 @@ pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
             angular_velocity,
         })
     })
+}
+
+/// Mass and inertia about the centre of mass, as numbers or those of a solid.
+fn mass_and_inertia(reader: &Reader<'_, '_>) -> Option<(f64, Matrix3)> {
+    let context = reader.context;
+    let solid = match reader.node("inertia") {
+        Some(node @ Node { value: Value::Table(_), .. }) => Some(solid(reader, node)?),
+        _ => None,
+    };
+    let mass = match reader.node("mass") {
+        Some(node @ Node { value: Value::Table(_), .. }) => {
+            let what = reader.words("mass");
+            let own = Reader::open(context, node, (what.clone(), node.span), Shape::density_keys())?;
+            let density = own.number("density")?.value;
+            let Some(solid) = &solid else {
+                let message = format!("{what} has a density, but `inertia` names no solid");
+                return context.fail(node.span, message, "give inertia = { box = [a, b, c] }, or a mass");
+            };
+            Some(density * solid.volume())
+        }
+        _ => reader.number("mass").map(|mass| mass.value),
+    };
+    let inertia = match (&solid, mass) {
+        (Some(solid), Some(mass)) => Some(mass * solid.inertia()),
+        (Some(_), None) => None,
+        (None, _) => reader.inertia("inertia").map(|inertia| inertia.value),
+    };
+    Some((mass?, inertia?))
+}
+
+/// The solid of a table with one of their names.
+fn solid(reader: &Reader<'_, '_>, node: &Node) -> Option<Solid> {
+    let context = reader.context;
+    let what = reader.words("inertia");
+    let own = Reader::open(context, node, (what.clone(), node.span), Shape::solid_keys())?;
+    let given: Vec<&str> =
+        ["box", "cylinder", "tube", "sphere"].into_iter().filter(|key| own.has(key)).collect();
+    let [form] = given.as_slice() else {
+        let message = format!("{what} must name one solid, not {}", given.len());
+        return context.fail(node.span, message, "give `box`, `cylinder`, `tube` or `sphere`");
+    };
+    let axis = match own.choice("axis").map(|word| word.value) {
+        Some("x") => 0,
+        Some("y") => 1,
+        _ => 2,
+    };
+    if own.has("axis") && matches!(*form, "box" | "sphere") {
+        return context.fail(node.span, format!("a {form} has no `axis`"), "leave it out");
+    }
+    let value = own.node(form)?;
+    let solid = match *form {
+        "box" => Solid::Box(context.numbers::<3>(value, &own.words(form))?),
+        "cylinder" => {
+            let [radius, length] = context.numbers::<2>(value, &own.words(form))?;
+            Solid::Tube { outer: radius, inner: 0.0, length, axis }
+        }
+        "tube" => {
+            let [outer, inner, length] = context.numbers::<3>(value, &own.words(form))?;
+            Solid::Tube { outer, inner, length, axis }
+        }
+        _ => Solid::Sphere(own.number(form)?.value),
+    };
+    if solid.is_solid() {
+        return Some(solid);
+    }
+    let message = format!(
+        "{what} is no solid: lengths must be greater than zero, and the outer radius above the inner"
+    );
+    context.fail(value.span, message, "check the order of the numbers")
 }
 
 /// The place `position`, the origin of the axes around it where it is not given.

@@ -1,11 +1,13 @@
 //! Joints, springs and loads of a model file: what they are attached to, and the parameters of their kind.
 
+use lissom_core::registry::{Parameters, Value as Held};
 use lissom_motion::{Rotation, Vector3};
 
 use super::connections::Places;
 use super::decode::each_of_kind;
 use super::{Attachment, Component, NodeReference};
 use crate::context::Context;
+use crate::keys::Shape;
 use crate::line::are_parallel;
 use crate::reader::Reader;
 use crate::registry::{ActsOn, FrameRule, KindEntry, Registry};
@@ -28,10 +30,36 @@ pub(super) fn read(
         let (parameters, parameter_spans) = reader.parameters(entry.parameters);
         let signal = reader.signal(entry.parameters);
         let attachment = attachment(reader, name, entry.acts_on, registry, places);
+        let takes_friction = table == "joints" && !matches!(entry.acts_on, ActsOn::JointCoordinate(_));
+        let friction = if takes_friction { friction(reader) } else { None };
         let kind = reader.text("kind")?.map(str::to_owned);
         let name = Located::new(name.to_owned(), reader.name);
-        Some(Component { name, kind, attachment: attachment?, parameters, parameter_spans, signal })
+        Some(Component { name, kind, attachment: attachment?, parameters, parameter_spans, signal, friction })
     })
+}
+
+/// The key `friction` of a joint, as parameters of a friction element.
+fn friction(reader: &Reader<'_, '_>) -> Option<Located<Parameters>> {
+    let node = reader.node("friction")?;
+    let context = reader.context;
+    let own = Reader::open(context, node, (reader.words("friction"), node.span), Shape::friction_keys())?;
+    let mut parameters = Parameters::new();
+    for key in ["coulomb", "stribeck", "viscous", "deflection", "damping"] {
+        if let Some(number) = own.number(key) {
+            parameters.insert(key, Held::Number(number.value));
+        }
+    }
+    let coulomb = own.number("coulomb")?.value;
+    if let Some(at_rest) = own.number("static") {
+        if at_rest.value < coulomb {
+            let message = format!("`static` of {} is below `coulomb`", own.what);
+            return context.fail(at_rest.span, message, "friction at rest is not smaller than in motion");
+        }
+        if at_rest.value > coulomb {
+            parameters.insert("breakaway", Held::Number(at_rest.value - coulomb));
+        }
+    }
+    Some(Located::new(parameters, node.span))
 }
 
 fn attachment(

@@ -343,6 +343,8 @@ pub struct Component {
     pub parameter_spans: Vec<(String, Span)>,
     /// Its size and the key it is given by, where it is more than a function of time. Its parameter is then 1.
     pub signal: Option<(&'static str, Located<Formula>)>,
+    /// Friction in a joint: the parameters of a friction element on its coordinate.
+    pub friction: Option<Located<Parameters>>,
 }
 
 impl Component {

@@ -126,7 +126,7 @@ pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
         "bodies" => (None, vec![single(body())]),
         "parts" => (None, vec![single(part())]),
         "point_masses" => (None, vec![single(point_mass())]),
-        "joints" => (Some("kind"), kinds(&registry.joints)),
+        "joints" => (Some("kind"), joints(&registry.joints)),
         "springs" => (Some("kind"), kinds(&registry.springs)),
         "loads" => (Some("kind"), kinds(&registry.loads)),
         "states" => (None, vec![single(state())]),
@@ -267,12 +267,12 @@ pub(crate) fn part() -> Vec<Key> {
 fn body() -> Vec<Key> {
     vec![
         placed_in(),
-        required("mass", Shape::Positive, "kg", "mass"),
+        required("mass", Shape::Mass, "kg", "mass, or { density } of the solid in `inertia`"),
         required(
             "inertia",
             Shape::Inertia,
             "kg m²",
-            "about the centre of mass, in body axes: 3 numbers or 3 x 3",
+            "about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid as { box = [a, b, c] }",
         ),
         optional("position", Shape::Place, "m", "place of the reference frame"),
         optional("rotation", Shape::Vector, "rad", "rotation vector of the reference frame"),
@@ -303,6 +303,18 @@ fn kinds(table: &[KindEntry]) -> Vec<Variant> {
         Variant { word: entry.name, summary: entry.summary, keys }
     };
     table.iter().map(variant).collect()
+}
+
+/// Joints between two nodes may have friction.
+fn joints(table: &[KindEntry]) -> Vec<Variant> {
+    let mut variants = kinds(table);
+    for (variant, entry) in variants.iter_mut().zip(table) {
+        if !matches!(entry.acts_on, ActsOn::JointCoordinate(_)) {
+            let words = "friction on its only coordinate";
+            variant.keys.push(optional("friction", Shape::Friction, "", words));
+        }
+    }
+    variants
 }
 
 fn attachment(acts_on: ActsOn) -> Vec<Key> {

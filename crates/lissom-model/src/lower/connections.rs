@@ -43,6 +43,11 @@ pub(super) fn add(
         // Whatever names a signal that could not be read would be wrong as well.
         return;
     }
+    for component in &document.joints {
+        if let Err(problem) = friction(component, builder, names) {
+            problems.push(problem);
+        }
+    }
     for (components, kinds, is_load) in [(&document.springs, SPRINGS, false), (&document.loads, LOADS, true)]
     {
         for component in components {
@@ -110,6 +115,29 @@ fn joint(
     let coordinates = builder.add_joint(name, kind, &placement, &component.parameters).map_err(fault)?;
     names.coordinates.insert(name.clone(), coordinates);
     Ok(())
+}
+
+/// Adds the friction of a joint with one coordinate.
+fn friction(component: &Component, builder: &mut Builder, names: &Names) -> Result<(), Problem> {
+    let Some(friction) = &component.friction else { return Ok(()) };
+    let name = &component.name.value;
+    let coordinates = names.coordinates.get(name).map_or(&[][..], Vec::as_slice);
+    let [coordinate] = coordinates else {
+        let message = match coordinates.len() {
+            0 => format!("joint `{name}` has no relative coordinate for friction to act on"),
+            count => format!("joint `{name}` has {count} coordinates: which has this friction?"),
+        };
+        let help = "add springs of the kinds torsional_friction and axial_friction on its coordinates";
+        return Err(Problem::error(friction.span, message).help(help));
+    };
+    let wanted = builder.coordinate_quantity(*coordinate);
+    let kinds = [elements::friction::TORSIONAL, elements::friction::AXIAL];
+    let Some(kind) = kinds.iter().find(|kind| kind.attachment == elements::Attachment::Coordinate(wanted))
+    else {
+        return Err(Problem::error(friction.span, format!("joint `{name}` can have no friction")));
+    };
+    (kind.build)(builder, Attached::Coordinate(*coordinate), &friction.value)
+        .map_err(|error| Problem::error(friction.span, format!("friction of joint `{name}`: {error}")))
 }
 
 /// The coordinate of a joint that a drive or a spring acts on: the one it names, or the first of the kind it wants.

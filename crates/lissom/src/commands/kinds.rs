@@ -112,6 +112,7 @@ fn holds(holds: ParameterType) -> String {
         ParameterType::Force([first, second]) => {
             format!("number, expression of {first} and {second}, or table over {first}")
         }
+        ParameterType::Matrix => "six numbers or 6 x 6 matrix".to_owned(),
         ParameterType::Range => "two ascending numbers".to_owned(),
         ParameterType::Choice(words) => words.join(" | "),
         ParameterType::FunctionOf(variable) => format!("number, expression of {variable} or table"),

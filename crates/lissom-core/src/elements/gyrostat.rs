@@ -1,0 +1,76 @@
+//! A rotor that spins at a constant rate about an axis of its body: a gyrostat.
+//!
+//! Legend: h angular momentum of the spin in body axes, w angular velocity of the body.
+//!
+//! ```text
+//! moment on the left-hand side:  w × h,      by twist  -h~
+//! ```
+//!
+//! The rotor's mass, and its inertia as if it did not spin, belong to the body. A motor keeps the spin; its work goes into
+//! the rotor and is no part of the model's energy: w·(w × h) = 0.
+
+use lissom_motion::{Vector3, rotation_part, skew};
+
+use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents, add_block};
+use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
+use crate::system::{Builder, Kinematics, NodeId};
+
+/// Registry entry.
+pub const KIND: ElementKind = ElementKind {
+    name: "gyrostat",
+    summary: "Rotor in a body, with a constant rate of spin relative to it.",
+    sample: "axis = [0.0, 0.0, 1.0]\ninertia = 0.02\nspin = 300.0",
+    parameters: &[
+        Parameter::required(
+            "axis",
+            ParameterType::Direction,
+            "",
+            "Axis of the rotor at the start, global axes; it turns with the node.",
+        ),
+        Parameter::required(
+            "inertia",
+            ParameterType::Positive,
+            "kg m²",
+            "Inertia of the rotor about its axis.",
+        ),
+        Parameter::required("spin", ParameterType::Number, "rad/s", "Rate of spin relative to the body."),
+    ],
+    attachment: Attachment::OneNode,
+    build,
+};
+
+/// A constant angular momentum in a node's axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gyrostat {
+    node: [NodeId; 1],
+    momentum: Vector3,
+}
+
+fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
+    let (node, _) = attached.one_node()?;
+    let axis = builder.initial_frame(node).rotation.apply_inverse(&parameters.vector("axis")?.normalize());
+    let momentum = parameters.number("inertia")? * parameters.number("spin")? * axis;
+    builder.add_element(Gyrostat { node: [node], momentum });
+    Ok(())
+}
+
+impl Element for Gyrostat {
+    fn nodes(&self) -> &[NodeId] {
+        &self.node
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        let moment = rotation_part(&at.nodes[self.node[0]].twist).cross(&self.momentum);
+        for k in 0..3 {
+            out[3 + k] += moment[k];
+        }
+    }
+
+    fn linearize(&self, _: &Kinematics, out: &mut Tangents) {
+        add_block(&mut out.damping, 6, (3, 3), &-skew(&self.momentum));
+    }
+
+    fn energy(&self, _: &Kinematics) -> Energy {
+        Energy::default()
+    }
+}

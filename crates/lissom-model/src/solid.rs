@@ -1,0 +1,98 @@
+//! Volume and inertia of homogeneous solids.
+
+use lissom_motion::{Matrix3, Vector3};
+
+/// A homogeneous solid about its centre.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Solid {
+    /// Sides along the axes [m].
+    Box([f64; 3]),
+    /// A circular cylinder, hollow where the inner radius is not zero [m].
+    Tube {
+        /// Outer radius.
+        outer: f64,
+        /// Inner radius.
+        inner: f64,
+        /// Length along the axis.
+        length: f64,
+        /// Axis, 0 to 2.
+        axis: usize,
+    },
+    /// Radius [m].
+    Sphere(f64),
+}
+
+impl Solid {
+    /// Whether its lengths make sense.
+    pub(crate) fn is_solid(&self) -> bool {
+        match *self {
+            Self::Box(sides) => sides.iter().all(|side| *side > 0.0),
+            Self::Tube { outer, inner, length, .. } => inner >= 0.0 && outer > inner && length > 0.0,
+            Self::Sphere(radius) => radius > 0.0,
+        }
+    }
+
+    /// Volume [m³].
+    pub(crate) fn volume(&self) -> f64 {
+        match *self {
+            Self::Box([a, b, c]) => a * b * c,
+            Self::Tube { outer, inner, length, .. } => {
+                std::f64::consts::PI * (outer * outer - inner * inner) * length
+            }
+            Self::Sphere(radius) => 4.0 / 3.0 * std::f64::consts::PI * radius.powi(3),
+        }
+    }
+
+    /// Inertia about the centre per mass [m²].
+    pub(crate) fn inertia(&self) -> Matrix3 {
+        let moments = match *self {
+            Self::Box([a, b, c]) => Vector3::new(b * b + c * c, a * a + c * c, a * a + b * b) / 12.0,
+            Self::Tube { outer, inner, length, axis } => {
+                let radii = outer * outer + inner * inner;
+                let mut moments = Vector3::repeat((3.0 * radii + length * length) / 12.0);
+                moments[axis] = 0.5 * radii;
+                moments
+            }
+            Self::Sphere(radius) => Vector3::repeat(0.4 * radius * radius),
+        };
+        Matrix3::from_diagonal(&moments)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Sums over small cubes.
+    fn summed(is_inside: impl Fn(&Vector3) -> bool, size: f64) -> (f64, Vector3) {
+        let count: i32 = 80;
+        let width = size / f64::from(count);
+        let (mut volume, mut moments) = (0.0, Vector3::zeros());
+        for index in 0..count.pow(3) {
+            let of = |k: i32| (f64::from(index / count.pow(k as u32) % count) + 0.5) * width - 0.5 * size;
+            let x = Vector3::new(of(0), of(1), of(2));
+            if is_inside(&x) {
+                volume += width.powi(3);
+                let square = x.component_mul(&x);
+                moments += width.powi(3) * (Vector3::repeat(square.sum()) - square);
+            }
+        }
+        (volume, moments / volume)
+    }
+
+    #[test]
+    fn volumes_and_moments_are_those_of_many_small_cubes() {
+        let across = |x: &Vector3| x.y.hypot(x.z);
+        let tube = Solid::Tube { outer: 0.5, inner: 0.2, length: 0.8, axis: 0 };
+        let sides = [0.4, 0.7, 1.0];
+        for (solid, (volume, moments)) in [
+            (Solid::Sphere(0.5), summed(|x| x.norm() < 0.5, 1.0)),
+            (tube, summed(|x| x.x.abs() < 0.4 && (0.2..0.5).contains(&across(x)), 1.0)),
+            (Solid::Box(sides), summed(|x| (0..3).all(|k| x[k].abs() < 0.5 * sides[k]), 1.0)),
+        ] {
+            assert!((solid.volume() - volume).abs() < 1e-2 * volume, "{solid:?} {volume}");
+            let found = solid.inertia().diagonal();
+            assert!((found - moments).norm() < 1e-2 * moments.norm(), "{solid:?} {moments}");
+        }
+    }
+}
