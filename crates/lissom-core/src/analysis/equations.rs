@@ -223,8 +223,11 @@ impl StepEquations<'_> {
             largest = largest.max(reference);
         }
         let Correction { size, reference } = places;
-        // Where nothing bears a load yet, as before the first wave arrives, multipliers are nothing but round-off.
-        let is_known = largest > 0.0 && change > work.force_round_off;
+        // Where nothing bears a load yet, as before the first wave arrives, or bears it no longer, as in free flight,
+        // multipliers are nothing but round-off: of strains, and of the forces that accelerate the masses.
+        let inertial = self.scaled.multiplier_factor() * reference * self.scaling.1.length;
+        let round_off = work.force_round_off.max(ROUNDINGS * f64::EPSILON * inertial);
+        let is_known = largest > 0.0 && change > round_off;
         let multipliers = if is_known { change / largest * reference } else { 0.0 };
         self.with_states(Correction { size: size.max(multipliers), reference })
     }
