@@ -7,7 +7,7 @@ use crate::registry::{Parameter, ParameterType};
 pub const KIND: JointKind = JointKind {
     name: "equation",
     summary: "An expression of coordinates of joints, and of the time, is zero: planetary gears, differentials, curves.",
-    sample: "equation = \"20*(sun.angle - carrier.angle) + 10*planet.angle\"",
+    sample: "equation = \"my_hinge.angle - 2*my_slide.displacement\"",
     parameters: &[Parameter::required(
         "equation",
         ParameterType::Equation,
