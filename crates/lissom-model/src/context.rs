@@ -160,6 +160,7 @@ pub(crate) fn singular(table: &str) -> &'static str {
         "inputs" => "input",
         "signals" => "signal",
         "states" => "state",
+        "events" => "event",
         "parameters" => "parameter",
         "parts" => "part",
         _ => "entry",

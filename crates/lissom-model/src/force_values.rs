@@ -30,8 +30,8 @@ impl ForceFunction for Expressed {
             }
         }
         let count = self.formula.arguments().len();
-        let value = self.formula.value(0.0, &arguments[..count]);
-        self.formula.gradient(0.0, &arguments[..count], &mut gradient[..count]);
+        let value = self.formula.value(0.0, &arguments[..count], &[]);
+        self.formula.gradient(0.0, &arguments[..count], &[], &mut gradient[..count]);
         let [by_first, by_second] = self.places.map(|place| place.map_or(0.0, |place| gradient[place]));
         [value, by_first, by_second]
     }

@@ -23,6 +23,8 @@ pub(crate) const SCENE: &str = "scene.json";
 /// Name of the page that shows the results.
 const PAGE: &str = "view.html";
 /// Names of the tables of natural modes.
+/// Instants at which events happened.
+const EVENTS: &str = "events.csv";
 pub(crate) const MODES: &str = "modes.csv";
 pub(crate) const SHAPES: &str = "shapes.csv";
 /// Files of analyses of the linear model.
@@ -128,7 +130,7 @@ impl ResultFolder {
     /// # Errors
     /// If something cannot be removed.
     pub fn clear(&self) -> Result<(), FileError> {
-        let mut stale = [HISTORY, SUMMARY, TELEMETRY, MOTION, SCENE, PAGE, MODES, SHAPES]
+        let mut stale = [HISTORY, SUMMARY, TELEMETRY, MOTION, SCENE, PAGE, EVENTS, MODES, SHAPES]
             .map(|name| self.path.join(name))
             .to_vec();
         stale.extend(OF_LINEAR_MODELS.map(|name| self.path.join(name)));
@@ -259,6 +261,20 @@ impl ResultFolder {
     /// If it cannot be written.
     pub fn write_table(&self, name: &str, text: &str) -> Result<(), FileError> {
         files::write(&self.path.join(name), text.as_bytes())
+    }
+
+    /// Writes names and times [s] of events.
+    ///
+    /// # Errors
+    /// If they cannot be written.
+    pub fn write_events<'e>(&self, events: impl Iterator<Item = (&'e str, f64)>) -> Result<(), FileError> {
+        let row = |(name, time): (&str, f64)| {
+            let has_signs = name.contains([',', '"', '\n']);
+            let name = if has_signs { format!("\"{}\"", name.replace('"', "\"\"")) } else { name.to_owned() };
+            format!("{time},{name}\n")
+        };
+        let rows: String = events.map(row).collect();
+        self.write_table(EVENTS, &format!("time,event\n{rows}"))
     }
 
     /// Writes the summary.

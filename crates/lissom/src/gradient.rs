@@ -196,7 +196,7 @@ pub fn gradient(
     let document = prepared(model, overrides, target)?;
     let mut session = Session::new(&document)?;
     let system = session.simulation().system();
-    if system.has_feedback() || system.signals().has_samples() {
+    if system.has_feedback() || system.signals().has_samples() || !system.signals().events().is_empty() {
         return Err(GradientError::Feedback);
     }
     let known: Vec<String> = session.columns().iter().map(crate::Column::name).collect();

@@ -11,6 +11,7 @@ use std::time::Instant;
 use lissom_core::analysis::{InitialError, InputError, Simulation, StepError, StepReport};
 use lissom_core::judge::Warning;
 use lissom_core::signals::Argument;
+use lissom_core::signals::event::Occurrence;
 use lissom_core::stepping::{Snapshot, SnapshotError};
 use lissom_model::channels::{Channel, signal_value};
 use lissom_model::document::AnalysisKind;
@@ -252,9 +253,21 @@ impl Session {
         Progress { time: self.schedule.time(), end: self.schedule.plan().end, done, planned }
     }
 
-    /// Whether the end is reached.
+    /// Whether the end is reached, or an event has happened that ends the run.
     pub fn is_finished(&self) -> bool {
-        self.schedule.is_finished()
+        self.schedule.is_finished() || self.stopped_by().is_some()
+    }
+
+    /// Name of the event at which the session stands, if that is to end the run. It can still be driven on.
+    pub fn stopped_by(&self) -> Option<&str> {
+        self.simulation.stopped_by()
+    }
+
+    /// Names and times [s] of the events that have happened.
+    pub fn events(&self) -> impl Iterator<Item = (&str, f64)> {
+        let events = self.simulation.system().signals().events();
+        let of = |occurrence: &Occurrence| (events[occurrence.event].name.as_str(), occurrence.time);
+        self.simulation.occurrences().iter().map(of)
     }
 
     /// Appends the values of all columns, now.
@@ -298,7 +311,8 @@ impl Session {
     }
 
     /// Goes on to `time` [s], which is met exactly; in steps of one size the last one is shorter. Does nothing where
-    /// `time` is reached already. Planned steps, and [`run`](Self::run), go on from there.
+    /// `time` is reached already, and stands still before it at an event that ends the run. Planned steps, and
+    /// [`run`](Self::run), go on from there.
     ///
     /// # Errors
     /// If a step has no solution; the session then stands at the end of the last one that has.
@@ -335,6 +349,9 @@ impl Session {
             if is_controlled {
                 self.take(Next::Until(time))?;
                 self.schedule.divert(self.simulation.state().kinematics.time);
+                if self.stopped_by().is_some() {
+                    return Ok(ControlFlow::Continue(()));
+                }
                 continue;
             }
             let planned = match self.schedule.next() {
@@ -344,12 +361,19 @@ impl Session {
             let rest = time - now;
             if rest > planned * (1.0 + WHOLE) && !self.schedule.is_finished() {
                 self.step()?;
+                if self.stopped_by().is_some() {
+                    return Ok(ControlFlow::Continue(()));
+                }
             } else if (rest - planned).abs() <= WHOLE * planned && !self.schedule.is_finished() {
                 self.step()?;
                 return Ok(ControlFlow::Continue(()));
             } else {
                 let size = rest.min(planned);
                 self.take(Next::Planned(size))?;
+                if self.stopped_by().is_some() {
+                    self.schedule.divert(self.simulation.state().kinematics.time);
+                    return Ok(ControlFlow::Continue(()));
+                }
                 self.schedule.divert(if size == rest { time } else { now + size });
             }
         }
@@ -359,8 +383,13 @@ impl Session {
     /// The next step where another follows at once, and whether it is to be recorded.
     fn step(&mut self) -> Result<(StepReport, bool), StepError> {
         let report = self.take(self.schedule.next())?;
-        let is_recorded = self.schedule.accept(self.simulation.state().kinematics.time);
-        Ok((report, is_recorded))
+        let time = self.simulation.state().kinematics.time;
+        if self.stopped_by().is_some() && !self.schedule.plan().is_controlled {
+            // The step ends where the event happened.
+            self.schedule.divert(time);
+            return Ok((report, false));
+        }
+        Ok((report, self.schedule.accept(time)))
     }
 
     fn take(&mut self, next: Next) -> Result<StepReport, StepError> {
@@ -485,7 +514,7 @@ impl Session {
         }
         let mut recorded = true;
         self.keep(writers, checkpoints)?;
-        while !self.schedule.is_finished() {
+        while !self.is_finished() {
             let before = self.schedule.time();
             recorded = match self.step() {
                 Ok((report, is_recorded)) => {
@@ -510,7 +539,7 @@ impl Session {
             if checkpoints.is_due(self.simulation.totals().steps) {
                 self.keep(writers, checkpoints)?;
             }
-            if watch(&self.progress()).is_break() && !self.schedule.is_finished() {
+            if watch(&self.progress()).is_break() && !self.is_finished() {
                 if !recorded {
                     self.write_row(writers)?;
                 }

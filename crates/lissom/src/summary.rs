@@ -92,6 +92,8 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     tell(summary, "warnings", known.into_iter().chain(warnings).collect());
     let mut tell = |name: &str, fact: Value| tell(summary, name, fact);
     tell("stopped", json!(report.stopped.name()));
+    tell("stopped_by", json!(session.stopped_by()));
+    tell("events", of_events(session));
     if let Some(error) = report.error() {
         tell("error", json!(error.to_string()));
     }
@@ -197,6 +199,18 @@ pub fn of_failed_start(summary: &mut Summary, error: &dyn std::error::Error) {
     ] {
         tell(summary, name, Value::Null);
     }
+}
+
+/// How often each event has happened, and when first and last.
+fn of_events(session: &Session) -> Value {
+    let mut told = serde_json::Map::new();
+    for event in session.simulation().system().signals().events() {
+        let times: Vec<f64> =
+            session.events().filter(|(name, _)| *name == event.name).map(|(_, time)| time).collect();
+        let fact = json!({ "count": times.len(), "first": times.first(), "last": times.last() });
+        told.insert(event.name.clone(), fact);
+    }
+    Value::Object(told)
 }
 
 fn of_energy(energy: &Energy) -> Value {

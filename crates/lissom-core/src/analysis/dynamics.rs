@@ -18,7 +18,7 @@ use crate::judge::{self, Judge, Ledger, Warning};
 use crate::newton::{self, Equations, Failure, Limits, Memory, Outcome};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Coupling, Scheme, Tableau};
-use crate::stepping::{Controller, MethodMemory, Parts, StepControl};
+use crate::stepping::{Controller, MethodMemory, Parts, StepControl, Watch};
 use crate::system::{Kinematics, Layout, Linearization, MotionChange, State, System, Threads};
 
 /// What a simulation is told besides system and state.
@@ -136,6 +136,8 @@ pub struct Simulation {
     pub(crate) warnings: Vec<Warning>,
     /// The last load parameter at which the equilibrium was stable, in statics [s].
     pub(super) stable_at: Option<f64>,
+    /// Numbers that may change their sign within a step.
+    pub(crate) watch: Watch,
     /// Whether the workspace still holds the step that led to the state.
     pub(crate) is_last_step_known: bool,
 }
@@ -210,6 +212,12 @@ impl Simulation {
         let controller = settings.control.filter(|_| settings.scheme.dynamic);
         let controller = controller.map(|_| Controller::new(settings.step_size));
         let kinks = if controller.is_some() { system.kinks() } else { Vec::new() };
+        let watch = if settings.scheme.dynamic {
+            Watch::new(&system, &state, controller.is_some())
+        } else {
+            Watch::of_nothing(&state)
+        };
+        watch.hold_sides(&system, &mut state.kinematics);
         Ok(Self {
             origin: state.kinematics.clone(),
             previous: state.clone(),
@@ -234,6 +242,7 @@ impl Simulation {
             next_ledger: ledger,
             warnings,
             stable_at: None,
+            watch,
             is_last_step_known: false,
         })
     }

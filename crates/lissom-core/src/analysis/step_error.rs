@@ -45,6 +45,18 @@ pub enum StepError {
         /// Size of the last attempt [s].
         size: f64,
     },
+    /// Something passes through zero again and again.
+    #[error(
+        "at t = {time:.6e} s {what} switches again and again, a thousand times within one step: the motion slides along \
+         the surface where it switches; give it a width (`tanh(v/0.01)` instead of `sign(v)`, hysteresis for an event), \
+         or use a kind made for it, such as friction"
+    )]
+    Chatters {
+        /// Time [s].
+        time: f64,
+        /// What switches.
+        what: String,
+    },
     /// A signal is not finite.
     #[error("{0}")]
     Signal(crate::signals::SignalError),

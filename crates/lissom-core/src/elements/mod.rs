@@ -215,6 +215,10 @@ pub trait Element: Send + Sync + 'static {
         Vec::new()
     }
 
+    /// Appends numbers that change their sign where its forces have a kink or a jump, as at the contact of a stop: as many
+    /// at every configuration. Default: none.
+    fn switches(&self, _at: &Kinematics, _out: &mut Vec<f64>) {}
+
     /// How fast it deforms [1/s]: the largest speed of its nodes relative to each other, over their distance, and one of
     /// the two nodes, for elements that can be bent. Default: none.
     fn deformation_rate(&self, _at: &Kinematics) -> Option<(f64, NodeId)> {

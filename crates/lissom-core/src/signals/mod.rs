@@ -11,6 +11,7 @@
 //! signals with a sample period between two samples.
 
 pub mod coordinate;
+pub mod event;
 pub mod measurement;
 pub mod point;
 pub mod rotation;
@@ -40,10 +41,16 @@ const ON_STACK: usize = 64;
 
 /// A function of time and of arguments, with exact derivatives by the arguments.
 pub trait SignalFunction: Send + Sync + fmt::Debug {
-    /// Value at `time` [s].
-    fn value(&self, time: f64, arguments: &[f64]) -> f64;
+    /// Value at `time` [s], continued from known `sides` of the function's switches; 0, or no sides, for not known.
+    fn value(&self, time: f64, arguments: &[f64], sides: &[f64]) -> f64;
     /// Derivatives by the arguments at `time` [s], written to `out`, one for each argument.
-    fn gradient(&self, time: f64, arguments: &[f64], out: &mut [f64]);
+    fn gradient(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut [f64]);
+    /// How many kinks and jumps [`switches`](Self::switches) tells of. Default: it has none.
+    fn switch_count(&self) -> usize {
+        0
+    }
+    /// Appends numbers that change their sign where the function has a kink or a jump.
+    fn switches(&self, _time: f64, _arguments: &[f64], _sides: &[f64], _out: &mut Vec<f64>) {}
 }
 
 /// Where an argument of a signal comes from.
@@ -104,6 +111,9 @@ pub struct Graph {
     pub(crate) measurements: Vec<Box<dyn Measurement>>,
     /// Names of the held values, and what they are at the start.
     pub(crate) held: Vec<(String, f64)>,
+    pub(crate) events: Vec<event::Event>,
+    /// Where the sides of each signal's switches begin among the held values, after all others.
+    first_sides: Vec<usize>,
 }
 
 impl Graph {
@@ -164,7 +174,31 @@ impl Graph {
         let signal = &self.signals[index];
         let mut arguments = [0.0; MOST_ARGUMENTS];
         self.gather(signal, at, values, &mut arguments);
-        signal.function.value(at.time, &arguments[..signal.arguments.len()])
+        signal.function.value(at.time, &arguments[..signal.arguments.len()], self.sides(index, at))
+    }
+
+    /// Held values at the start: inputs, samples, and the sides of all switches, which are not known.
+    pub(crate) fn held_at_start(&mut self) -> Vec<f64> {
+        let mut values: Vec<f64> = self.held.iter().map(|&(_, start)| start).collect();
+        self.first_sides.clear();
+        for signal in &self.signals {
+            self.first_sides.push(values.len());
+            let count = if signal.sampling.is_some() { 0 } else { signal.function.switch_count() };
+            values.resize(values.len() + count, 0.0);
+        }
+        values
+    }
+
+    /// Where the sides of switches begin among the held values.
+    pub(crate) fn first_side(&self) -> usize {
+        self.held.len()
+    }
+
+    /// Sides of a signal's switches.
+    fn sides<'k>(&self, signal: SignalId, at: &'k Kinematics) -> &'k [f64] {
+        let Some(&first) = self.first_sides.get(signal) else { return &[] };
+        let end = self.first_sides.get(signal + 1).map_or(at.held.len(), |next| *next);
+        at.held.get(first..end).unwrap_or_default()
     }
 
     fn gather(&self, signal: &Signal, at: &Kinematics, values: &[f64], out: &mut [f64]) {
@@ -211,7 +245,8 @@ impl Graph {
                 let (mut arguments, mut gradient) = ([0.0; MOST_ARGUMENTS], [0.0; MOST_ARGUMENTS]);
                 let count = signal.arguments.len();
                 self.gather(signal, at, values, &mut arguments);
-                signal.function.gradient(at.time, &arguments[..count], &mut gradient[..count]);
+                let sides = self.sides(index, at);
+                signal.function.gradient(at.time, &arguments[..count], sides, &mut gradient[..count]);
                 for (argument, derivative) in signal.arguments.iter().zip(&gradient) {
                     match *argument {
                         Argument::Signal(earlier) => adjoints[earlier] += adjoint * derivative,

@@ -8,10 +8,12 @@ mod arc;
 mod controller;
 mod dense;
 mod error_estimate;
+mod events;
 mod method_memory;
 mod parts;
 mod samples;
 mod snapshot;
+mod watch;
 
 pub(crate) use arc::ArcControl;
 pub(crate) use controller::Controller;
@@ -19,6 +21,7 @@ pub use controller::StepControl;
 pub(crate) use method_memory::MethodMemory;
 pub(crate) use parts::Parts;
 pub use snapshot::{Snapshot, SnapshotError};
+pub(crate) use watch::{Watch, Watched};
 
 use crate::analysis::{Phase, Simulation, StepError, StepReport, Stopwatch, Unwatched};
 use crate::judge::Ledger;
@@ -89,7 +92,7 @@ impl Simulation {
     }
 
     /// Takes a step of planned size: as a whole, or in parts where that has no solution. What a step of a scheme
-    /// promises holds for its parts, and so for the whole.
+    /// promises holds for its parts, and so for the whole. Ends before its end where an event happens.
     fn planned_step(
         &mut self,
         whole: f64,
@@ -101,8 +104,10 @@ impl Simulation {
         self.parts.restart();
         loop {
             let share = self.parts.share();
-            match self.attempt(share * whole, watch) {
-                Ok(outcome) => {
+            let size = share * whole;
+            let attempt = self.attempt(size, watch);
+            match attempt.and_then(|outcome| self.end_at_event((size, outcome), watch, report)) {
+                Ok((outcome, located)) => {
                     if share < 1.0 && start.is_none() {
                         start = Some((self.state.clone(), self.ledger));
                     }
@@ -112,6 +117,11 @@ impl Simulation {
                     self.is_last_step_known = true;
                     self.note_stability();
                     self.is_last_step_known = share == 1.0;
+                    self.after_events(located.as_ref(), whole)?;
+                    if located.is_some_and(|located| located.size < size) {
+                        self.parts.restart();
+                        return Ok(());
+                    }
                     if self.parts.accept() {
                         return Ok(());
                     }
@@ -154,21 +164,29 @@ impl Simulation {
         let ahead = |kink: &&f64| **kink > now + near && **kink < limit - near;
         let limit = self.kinks.iter().find(ahead).map_or(limit, |kink| kink.next_down());
         let rest = limit - now;
-        loop {
+        let located = loop {
             let size = controller.propose(rest).min(control.max_step).min(self.turning_limit());
             let error = match self.attempt(size, watch) {
                 Ok(outcome) => {
                     watch.begin(Phase::Rest);
                     let error = self.estimated_error(control.relative_tolerance);
                     if error <= 1.0 {
-                        note(report, &outcome);
-                        report.parts = 1;
-                        report.error = Some(error);
-                        controller.accept(size, error, control.max_step);
-                        break;
+                        match self.end_at_event((size, outcome), watch, report) {
+                            Ok((outcome, located)) => {
+                                note(report, &outcome);
+                                report.parts = 1;
+                                report.error = Some(error);
+                                break located;
+                            }
+                            Err(error) => {
+                                controller.fail(size);
+                                Some(error)
+                            }
+                        }
+                    } else {
+                        controller.reject(size, error);
+                        None
                     }
-                    controller.reject(size, error);
-                    None
                 }
                 Err(error) => {
                     controller.fail(size);
@@ -189,7 +207,9 @@ impl Simulation {
                 let time = self.state.kinematics.time;
                 return Err(error.unwrap_or(StepError::TooInaccurate { time, size }));
             }
-        }
+        };
+        let taken = self.scaled.step_size();
+        controller.accept(taken, report.error.unwrap_or(1.0), control.max_step);
         self.accept_step();
         if self.scaled.step_size() == rest {
             (self.state.kinematics.time, self.state.time_remainder) = (limit, 0.0);
@@ -197,7 +217,7 @@ impl Simulation {
         self.farthest = self.farthest.max(self.excursion_of(&self.state));
         self.controller = Some(controller);
         self.is_last_step_known = true;
-        Ok(())
+        self.after_events(located.as_ref(), control.max_step)
     }
 
     /// Solves a step of `size` [s] from the state.
@@ -257,14 +277,20 @@ impl Simulation {
             *error = scheme.error_constant * (found - predicted);
         }
         let (motion, constraints) = work.filtered.split_at_mut(work.error.len());
-        inertial_part(&self.system, &work.error, motion);
-        constraints.fill(0.0);
-        if let Some(equilibration) = &work.equilibration {
-            equilibration.scale(&mut work.filtered);
-        }
-        work.factorization.solve_inertial(&scheme.coupling, &mut work.filtered);
-        if let Some(equilibration) = &work.equilibration {
-            equilibration.scale(&mut work.filtered);
+        if self.watch.known.has_switched {
+            // The filter would hide a motion that the switch has just woken: an impact on a stiff stop.
+            motion.copy_from_slice(&work.error);
+            self.system.layout().states().for_each(|(row, ..)| motion[row] = 0.0);
+        } else {
+            inertial_part(&self.system, &work.error, motion);
+            constraints.fill(0.0);
+            if let Some(equilibration) = &work.equilibration {
+                equilibration.scale(&mut work.filtered);
+            }
+            work.factorization.solve_inertial(&scheme.coupling, &mut work.filtered);
+            if let Some(equilibration) = &work.equilibration {
+                equilibration.scale(&mut work.filtered);
+            }
         }
         let largest = work.filtered.iter().zip(&work.sizes).fold(0.0_f64, |most, (error, size)| {
             if (error * size).abs() <= most { most } else { (error * size).abs() }

@@ -1,4 +1,5 @@
-//! Steps that end at samples of signals: a planned step across a sample is taken in pieces that end there.
+//! Steps that end at samples of signals: a planned step across a sample is taken in pieces that end there, as one across
+//! an event is.
 
 use crate::analysis::{Simulation, StepError, StepReport, Stopwatch};
 
@@ -23,25 +24,28 @@ impl Simulation {
         report: &mut StepReport,
     ) -> Result<(), StepError> {
         let whole = self.settings.step_size;
-        if !self.system.signals().has_samples() {
+        if !self.system.signals().has_samples() && self.watch.is_empty() {
             return self.planned_step(whole, watch, report);
         }
-        let start = self.state.clone();
+        let start = (self.state.clone(), self.ledger, self.watch.known.clone());
         let end = self.now() + whole;
         // Of the first piece the size is known to the last bit.
         let mut rest = whole;
         let outcome = loop {
             let next = self.next_sample().map_or(f64::INFINITY, |next| next - self.now());
-            let is_last = next >= rest * (1.0 - CLOSE);
-            let result = self.planned_step(if is_last { rest } else { next }, watch, report);
+            let reaches_end = next >= rest * (1.0 - CLOSE);
+            let size = if reaches_end { rest } else { next };
+            let began = self.now();
+            let result = self.planned_step(size, watch, report);
             let result = result.and_then(|()| self.take_samples());
-            if result.is_err() || is_last {
+            let is_whole = self.now() - began >= size * (1.0 - CLOSE);
+            if result.is_err() || (reaches_end && is_whole) || self.watch.known.stopped_by.is_some() {
                 break result;
             }
             rest = end - self.now();
         };
         if outcome.is_err() {
-            self.state = start;
+            (self.state, self.ledger, self.watch.known) = start;
         }
         outcome
     }

@@ -7,7 +7,7 @@ use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
-use super::{Controller, MethodMemory, Parts};
+use super::{Controller, MethodMemory, Parts, Watched};
 use crate::analysis::snapshot_parts::{Learned, TangentNumbers};
 use crate::analysis::{Simulation, Totals};
 use crate::judge::{Ledger, Warning};
@@ -16,7 +16,7 @@ use crate::scaling::Scaled;
 use crate::system::{CoordinateMotion, Kinematics, NodeMotion, State};
 
 /// Changes whenever what a snapshot holds does.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -37,6 +37,7 @@ pub struct Snapshot {
     velocity_correction: f64,
     ledger: Ledger,
     warnings: Vec<Warning>,
+    watched: Watched,
     learned: Learned,
 }
 
@@ -164,6 +165,7 @@ impl Simulation {
             velocity_correction: self.velocity_correction,
             ledger: self.ledger,
             warnings: self.warnings.clone(),
+            watched: self.watch.known.clone(),
             learned: self.work.learned(),
         }
     }
@@ -199,6 +201,7 @@ impl Simulation {
         self.velocity_correction = from.velocity_correction;
         self.ledger = from.ledger;
         self.warnings.clone_from(&from.warnings);
+        self.watch.known.clone_from(&from.watched);
         self.work.note_scales(self.system.layout(), &self.scaled);
         self.is_last_step_known = false;
         Ok(())

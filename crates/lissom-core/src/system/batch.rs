@@ -76,6 +76,8 @@ pub(crate) trait AnyBatch: Send + Sync {
     fn spring_motion(&self, item: usize, at: &Kinematics) -> Option<[f64; 3]>;
     /// Times at which forces are known not to be smooth [s].
     fn kinks(&self) -> Vec<f64>;
+    /// Appends numbers that change their sign where forces have a kink or a jump.
+    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>);
     /// The largest rate at which an element deforms [1/s], with one of its nodes.
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)>;
     /// The two nodes of an element that are turned most against each other, and the cosine of half that angle.
@@ -314,6 +316,10 @@ impl<E: Element> AnyBatch for Batch<E> {
 
     fn kinks(&self) -> Vec<f64> {
         self.items.iter().flat_map(E::kinks).collect()
+    }
+
+    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+        self.items.iter().for_each(|item| item.switches(at, out));
     }
 
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {

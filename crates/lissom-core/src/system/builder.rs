@@ -24,6 +24,7 @@ use crate::joints::derivatives::{LOCAL, OWN, TIP};
 use crate::joints::prescribed::Prescribed;
 use crate::joints::{Build, Frames, Geometry, JointKind, Quantity};
 use crate::registry::{Function, ParameterError, Parameters};
+use crate::signals::event::Event;
 use crate::signals::measurement::Measurement;
 use crate::signals::{Argument, Graph, HeldId, MOST_ARGUMENTS, MeasurementId, Signal, SignalId};
 
@@ -324,6 +325,21 @@ impl Builder {
         self.targets.push((Target::State([state]), signal));
     }
 
+    /// Adds an event.
+    ///
+    /// # Errors
+    /// If it names signals or held values that are not there.
+    pub fn add_event(&mut self, event: Event) -> Result<(), ParameterError> {
+        let is_there = |&(held, signal): &(HeldId, SignalId)| {
+            held < self.graph.held.len() && signal < self.graph.signals.len()
+        };
+        if event.root >= self.graph.signals.len() || !event.sets.iter().all(is_there) {
+            return Err(ParameterError::new(&event.name, "names what is not there"));
+        }
+        self.graph.events.push(event);
+        Ok(())
+    }
+
     /// Adds with `build` a load of size one whose size is a signal.
     ///
     /// # Errors
@@ -429,7 +445,7 @@ impl Builder {
         let structure = Structure::new(pattern, self.groups(&layout))
             .map_err(|error| BuildError::Structure(error.to_string()))?;
         let joint_starts = starts(joint_rows.iter().map(Vec::len));
-        let state = self.initial_state(&layout, time, &feedback.graph);
+        let state = self.initial_state(&layout, time, feedback.graph.held_at_start());
         let feedback = Arc::new(feedback);
         if !feedback.is_empty() {
             self.batches.push(Box::new(Arc::clone(&feedback)));
@@ -527,7 +543,7 @@ impl Builder {
         groups
     }
 
-    fn initial_state(&self, layout: &Layout, time: f64, graph: &Graph) -> State {
+    fn initial_state(&self, layout: &Layout, time: f64, held: Vec<f64>) -> State {
         let coordinates = self
             .coordinates
             .iter()
@@ -539,7 +555,7 @@ impl Builder {
                 elapsed: 0.0,
                 nodes: self.nodes.iter().map(|node| node.motion).collect(),
                 coordinates,
-                held: graph.held.iter().map(|&(_, start)| start).collect(),
+                held,
             },
             multipliers: vec![0.0; layout.multiplier_count],
             violations: vec![0.0; layout.multiplier_count],

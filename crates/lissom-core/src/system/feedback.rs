@@ -369,6 +369,10 @@ impl AnyBatch for Arc<Feedback> {
         Vec::new()
     }
 
+    fn switches(&self, _: &Kinematics, _: &mut Vec<f64>) {
+        // Those of signals are watched with their sides.
+    }
+
     fn deformation_rate(&self, _: &Kinematics) -> Option<(f64, NodeId)> {
         None
     }

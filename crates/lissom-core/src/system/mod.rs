@@ -186,6 +186,12 @@ impl System {
         kinks
     }
 
+    /// Appends numbers that change their sign where forces of elements have a kink or a jump: as many at every
+    /// configuration.
+    pub fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+        self.batches.iter().for_each(|batch| batch.switches(at, out));
+    }
+
     /// The largest rate at which an element deforms [1/s], with one of its nodes; none where nothing can be bent.
     pub fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
         let rates = self.batches.iter().filter_map(|batch| batch.deformation_rate(at));

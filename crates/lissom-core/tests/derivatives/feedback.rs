@@ -21,12 +21,12 @@ use lissom_core::system::Placement;
 struct Waves;
 
 impl SignalFunction for Waves {
-    fn value(&self, time: f64, arguments: &[f64]) -> f64 {
+    fn value(&self, time: f64, arguments: &[f64], _: &[f64]) -> f64 {
         let sum: f64 = arguments.iter().enumerate().map(|(k, value)| (k as f64 + value).sin()).sum();
         (1.5 + sum) * time.cos()
     }
 
-    fn gradient(&self, time: f64, arguments: &[f64], out: &mut [f64]) {
+    fn gradient(&self, time: f64, arguments: &[f64], _: &[f64], out: &mut [f64]) {
         for (k, (out, value)) in out.iter_mut().zip(arguments).enumerate() {
             *out = (k as f64 + value).cos() * time.cos();
         }

@@ -81,6 +81,7 @@ fn complete(context: &Context<'_>, document: &Document) {
         ("inputs", document.inputs.len()),
         ("signals", document.signals.len()),
         ("states", document.states.len()),
+        ("events", document.events.len()),
     ];
     for (table, count) in read {
         let names = context.names(table);

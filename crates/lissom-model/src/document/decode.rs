@@ -7,7 +7,9 @@ use std::sync::Arc;
 use lissom_motion::Vector3;
 
 use super::tables::{self, Holds, variants};
-use super::{Document, analysis, beams, bodies, components, connections, materials, outputs, signals};
+use super::{
+    Document, analysis, beams, bodies, components, connections, events, materials, outputs, signals,
+};
 use crate::context::{Context, singular};
 use crate::expression;
 use crate::library::Library;
@@ -87,6 +89,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let inputs = signals::inputs(context);
     let signals = signals::signals(context);
     let states = signals::states(context);
+    let events = events::events(context);
     let initial = bodies::initial(context);
     let outputs = outputs::outputs(context, registry);
     let analysis = analysis::analysis(context, registry);
@@ -106,6 +109,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
         inputs,
         signals,
         states,
+        events,
         initial,
         outputs,
         analysis: analysis?,
@@ -113,6 +117,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
         sources: context.sources.clone(),
     };
     connections::check(context, &document);
+    events::check(context, &document.analysis);
     Some(document)
 }
 

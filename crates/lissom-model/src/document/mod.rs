@@ -7,6 +7,7 @@ mod bodies;
 mod components;
 mod connections;
 pub(crate) mod decode;
+mod events;
 mod load_input;
 mod materials;
 mod outputs;
@@ -27,6 +28,7 @@ use crate::sections::{Isotropic, SectionProperties, Shape};
 pub(crate) use bodies::body_axes;
 
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
+pub use events::EventEntry;
 pub use outputs::{Output, OutputKind, OutputSource};
 pub use signals::{SignalEntry, StateEntry};
 pub use tables::VERSION;
@@ -85,6 +87,8 @@ pub struct Document {
     pub signals: Vec<SignalEntry>,
     /// First-order states.
     pub states: Vec<StateEntry>,
+    /// What happens when expressions pass through zero.
+    pub events: Vec<EventEntry>,
     /// A rigid motion of all parts at the start.
     pub initial: Option<InitialMotion>,
     /// What is recorded.

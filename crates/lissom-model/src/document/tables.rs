@@ -36,7 +36,7 @@ const fn top(name: &'static str, holds: Holds, required: bool, summary: &'static
 pub const VERSION: usize = 1;
 
 /// All the words at the top.
-pub(crate) static TOP: [Top; 19] = [
+pub(crate) static TOP: [Top; 20] = [
     top("lissom", Holds::Value(Shape::Version), true, "Version of the file format."),
     top("title", Holds::Value(Shape::Text), false, "One line about the model."),
     top("gravity", Holds::Value(Shape::Vector), false, "Acceleration of gravity [m/s²]; none when left out."),
@@ -74,6 +74,7 @@ pub(crate) static TOP: [Top; 19] = [
         false,
         "First-order states: numbers whose derivative by time is an expression.",
     ),
+    top("events", Holds::Entries, false, "What happens when expressions pass through zero."),
     top(
         "initial",
         Holds::Table,
@@ -130,6 +131,7 @@ pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
         "springs" => (Some("kind"), kinds(&registry.springs)),
         "loads" => (Some("kind"), kinds(&registry.loads)),
         "states" => (None, vec![single(state())]),
+        "events" => (None, vec![single(super::events::keys())]),
         "initial" => (None, vec![single(initial())]),
         "outputs" => (Some("kind"), outputs()),
         "analysis" => (Some("kind"), analyses(registry)),

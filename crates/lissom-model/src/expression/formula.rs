@@ -6,7 +6,7 @@ use std::ops::Range;
 use lissom_core::signals::SignalFunction;
 
 use super::compile::compile;
-use super::{ExpressionError, Jet, Step, kinks, run};
+use super::{ExpressionError, Jet, Step, kinks, run, run_continued};
 
 /// A name in an expression that is no parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -87,18 +87,34 @@ impl Formula {
 }
 
 impl SignalFunction for Formula {
-    fn value(&self, time: f64, arguments: &[f64]) -> f64 {
-        run(&self.steps, Jet::constant(time), |index| Jet::constant(arguments[index])).value
+    fn value(&self, time: f64, arguments: &[f64], sides: &[f64]) -> f64 {
+        let of = |index: usize| Jet::constant(arguments[index]);
+        run_continued(&self.steps, Jet::constant(time), of, sides, |_| ()).value
     }
 
-    fn gradient(&self, time: f64, arguments: &[f64], out: &mut [f64]) {
+    fn gradient(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut [f64]) {
         for (wanted, derivative) in out.iter_mut().enumerate() {
             let of = |index: usize| {
                 let value = arguments[index];
                 if index == wanted { Jet::variable(value) } else { Jet::constant(value) }
             };
-            *derivative = run(&self.steps, Jet::constant(time), of).first;
+            *derivative = run_continued(&self.steps, Jet::constant(time), of, sides, |_| ()).first;
         }
+    }
+
+    fn switch_count(&self) -> usize {
+        let of = |step: &Step| match step {
+            Step::Call(function) | Step::Call2(function) | Step::Call3(function) => {
+                kinks::switch_count(*function)
+            }
+            _ => 0,
+        };
+        self.steps.iter().map(of).sum()
+    }
+
+    fn switches(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut Vec<f64>) {
+        let of = |index: usize| Jet::constant(arguments[index]);
+        run_continued(&self.steps, Jet::constant(time), of, sides, |value| out.push(value));
     }
 }
 
@@ -116,14 +132,30 @@ mod tests {
         let names: Vec<&str> = formula.arguments().iter().map(|name| name.text.as_str()).collect();
         assert_eq!(names, ["arm.rotation", "arm.rate", "command"]);
         let arguments = [0.3, -0.2, 1.5];
-        let value = formula.value(0.7, &arguments);
+        let value = formula.value(0.7, &arguments, &[]);
         let wanted = -200.0 * (0.3 - 0.5 * 0.7_f64.sin()) - 10.0 * 0.04 + 0.3 * 1.5;
         assert!((value - wanted).abs() < 1e-13);
         let mut gradient = [0.0; 3];
-        formula.gradient(0.7, &arguments, &mut gradient);
+        formula.gradient(0.7, &arguments, &[], &mut gradient);
         for (found, wanted) in gradient.iter().zip([-198.5, 4.0, 0.3]) {
             assert!((found - wanted).abs() < 1e-12, "{found} {wanted}");
         }
+    }
+
+    #[test]
+    fn functions_are_continued_from_known_sides() {
+        let formula = parse("max(0, a) + 10*abs(b) + 100*step(a)").unwrap();
+        assert_eq!(formula.switch_count(), 3);
+        let (value, mut gradient) = (|sides: &[f64]| formula.value(0.0, &[2.0, -3.0], sides), [0.0; 2]);
+        assert_eq!(value(&[]), 132.0);
+        assert_eq!(value(&[0.0; 3]), 132.0);
+        // 0 - a above zero: the contact has not begun; b is taken for positive.
+        assert_eq!(value(&[1.0, 1.0, -1.0]), -30.0);
+        formula.gradient(0.0, &[2.0, -3.0], &[1.0, 1.0, 1.0], &mut gradient);
+        assert_eq!(gradient, [0.0, 10.0]);
+        let mut switches = Vec::new();
+        formula.switches(0.0, &[2.0, -3.0], &[1.0, 1.0, -1.0], &mut switches);
+        assert_eq!(switches, [-2.0, -3.0, 2.0]);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Where an expression is not smooth: roots of straight lines under functions that have a kink or a jump.
 
-use super::{Function, STACK, Step};
+use super::{Function, Jet, STACK, Step};
 
 /// a + b x, or none for what is no straight line.
 type Line = Option<(f64, f64)>;
@@ -19,6 +19,49 @@ pub(super) fn of(steps: &[Step]) -> Vec<f64> {
     found.sort_by(f64::total_cmp);
     found.dedup();
     found
+}
+
+/// Hands out numbers that change their sign where a function has a kink or a jump, given its arguments.
+pub(super) fn switches(function: Function, [one, other, third]: [f64; 3], mut hand: impl FnMut(f64)) {
+    match function {
+        Function::Abs | Function::Sign | Function::Step => hand(one),
+        Function::Smoothstep => [one, one - 1.0].into_iter().for_each(hand),
+        Function::Min
+        | Function::Max
+        | Function::Less
+        | Function::LessOrEqual
+        | Function::Greater
+        | Function::GreaterOrEqual => hand(one - other),
+        Function::Clamp => [one - other, one - third].into_iter().for_each(hand),
+        _ => {}
+    }
+}
+
+/// How many numbers [`switches`] hands out.
+pub(super) fn switch_count(function: Function) -> usize {
+    let mut count = 0;
+    switches(function, [0.0; 3], |_| count += 1);
+    count
+}
+
+/// A function continued from the sides of its switches that are given by their signs, whatever its arguments; none where
+/// it is smooth enough, or a side is not known.
+pub(super) fn continued(function: Function, sides: &[f64], [one, other, third]: [Jet; 3]) -> Option<Jet> {
+    if sides.is_empty() || sides.contains(&0.0) {
+        return None;
+    }
+    let is_above = sides[0] > 0.0;
+    let truth = |holds: bool| Jet::constant(f64::from(u8::from(holds)));
+    match function {
+        Function::Abs => Some(one.scaled(sides[0])),
+        Function::Sign => Some(Jet::constant(sides[0])),
+        Function::Step | Function::Greater | Function::GreaterOrEqual => Some(truth(is_above)),
+        Function::Less | Function::LessOrEqual => Some(truth(!is_above)),
+        Function::Min => Some(if is_above { other } else { one }),
+        Function::Clamp if sides[1] > 0.0 => Some(third),
+        Function::Max | Function::Clamp => Some(if is_above { one } else { other }),
+        _ => None,
+    }
 }
 
 /// The line a step leaves, and the kinks it makes.

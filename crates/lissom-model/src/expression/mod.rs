@@ -93,6 +93,25 @@ impl Expression {
 
 /// The value that steps leave, for a variable and arguments.
 fn run(steps: &[Step], variable: Jet, argument: impl Fn(usize) -> Jet) -> Jet {
+    run_continued(steps, variable, argument, &[], |_| ())
+}
+
+/// The same with functions continued from known `sides` of their switches, in the order of the switches; none for all by
+/// their arguments. `hand` is given the switches.
+fn run_continued(
+    steps: &[Step],
+    variable: Jet,
+    argument: impl Fn(usize) -> Jet,
+    sides: &[f64],
+    mut hand: impl FnMut(f64),
+) -> Jet {
+    let mut next = 0;
+    let mut continued = |function: Function, arguments: [Jet; 3]| {
+        kinks::switches(function, arguments.map(|argument| argument.value), &mut hand);
+        let first = next;
+        next += kinks::switch_count(function);
+        kinks::continued(function, sides.get(first..next).unwrap_or_default(), arguments)
+    };
     let mut stack = [Jet::constant(0.0); STACK];
     let mut top = 0;
     for step in steps {
@@ -101,16 +120,25 @@ fn run(steps: &[Step], variable: Jet, argument: impl Fn(usize) -> Jet) -> Jet {
             Step::Variable => stack[top] = variable,
             Step::Argument(index) => stack[top] = argument(index),
             Step::Negate => stack[top - 1] = stack[top - 1].scaled(-1.0),
-            Step::Call(function) => stack[top - 1] = function.of(stack[top - 1]),
+            Step::Call(function) => {
+                let own = stack[top - 1];
+                stack[top - 1] = continued(function, [own; 3]).unwrap_or_else(|| function.of(own));
+            }
             Step::Add => stack[top - 2] = stack[top - 2].plus(stack[top - 1]),
             Step::Subtract => stack[top - 2] = stack[top - 2].plus(stack[top - 1].scaled(-1.0)),
             Step::Multiply => stack[top - 2] = stack[top - 2].times(stack[top - 1]),
             Step::Divide => stack[top - 2] = stack[top - 2].over(stack[top - 1]),
             Step::Power => stack[top - 2] = stack[top - 2].to_the(stack[top - 1]),
-            Step::Call3(function) => {
-                stack[top - 3] = function.of_three(stack[top - 3], stack[top - 2], stack[top - 1]);
+            Step::Call2(function) => {
+                let (one, other) = (stack[top - 2], stack[top - 1]);
+                stack[top - 2] =
+                    continued(function, [one, other, other]).unwrap_or_else(|| function.of_two(one, other));
             }
-            Step::Call2(function) => stack[top - 2] = function.of_two(stack[top - 2], stack[top - 1]),
+            Step::Call3(function) => {
+                let [one, other, third] = [stack[top - 3], stack[top - 2], stack[top - 1]];
+                stack[top - 3] = continued(function, [one, other, third])
+                    .unwrap_or_else(|| function.of_three(one, other, third));
+            }
         }
         top = top + 1 - step.operands();
     }

@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use lissom_core::joints::Quantity;
 use lissom_core::signals::coordinate::{Coordinate, Of};
+use lissom_core::signals::event::Event;
 use lissom_core::signals::{Argument, HeldId, Sampling, Signal, SignalId};
 use lissom_core::system::{Builder, CoordinateId};
 
 use super::Names;
 use super::measurements::measure;
-use crate::document::{Document, SignalEntry};
+use crate::document::{Document, EventEntry, SignalEntry};
 use crate::expression::{Formula, Name};
 use crate::report::{Located, Problem};
 use crate::suggest;
@@ -59,6 +60,32 @@ pub(super) fn add(
             Err(problem) => problems.push(problem),
         }
     }
+    for event in &document.events {
+        if let Err(problem) = add_event(document, builder, names, event) {
+            problems.push(problem);
+        }
+    }
+}
+
+fn add_event(
+    document: &Document,
+    builder: &mut Builder,
+    names: &mut Names,
+    entry: &EventEntry,
+) -> Result<(), Problem> {
+    let what = format!("`zero_of` of event `{}`", entry.name.value);
+    let root = add_formula(document, builder, names, &what, &entry.zero_of)?;
+    let mut sets = Vec::new();
+    for (input, becomes) in &entry.set {
+        let what = format!("`set.{}` of event `{}`", input.value, entry.name.value);
+        let signal = add_formula(document, builder, names, &what, becomes)?;
+        if let Some(&Argument::Held(held)) = names.signals.get(&input.value) {
+            sets.push((held, signal));
+        }
+    }
+    let event =
+        Event { name: entry.name.value.clone(), root, direction: entry.direction, stops: entry.stop, sets };
+    builder.add_event(event).map_err(|error| Problem::error(entry.name.span, error.to_string()))
 }
 
 /// Sorts signals so that each comes after those it names.

@@ -186,7 +186,7 @@ impl Run {
         for warning in session.warnings() {
             terminal::complain(&format!("warning: {warning}\n"));
         }
-        let kept = self.keep(&folder, &summary, (&record, task.plots), title);
+        let kept = self.keep(&folder, (&summary, &session), (&record, task.plots), title);
         if !self.quiet {
             let heading = if title.is_empty() { task.model.name() } else { title };
             terminal::print(&told(heading, &session, &report, folder.path()));
@@ -223,11 +223,14 @@ impl Run {
     fn keep(
         &self,
         folder: &ResultFolder,
-        summary: &Summary,
+        (summary, session): (&Summary, &Session),
         (record, plots): (&Record, bool),
         title: &str,
     ) -> Result<(), Failure> {
         folder.write_summary(summary).map_err(unwritable)?;
+        if !session.simulation().system().signals().events().is_empty() {
+            folder.write_events(session.events()).map_err(unwritable)?;
+        }
         if !plots {
             return Ok(());
         }
@@ -323,7 +326,11 @@ fn told(heading: &str, session: &Session, report: &RunReport, folder: &Path) -> 
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  {name:<12}{words}");
     };
-    let stopped = if report.is_complete() { String::new() } else { format!(" of {} s", plan.end) };
+    let stopped = match session.stopped_by() {
+        Some(event) => format!(", where event `{event}` happened,"),
+        None if report.is_complete() => String::new(),
+        None => format!(" of {} s", plan.end),
+    };
     line(
         if report.is_complete() { "done" } else { "reached" },
         format!(
@@ -375,6 +382,18 @@ fn told(heading: &str, session: &Session, report: &RunReport, folder: &Path) -> 
             energy.largest
         ),
     );
+    for event in simulation.system().signals().events() {
+        let own = session.events().filter(|(name, _)| *name == event.name);
+        let times: Vec<f64> = own.map(|(_, time)| time).collect();
+        let words = match times.as_slice() {
+            [] => "did not happen".to_owned(),
+            [time] => format!("happened at t = {time:.6} s"),
+            [first, .., last] => {
+                format!("happened {} times, from t = {first:.6} s to {last:.6} s", times.len())
+            }
+        };
+        line("event", format!("`{}` {words}", event.name));
+    }
     line("results", folder.display().to_string());
     text
 }

@@ -1,0 +1,124 @@
+//! Steps that end at events and where forces switch.
+
+use super::watch::Located;
+use crate::analysis::{Simulation, StepError, StepReport, Stopwatch};
+use crate::newton::Outcome;
+use crate::signals::event::Occurrence;
+
+/// Sides that may turn out to be wrong at the start of one step: beyond, the motion slides along a switch.
+const MOST_AT_START: usize = 8;
+
+impl Simulation {
+    /// The events that happened since the start, in their order.
+    pub fn occurrences(&self) -> &[Occurrence] {
+        &self.watch.known.occurrences
+    }
+
+    /// Name of the event at which the run is to end, if the last step ended at one.
+    pub fn stopped_by(&self) -> Option<&str> {
+        let event = self.watch.known.stopped_by?;
+        Some(&self.system.signals().events()[event].name)
+    }
+
+    /// An attempt of `size` [s] was solved and can be accepted. Where something passes through zero within it, it is
+    /// solved anew to end there.
+    ///
+    /// # Errors
+    /// If the shorter step has no solution.
+    pub(super) fn end_at_event(
+        &mut self,
+        (size, mut outcome): (f64, Outcome),
+        watch: &mut dyn Stopwatch,
+        report: &mut StepReport,
+    ) -> Result<(Outcome, Option<Located>), StepError> {
+        if self.watch.is_empty() {
+            return Ok((outcome, None));
+        }
+        let mut at_start = 0;
+        let mut located = loop {
+            let Some(located) = self.watch.passage(&self.system, (&self.state, &self.next), size) else {
+                return Ok((outcome, None));
+            };
+            if located.size > 0.0 {
+                break located;
+            }
+            at_start += 1;
+            if at_start > MOST_AT_START {
+                return Err(self.chatters(located.who[0]));
+            }
+            self.watch.switch_at_start(&located.who);
+            self.hold_sides()?;
+            report.rejected += 1;
+            outcome = self.attempt(size, watch)?;
+        };
+        let mut solved = size;
+        while located.size != solved {
+            report.rejected += 1;
+            solved = located.size;
+            outcome = self.attempt(solved, watch)?;
+            if self.watch.is_met(&self.system, (&self.state, &self.next), &mut located) {
+                break;
+            }
+        }
+        Ok((outcome, Some(located)))
+    }
+
+    /// After a step was accepted: notes which events happened at its end, and does what they ask for.
+    ///
+    /// # Errors
+    /// If signals switch again and again, or there are no consistent accelerations with the values that events set.
+    pub(super) fn after_events(&mut self, located: Option<&Located>, longest: f64) -> Result<(), StepError> {
+        if self.watch.is_empty() {
+            return Ok(());
+        }
+        let happened = self
+            .watch
+            .accept(&self.system, &self.state, located, longest)
+            .map_err(|which| self.chatters(which))?;
+        self.hold_sides()?;
+        let graph = self.system.signals();
+        let mut at = self.state.kinematics.clone();
+        for &event in &happened {
+            // All of them see the values before any of them.
+            for &(held, signal) in &graph.events()[event].sets {
+                at.held[held] = graph.value(signal, &self.state.kinematics);
+            }
+        }
+        if at.held == self.state.kinematics.held {
+            return Ok(());
+        }
+        graph.check(&at).map_err(StepError::Signal)?;
+        let time = at.time;
+        self.change_held_values(at).map_err(|error| StepError::Velocities { time, error })?;
+        self.watch.renew(&self.system, &self.state, &happened);
+        self.hold_sides()
+    }
+
+    /// Lets signals be continued from the sides of their switches that are known: forces may jump with them.
+    pub(crate) fn hold_sides(&mut self) -> Result<(), StepError> {
+        let first = self.system.signals().first_side();
+        if self.state.kinematics.held.len() == first {
+            return Ok(());
+        }
+        let mut at = self.state.kinematics.clone();
+        self.watch.hold_sides(&self.system, &mut at);
+        let pairs = || at.held[first..].iter().zip(&self.state.kinematics.held[first..]);
+        if pairs().all(|(side, held)| side == held) {
+            return Ok(());
+        }
+        if pairs().all(|(side, held)| side == held || *held == 0.0) {
+            // Sides that become known change nothing.
+            self.state.kinematics = at;
+            return Ok(());
+        }
+        let time = at.time;
+        self.change_held_values(at).map_err(|error| StepError::Velocities { time, error })
+    }
+
+    fn chatters(&self, which: usize) -> StepError {
+        let event = self.system.signals().events().get(which);
+        let what = event
+            .map_or("a force with a kink or a jump".to_owned(), |event| format!("event `{}`", event.name));
+        StepError::Chatters { time: self.state.kinematics.time, what }
+    }
+}

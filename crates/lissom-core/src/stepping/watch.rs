@@ -1,0 +1,254 @@
+//! Watches numbers that may change their sign within a step: roots of events, and switches of forces with kinks or
+//! jumps. A step across such an instant is taken anew, to end there.
+//!
+//! ```text
+//! g(t*) = 0:    t* on the cubics between the ends of the step by bisection, then
+//!               t* ← t* - g/ġ with the step to t* solved anew, to 1e-10 of the step
+//! ```
+//!
+//! Between two steps each number has a side, 1 or -1. Functions of signals are continued from their side over the whole
+//! step, so that it is smooth; what was beyond the root is not used. At the root the side changes whatever round-off says, so
+//! that the same root is not found again.
+
+use serde::{Deserialize, Serialize};
+
+use super::dense;
+use crate::signals::event::{Event, Occurrence};
+use crate::system::{Kinematics, State, System};
+
+/// Instants within a step at which signs are looked at, in parts of the step: numbers that pass through zero and back
+/// between two of them pass unseen.
+const INSTANTS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+/// Numbers smaller than this part of the largest seen have no sign.
+const NOISE: f64 = 1e-9;
+/// Accuracy of a root, in parts of the step.
+const ACCURACY: f64 = 1e-10;
+/// Roots closer than this to an end of the step, in parts of the step, are at that end: accelerations that a shorter step
+/// leaves are round-off.
+const CLOSE: f64 = 1e-6;
+/// Steps solved anew for one root: three are usual.
+const MOST_REFINEMENTS: usize = 6;
+/// Changes of sign within a longest step above which the motion slides along the surface that is passed.
+const MOST_PASSAGES: usize = 1000;
+
+/// What is known of the watched numbers between two steps.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Watched {
+    /// 1 above zero, -1 below, 0 where it is not known yet.
+    sides: Vec<i8>,
+    /// The largest magnitude seen.
+    largest: Vec<f64>,
+    /// Events that happened.
+    pub(crate) occurrences: Vec<Occurrence>,
+    /// The event that ends the run at the state, if one does.
+    pub(crate) stopped_by: Option<usize>,
+    /// Whether a force has switched at the state: what follows may be much faster than what was before.
+    pub(crate) has_switched: bool,
+    /// Since when passages are counted [s], and how many there were.
+    recent: (f64, usize),
+}
+
+/// An instant within a step at which something passes through zero.
+#[derive(Clone, Debug)]
+pub(crate) struct Located {
+    /// Size of the step that ends there [s]; zero where the step begins there.
+    pub(crate) size: f64,
+    /// Size of the step in which it was found [s].
+    whole: f64,
+    /// What passes through zero.
+    pub(crate) who: Vec<usize>,
+    refinements: usize,
+}
+
+/// The watched numbers of one simulation: those of events, then the switches of signals, then those of elements.
+pub(crate) struct Watch {
+    pub(crate) known: Watched,
+    /// Whether kinks and jumps of forces are watched beside events.
+    has_switches: bool,
+    values: Vec<f64>,
+    between: State,
+}
+
+impl Watch {
+    /// At the start of a motion; kinks and jumps of forces are watched with `has_switches`.
+    pub(crate) fn new(system: &System, start: &State, has_switches: bool) -> Self {
+        let mut watch = Self::of_nothing(start);
+        watch.has_switches = has_switches;
+        values_at(system, start, has_switches, &mut watch.values);
+        watch.known.sides = vec![0; watch.values.len()];
+        watch.known.largest = vec![0.0; watch.values.len()];
+        watch.known.recent.0 = start.kinematics.time;
+        watch.note(0..0, &[]);
+        watch
+    }
+
+    /// Where there is no motion.
+    pub(crate) fn of_nothing(start: &State) -> Self {
+        Self { known: Watched::default(), has_switches: false, values: Vec::new(), between: start.clone() }
+    }
+
+    /// Whether there is anything to watch.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.known.sides.is_empty()
+    }
+
+    /// The watched numbers that are switches of signals.
+    fn of_signals(&self, system: &System, at: &Kinematics) -> std::ops::Range<usize> {
+        let events = system.signals().events().len();
+        let count = if self.has_switches { at.held.len() - system.signals().first_side() } else { 0 };
+        events..events + count
+    }
+
+    /// Writes the sides of the switches of signals to where they are held.
+    pub(crate) fn hold_sides(&self, system: &System, at: &mut Kinematics) {
+        let sides = self.known.sides.get(self.of_signals(system, at)).unwrap_or_default();
+        let held = &mut at.held[system.signals().first_side()..];
+        held.iter_mut().zip(sides).for_each(|(held, side)| *held = f64::from(*side));
+    }
+
+    /// Takes note of the sides of all values that have none yet, or are neither among those `kept` nor `but`.
+    fn note(&mut self, kept: std::ops::Range<usize>, but: &[usize]) {
+        let known = &mut self.known;
+        for (k, value) in self.values.iter().enumerate() {
+            known.largest[k] = known.largest[k].max(value.abs());
+            let is_free = known.sides[k] == 0 || !(kept.contains(&k) || but.contains(&k));
+            if is_free && value.abs() > NOISE * known.largest[k] {
+                known.sides[k] = if *value > 0.0 { 1 } else { -1 };
+            }
+        }
+    }
+
+    /// Whether value `k` has passed through zero in a way that matters.
+    fn has_passed(&self, events: &[Event], k: usize) -> bool {
+        let (value, side) = (self.values[k], self.known.sides[k]);
+        let is_clear = value.abs() > NOISE * self.known.largest[k];
+        is_clear
+            && side != 0
+            && (value > 0.0) != (side > 0)
+            && events.get(k).is_none_or(|event| event.direction.allows(value > 0.0))
+    }
+
+    fn any_has_passed(&self, events: &[Event]) -> bool {
+        (0..self.values.len()).any(|k| self.has_passed(events, k))
+    }
+
+    fn at(&mut self, system: &System, (from, to): (&State, &State), share: f64) {
+        if share >= 1.0 {
+            return values_at(system, to, self.has_switches, &mut self.values);
+        }
+        let (start, end) = (from.kinematics.time, to.kinematics.time);
+        dense::interpolate(from, to, start + share * (end - start), &mut self.between);
+        values_at(system, &self.between, self.has_switches, &mut self.values);
+    }
+
+    /// The first instant of the step of `size` [s] at which something passes through zero.
+    pub(crate) fn passage(&mut self, system: &System, step: (&State, &State), size: f64) -> Option<Located> {
+        let events = system.signals().events();
+        let mut before = 0.0;
+        for instant in INSTANTS {
+            self.at(system, step, instant);
+            if !self.any_has_passed(events) {
+                before = instant;
+                continue;
+            }
+            let mut after = instant;
+            while after - before > 0.5 * ACCURACY {
+                let middle = 0.5 * (before + after);
+                self.at(system, step, middle);
+                if self.any_has_passed(events) { after = middle } else { before = middle }
+            }
+            self.at(system, step, after);
+            let who: Vec<usize> = (0..self.values.len()).filter(|&k| self.has_passed(events, k)).collect();
+            let are_switches = who.iter().all(|k| *k >= events.len());
+            let share = match after {
+                // The step begins where the force switches: another of no length would tell nothing.
+                after if after < CLOSE && are_switches => 0.0,
+                after if after > 1.0 - ACCURACY => 1.0,
+                after => after.max(CLOSE),
+            };
+            return Some(Located { size: share * size, whole: size, who, refinements: 0 });
+        }
+        None
+    }
+
+    /// The forces switch at the start of the step already.
+    pub(crate) fn switch_at_start(&mut self, who: &[usize]) {
+        for &k in who {
+            self.known.sides[k] = -self.known.sides[k];
+        }
+        self.known.has_switched = true;
+    }
+
+    /// Whether the step that was solved to end at the root ends there; otherwise the root has moved.
+    pub(crate) fn is_met(&mut self, system: &System, step: (&State, &State), located: &mut Located) -> bool {
+        let first = located.who[0];
+        located.refinements += 1;
+        self.at(system, step, 1.0 - 1e-3);
+        let earlier = self.values[first];
+        self.at(system, step, 1.0);
+        let value = self.values[first];
+        let change = -value * 1e-3 * located.size / (value - earlier);
+        let is_there = change.abs() <= ACCURACY * located.whole || change.is_nan();
+        if is_there || located.refinements > MOST_REFINEMENTS {
+            return true;
+        }
+        let size = (located.size + change).clamp(CLOSE * located.whole, located.whole);
+        let is_moved = size != located.size;
+        located.size = size;
+        !is_moved
+    }
+
+    /// Takes note of the end of a step that was accepted, and of what passed through zero there. Gives the events that
+    /// happened.
+    ///
+    /// # Errors
+    /// The index of what passes through zero again and again.
+    pub(crate) fn accept(
+        &mut self,
+        system: &System,
+        state: &State,
+        located: Option<&Located>,
+        longest: f64,
+    ) -> Result<Vec<usize>, usize> {
+        let events = system.signals().events();
+        let who: &[usize] = located.map_or(&[], |located| &located.who);
+        values_at(system, state, self.has_switches, &mut self.values);
+        self.note(self.of_signals(system, &state.kinematics), who);
+        let time = state.kinematics.time;
+        let known = &mut self.known;
+        known.stopped_by = None;
+        known.has_switched = who.iter().any(|&k| k >= events.len() || !events[k].sets.is_empty());
+        let mut happened = Vec::new();
+        for &k in who {
+            known.sides[k] = -known.sides[k];
+            if let Some(event) = events.get(k) {
+                happened.push(k);
+                known.occurrences.push(Occurrence { event: k, time });
+                if event.stops {
+                    known.stopped_by.get_or_insert(k);
+                }
+            }
+        }
+        if time - known.recent.0 > longest {
+            known.recent = (time, 0);
+        }
+        known.recent.1 += who.len();
+        if known.recent.1 > MOST_PASSAGES { Err(who[0]) } else { Ok(happened) }
+    }
+
+    /// After inputs have changed at the state: sides of events change with them, and nothing happens.
+    pub(crate) fn renew(&mut self, system: &System, state: &State, happened: &[usize]) {
+        values_at(system, state, self.has_switches, &mut self.values);
+        self.note(self.of_signals(system, &state.kinematics), happened);
+    }
+}
+
+/// What is watched, at a state.
+fn values_at(system: &System, state: &State, has_switches: bool, out: &mut Vec<f64>) {
+    out.clear();
+    system.signals().event_values(&state.kinematics, out);
+    if has_switches {
+        system.signals().switches(&state.kinematics, out);
+        system.switches(&state.kinematics, out);
+    }
+}

@@ -1,0 +1,94 @@
+//! Events of a model file.
+
+use lissom_core::signals::event::Direction;
+
+use super::analysis::{Analysis, AnalysisKind};
+use super::decode::each;
+use crate::context::Context;
+use crate::expression::Formula;
+use crate::keys::{Key, Shape, choice, optional, required};
+use crate::report::{Located, Span};
+use crate::suggest;
+use crate::text::Value;
+
+/// Something that happens when an expression passes through zero.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EventEntry {
+    /// Name.
+    pub name: Located<String>,
+    /// The expression.
+    pub zero_of: Located<Formula>,
+    /// Which way it passes.
+    pub direction: Direction,
+    /// Whether the run ends there.
+    pub stop: bool,
+    /// Inputs that change there, and what they become.
+    pub set: Vec<(Located<String>, Located<Formula>)>,
+}
+
+/// Keys of an event.
+pub(super) fn keys() -> Vec<Key> {
+    vec![
+        required(
+            "zero_of",
+            Shape::Formula,
+            "",
+            "the event happens where this expression passes through zero",
+        ),
+        optional(
+            "direction",
+            choice(&["both", "rising", "falling"]),
+            "",
+            "which way it passes, default `both`",
+        ),
+        optional("stop", Shape::Flag, "", "whether the run ends there, default `false`"),
+        optional("set", Shape::Table, "", "inputs that change there, and expressions of what they become"),
+    ]
+}
+
+pub(super) fn events(context: &Context<'_>) -> Vec<EventEntry> {
+    each(context, "events", |reader, name| {
+        let zero_of = reader.formula("zero_of");
+        let direction = match reader.choice("direction").map(|word| word.value) {
+            Some("rising") => Direction::Rising,
+            Some("falling") => Direction::Falling,
+            _ => Direction::Both,
+        };
+        let mut set = Vec::new();
+        if let Some(node) = reader.node("set") {
+            let Value::Table(table) = &node.value else {
+                return context.wrong_type(node, &reader.words("set"), "a table of inputs and expressions");
+            };
+            for (input, entry) in table {
+                if !context.has("inputs", input) {
+                    let known = context.names("inputs");
+                    let help = suggest::help(input, known.iter().map(|(known, _)| *known))
+                        .unwrap_or_else(|| format!("add `{input} = 0` to [inputs]: events set inputs only"));
+                    return context.fail(
+                        entry.key,
+                        format!("event `{name}` sets `{input}`, which is no input"),
+                        help,
+                    );
+                }
+                let formula = context.formula(&entry.node, &format!("`set.{input}` of event `{name}`"))?;
+                set.push((Located::new(input.clone(), entry.key), Located::new(formula, entry.node.span)));
+            }
+        }
+        Some(EventEntry {
+            name: Located::new(name.to_owned(), reader.name),
+            zero_of: zero_of?,
+            direction,
+            stop: reader.flag("stop").is_some_and(|stop| stop.value),
+            set,
+        })
+    })
+}
+
+/// Events need motion in time.
+pub(super) fn check(context: &Context<'_>, analysis: &Analysis) {
+    let first: Option<(&str, Span)> = context.names("events").first().copied();
+    if let (AnalysisKind::Statics { .. }, Some((name, span))) = (&analysis.kind, first) {
+        let message = format!("event `{name}` cannot happen in statics: there is no motion in time");
+        context.fail::<()>(span, message, "remove [events], or use `kind = \"dynamics\"`");
+    }
+}

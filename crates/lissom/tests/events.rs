@@ -1,0 +1,225 @@
+//! Events, and forces with kinks: instants against closed forms, what happens there, and what is refused.
+
+use lissom::{Model, Session, SessionError};
+
+const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
+
+/// A mass of 1 kg on a rail along x, thrown with 0.5 m/s; `tables` and keys of the analysis are added.
+fn rail(tables: &str, analysis: &str) -> String {
+    format!(
+        r#"
+lissom = 1
+[bodies.ball]
+mass = 1
+inertia = [1, 1, 1]
+velocity = [0.5, 0, 0]
+[joints.rail]
+kind = "prismatic"
+base = "ground"
+tip = "ball"
+axis = [1, 0, 0]
+[outputs.rail]
+kind = "relative"
+of = "rail"
+{tables}
+[analysis]
+kind = "dynamics"
+end = 1
+{analysis}
+"#
+    )
+}
+
+/// A constant force, by an event's input or without one.
+fn force(size: &str) -> String {
+    format!("[loads.push]\nkind = \"joint_force\"\njoint = \"rail\"\nforce = \"{size}\"\n")
+}
+
+fn session(text: &str) -> Session {
+    match Model::from_text("rail.toml", text).session(&[]) {
+        Ok(session) => session,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+fn finished(text: &str) -> Session {
+    let mut session = session(text);
+    let (_, report) = session.record();
+    assert!(report.is_complete(), "{report:?}");
+    session
+}
+
+fn failure(text: &str) -> String {
+    let mut session = session(text);
+    let (_, report) = session.record();
+    report.error().map_or_else(|| panic!("the run reaches its end"), ToString::to_string)
+}
+
+fn refusal(text: &str) -> String {
+    match Model::from_text("rail.toml", text).session(&[]) {
+        Ok(_) => panic!("the model is accepted"),
+        Err(SessionError::Model(report)) => report.render(false),
+        Err(error) => error.to_string(),
+    }
+}
+
+fn value(session: &Session, name: &str) -> f64 {
+    session.value(name).unwrap_or_else(|| panic!("there is no {name}"))
+}
+
+/// Contact lasts 0.3 ms, and no step sees it coming: a step that went on into it would keep the place and lose the velocity.
+#[test]
+fn a_stiff_contact_gives_the_velocity_back_with_every_scheme() {
+    let stop = force("-1e8*max(0, rail.displacement - 0.1)");
+    for scheme in SCHEMES {
+        for (tolerance, allowed) in [("1e-4", 0.01), ("1e-6", 5e-4)] {
+            let analysis = format!("relative_tolerance = {tolerance}\nscheme = \"{scheme}\"");
+            let session = finished(&rail(&stop, &analysis));
+            let velocity = value(&session, "rail.velocity");
+            assert!((velocity + 0.5).abs() < 0.5 * allowed, "{scheme}, {tolerance}: {velocity}");
+            assert!(session.simulation().totals().steps < 1000, "{scheme}, {tolerance}");
+        }
+    }
+}
+
+#[test]
+fn events_are_found_where_closed_forms_have_them() {
+    // x = t/2 - t².
+    let tables = format!(
+        "{}[events.passage]\nzero_of = \"rail.displacement - 0.05\"\n\
+         [events.back]\nzero_of = \"rail.displacement\"\ndirection = \"falling\"\n",
+        force("-2")
+    );
+    let root = (1.0_f64 / 16.0 - 0.05).sqrt();
+    for scheme in SCHEMES {
+        for (analysis, allowed) in
+            [("relative_tolerance = 1e-8", 1e-7), ("step = 0.01", 1e-4), ("step = 0.3", 0.05)]
+        {
+            let session = finished(&rail(&tables, &format!("{analysis}\nscheme = \"{scheme}\"")));
+            let found: Vec<(&str, f64)> = session.events().collect();
+            let wanted = [("passage", 0.25 - root), ("passage", 0.25 + root), ("back", 0.5)];
+            assert_eq!(found.len(), 3, "{scheme}, {analysis}: {found:?}");
+            for ((name, time), (wanted_name, wanted)) in found.iter().zip(wanted) {
+                assert_eq!(*name, wanted_name);
+                assert!(
+                    (time - wanted).abs() < allowed,
+                    "{scheme}, {analysis}: {name} at {time}, not {wanted}"
+                );
+            }
+        }
+    }
+}
+
+/// Radau solves parabolas exactly, so that the root shows how well it is located.
+#[test]
+fn roots_are_located_to_a_part_in_ten_thousand_million_of_the_step() {
+    let event = "[events.fast]\nzero_of = \"rail.velocity^3 + rail.displacement - 1\"\n";
+    for analysis in ["step = 0.25", "relative_tolerance = 1e-3"] {
+        let session = finished(&rail(
+            &format!("{}{event}", force("2")),
+            &format!("{analysis}\nscheme = \"radau-iia\""),
+        ));
+        let (_, time) = session.events().next().expect("it happens");
+        let at = |t: f64| (0.5 + 2.0 * t).powi(3) + 0.5 * t + t * t - 1.0;
+        assert!(at(time).abs() < 1e-9, "{analysis}: {:e} at {time}", at(time));
+    }
+}
+
+#[test]
+fn an_event_that_stops_ends_the_run_there() {
+    let event = "[events.half]\nzero_of = \"rail.displacement - 0.123\"\nstop = true\n";
+    for analysis in ["step = 0.01", "relative_tolerance = 1e-6"] {
+        let mut session = session(&rail(event, &format!("{analysis}\nscheme = \"radau-iia\"")));
+        let (record, report) = session.record();
+        assert!(report.is_complete(), "{report:?}");
+        assert_eq!(session.stopped_by(), Some("half"));
+        assert!((report.time - 0.246).abs() < 1e-9, "{}", report.time);
+        assert_eq!(record.times.last(), Some(&report.time));
+        assert!((value(&session, "rail.displacement") - 0.123).abs() < 1e-10);
+        // Rows before it stand where they were planned.
+        if analysis == "step = 0.01" {
+            assert_eq!(record.times.len(), 26);
+            assert!((record.times[24] - 0.24).abs() < 1e-12);
+        }
+        // It can be driven on, beyond the event and to the end.
+        session.step_to(0.5).unwrap();
+        assert!((value(&session, "rail.displacement") - 0.25).abs() < 1e-9);
+        assert_eq!(session.stopped_by(), None);
+    }
+}
+
+/// Thrust until a speed of 1 m/s is reached at 0.25 s, then less, then a brake from 0.5 m on.
+const STAGES: &str = r#"
+[inputs]
+thrust = 2
+brake = 0
+[events.fast]
+zero_of = "rail.velocity - 1"
+direction = "rising"
+set = { thrust = 0.5 }
+[events.far]
+zero_of = "rail.displacement - 0.5"
+set = { brake = "thrust + 4*rail.velocity" }
+"#;
+
+#[test]
+fn events_set_inputs() {
+    let tables = format!("{}{STAGES}", force("thrust - brake"));
+    // Radau and the energy-decaying scheme solve parabolas exactly, but the first event lies at the end of a planned step,
+    // and no step is shorter than a millionth of it. The others err in second order.
+    for (scheme, allowed) in SCHEMES.into_iter().zip([1e-7, 1e-4, 1e-4, 1e-7]) {
+        let session = finished(&rail(&tables, &format!("step = 0.01\nscheme = \"{scheme}\"")));
+        // From 0.1875 m at 0.25 s with 1 m/s on, 0.5 m is reached with this speed, and the brake takes 4 v.
+        let speed = 1.3125_f64.sqrt();
+        let rest = 1.0 - (0.25 + 2.0 * (speed - 1.0));
+        let velocity = value(&session, "rail.velocity");
+        assert!((velocity - speed * (1.0 - 4.0 * rest)).abs() < 10.0 * allowed, "{scheme}: {velocity}");
+        let place = 0.5 + speed * (rest - 2.0 * rest * rest);
+        let found = value(&session, "rail.displacement");
+        assert!((found - place).abs() < allowed, "{scheme}: {found}, not {place}");
+        assert_eq!(session.events().count(), 2, "{scheme}: {:?}", session.events().collect::<Vec<_>>());
+    }
+}
+
+#[test]
+fn a_restored_session_goes_on_to_the_last_bit() {
+    let tables = format!("{}{STAGES}", force("thrust - brake - 1e6*max(0, rail.displacement - 0.55)"));
+    for analysis in ["step = 0.01", "relative_tolerance = 1e-6"] {
+        let text = rail(&tables, &format!("{analysis}\nscheme = \"radau-iia\""));
+        let mut whole = session(&text);
+        let mut kept = None;
+        while !whole.is_finished() {
+            if kept.is_none() && whole.progress().time > 0.4 {
+                kept = Some(whole.snapshot());
+            }
+            whole.advance().unwrap();
+        }
+        let mut restored = session(&text);
+        restored.restore(&kept.expect("it passes 0.4 s")).unwrap();
+        while !restored.is_finished() {
+            restored.advance().unwrap();
+        }
+        assert_eq!(whole.snapshot(), restored.snapshot());
+        assert!(whole.events().count() >= 2);
+        assert_eq!(whole.events().collect::<Vec<_>>(), restored.events().collect::<Vec<_>>());
+    }
+}
+
+/// Dry friction as a jump of sign cannot hold a mass: the force switches to and fro.
+#[test]
+fn what_slides_along_its_switch_is_told() {
+    let message = failure(&rail(&force("-2*sign(rail.velocity)"), "relative_tolerance = 1e-5"));
+    assert!(message.contains("again and again") || message.contains("relative_tolerance"), "{message}");
+}
+
+#[test]
+fn events_that_make_no_sense_are_refused() {
+    let unknown =
+        rail("[inputs]\nmotor = 0\n[events.x]\nzero_of = \"t - 0.5\"\nset = { moter = 1 }\n", "step = 0.1");
+    let message = refusal(&unknown);
+    assert!(message.contains("`moter`, which is no input") && message.contains("motor"), "{message}");
+    let statics = rail("[events.x]\nzero_of = \"t - 0.5\"\n", "steps = 2").replace("dynamics", "statics");
+    assert!(refusal(&statics).contains("no motion in time"), "{}", refusal(&statics));
+    let name = rail("[events.x]\nzero_of = \"rail.displacment\"\n", "step = 0.1");
+    assert!(refusal(&name).contains("displacment"), "{}", refusal(&name));
+}
