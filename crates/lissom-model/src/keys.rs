@@ -62,6 +62,8 @@ pub(crate) enum Shape {
     Profile,
     /// Three numbers or expressions of `s`.
     Curve,
+    /// Three numbers or expressions of `s` and `t`.
+    Distribution,
     /// Two vectors.
     Axes,
     /// A number greater than zero, or a table of a density.

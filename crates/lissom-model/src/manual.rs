@@ -159,6 +159,7 @@ fn words(shape: &Shape) -> String {
         Shape::Signal => "an expression of signals, or `{ value, sample, start }`",
         Shape::Profile => "a number or an expression of `s`",
         Shape::Curve => "three expressions of `s`",
+        Shape::Distribution => "three expressions of `s` and `t`",
         Shape::Axes => "two vectors",
         Shape::Mass => "a number > 0, or `{ density }`",
         Shape::Inertia => "three numbers, a 3 x 3 matrix, or `{ box | cylinder | tube | sphere }`",

@@ -6,7 +6,7 @@ use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::decode::each;
 use super::places::PlaceOrNode;
-use super::{Beam, Body, NodeReference, PointMass, Station};
+use super::{Beam, Body, DistributedForce, NodeReference, PointMass, Station};
 use crate::context::Context;
 use crate::expression::Expression;
 use crate::keys::Shape;
@@ -25,6 +25,7 @@ struct Draft {
     order: usize,
     up: Option<Located<Vector3>>,
     twist: Expression,
+    distributed: Vec<DistributedForce>,
     /// The frame in which it is written.
     frame: Motion,
 }
@@ -43,6 +44,7 @@ pub(super) fn beams(context: &Context<'_>, bodies: &[Body], point_masses: &[Poin
             None => Some(Expression::of_constant(0.0)),
             Some(node) => reader.context.profile(node, &reader.words("twist")),
         };
+        let distributed = super::distributed::read(reader);
         let line_span = reader.node("curve").or(reader.node("to")).map_or(reader.name, |node| node.span);
         Some(Draft {
             name: Located::new(name.to_owned(), reader.name),
@@ -53,6 +55,7 @@ pub(super) fn beams(context: &Context<'_>, bodies: &[Body], point_masses: &[Poin
             order: order.map_or(3, |order| order.value),
             up,
             twist: twist?,
+            distributed: distributed?,
             frame: reader.context.frame(reader.scope)?,
         })
     });
@@ -321,5 +324,6 @@ fn finish(context: &Context<'_>, draft: Draft, line: Line) -> Option<Beam> {
         order: draft.order,
         up,
         twist: draft.twist,
+        distributed: draft.distributed,
     })
 }

@@ -7,6 +7,7 @@ mod bodies;
 mod components;
 mod connections;
 pub(crate) mod decode;
+mod distributed;
 mod events;
 mod load_input;
 mod materials;
@@ -28,6 +29,7 @@ use crate::sections::{Isotropic, SectionProperties, Shape};
 pub(crate) use bodies::body_axes;
 
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
+pub use distributed::DistributedForce;
 pub use events::EventEntry;
 pub use outputs::{Output, OutputKind, OutputSource};
 pub use signals::{SignalEntry, StateEntry};
@@ -195,6 +197,8 @@ pub struct Beam {
     pub up: Vector3,
     /// Turn about the tangent [rad], an expression of the fraction `s`.
     pub twist: Expression,
+    /// Forces per length.
+    pub distributed: Vec<DistributedForce>,
 }
 
 impl Beam {

@@ -225,6 +225,18 @@ fn beam() -> Vec<Key> {
         required("elements", Shape::Count(1, 100_000), "", "number of elements"),
         optional("order", Shape::Count(1, 3), "", "1, 2 or 3 (default): elements of 2, 3 or 4 nodes"),
         optional("up", Shape::Direction, "", "direction that local axis 3 leans to"),
+        optional(
+            "force_per_length",
+            Shape::Distribution,
+            "N/m",
+            "along global axes, which it keeps: three numbers or expressions of s and t",
+        ),
+        optional(
+            "section_force_per_length",
+            Shape::Distribution,
+            "N/m",
+            "along the section's axes 1, 2 and 3, with which it turns: three numbers or expressions of s and t",
+        ),
         optional("twist", Shape::Profile, "rad", "turn about the tangent, a number or an expression of s"),
     ]
 }

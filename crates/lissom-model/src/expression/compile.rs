@@ -251,7 +251,7 @@ impl<'t> Reader<'t, '_, '_> {
 }
 
 /// Replaces every step on constants by its result.
-fn fold(steps: Vec<Step>) -> Vec<Step> {
+pub(super) fn fold(steps: Vec<Step>) -> Vec<Step> {
     let mut folded: Vec<Step> = Vec::with_capacity(steps.len());
     for step in steps {
         let operands = step.operands();

@@ -5,8 +5,8 @@ use std::ops::Range;
 
 use lissom_core::signals::SignalFunction;
 
-use super::compile::compile;
-use super::{ExpressionError, Jet, Step, kinks, run, run_continued};
+use super::compile::{compile, fold};
+use super::{Expression, ExpressionError, Jet, Step, kinks, run, run_continued};
 
 /// A name in an expression that is no parameter.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -56,6 +56,15 @@ impl Formula {
     /// Whether it names the time.
     pub fn depends_on_time(&self) -> bool {
         self.steps.contains(&Step::Variable)
+    }
+
+    /// The expression of time alone that is left where the arguments are these numbers, one for each.
+    pub fn with_arguments(&self, arguments: &[f64]) -> Expression {
+        let number = |step: &Step| match *step {
+            Step::Argument(index) => Step::Constant(arguments[index]),
+            other => other,
+        };
+        Expression { steps: fold(self.steps.iter().map(number).collect()) }
     }
 
     /// Values of an argument at which it is known not to be smooth while other arguments are 0, in ascending order.

@@ -5,6 +5,7 @@ mod analysis;
 mod beginning;
 mod connections;
 mod couplings;
+mod distributed;
 mod measurements;
 mod parts;
 pub mod registry;

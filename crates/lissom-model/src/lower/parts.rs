@@ -142,5 +142,8 @@ fn add_beam(
             builder.set_twist(node, screw(&velocity, &angular));
         }
     }
+    if let Err(problem) = super::distributed::add(document, beam, &line, builder) {
+        problems.push(problem);
+    }
     names.lines.insert(beam.name.value.clone(), line);
 }

@@ -1,0 +1,106 @@
+//! Forces per length of beams, against closed forms.
+
+use lissom::{Model, Session, SessionError};
+
+const BEAM: &str = r#"
+lissom = 1
+[sections.bar]
+shape = "general"
+stiffness = [1e6, 4e5, 4e5, 100, 200, 200]
+mass = { per_length = 1, inertia = [2e-4, 1e-4, 1e-4] }
+[beams.bar]
+section = "bar"
+from = [0, 0, 0]
+to = [2, 0, 0]
+elements = 6
+order = ORDER
+FORCE
+[joints.root]
+kind = "clamp"
+base = "ground"
+tip = "bar.start"
+[outputs.tip]
+kind = "displacement"
+of = "bar.end"
+[outputs.turn]
+kind = "rotation"
+of = "bar.end"
+[outputs.root]
+kind = "reaction"
+of = "root"
+[analysis]
+ANALYSIS
+"#;
+
+fn beam(order: usize, force: &str, analysis: &str) -> String {
+    BEAM.replace("ORDER", &order.to_string()).replace("FORCE", force).replace("ANALYSIS", analysis)
+}
+
+fn finished(text: &str) -> Session {
+    let mut session = match Model::from_text("beam.toml", text).session(&[]) {
+        Ok(session) => session,
+        Err(error) => panic!("{error}"),
+    };
+    let (_, report) = session.record();
+    assert!(report.is_complete(), "{report:?}");
+    session
+}
+
+#[test]
+fn a_cantilever_bends_under_a_force_per_length() {
+    let statics = "kind = \"statics\"";
+    for (order, most) in [(1, 2e-2), (2, 1e-4), (3, 1e-5)] {
+        let run = finished(&beam(order, "force_per_length = [0, 0, -0.01]", statics));
+        // w L⁴/(8 EI) + w L²/(2 GA).
+        let wanted = -0.01 * (16.0 / (8.0 * 200.0) + 4.0 / (2.0 * 4e5));
+        let found = run.value("tip.u3").unwrap();
+        assert!((found / wanted - 1.0).abs() < most, "{order}: {found} {wanted}");
+        // From the base on the tip: what holds the whole load, w L.
+        assert!((run.value("root.f3").unwrap() - 0.02).abs() < 1e-8);
+    }
+    // Growing along the beam: w s/L: 11 w L⁴/(120 EI).
+    let run = finished(&beam(3, "force_per_length = [0, 0, \"-0.01*s\"]", statics));
+    let wanted = -0.01 * (11.0 * 16.0 / (120.0 * 200.0) + 4.0 / (3.0 * 4e5));
+    assert!((run.value("tip.u3").unwrap() / wanted - 1.0).abs() < 1e-5);
+}
+
+/// A force that stays normal to the section rolls the beam up: without tension the bending moment is w (L-s)²/2 only as long as
+/// the beam is straight; the resultant of a follower turns with it.
+#[test]
+fn a_force_in_section_axes_turns_with_the_section() {
+    let statics = "kind = \"statics\"\nsteps = 20";
+    let [dead, follower] = ["force_per_length", "section_force_per_length"]
+        .map(|key| finished(&beam(3, &format!("{key} = [0, 0, 60]"), statics)));
+    let value = |run: &Session, name: &str| run.value(name).unwrap();
+    // The dead load keeps its resultant, w L upward; that of the follower leans back.
+    assert!((value(&dead, "root.f3") + 120.0).abs() < 1e-6 && value(&dead, "root.f1").abs() < 1e-6);
+    assert!(value(&follower, "root.f1") > 10.0 && value(&follower, "root.f3") > -119.0);
+    assert!(value(&follower, "turn.r2").abs() > value(&dead, "turn.r2").abs());
+    // Sections of the follower: root force is -w ∫ n ds with the normals n; its square is that of the chord turned by 90 degrees
+    // where the beam is not stretched or sheared.
+    let chord = (2.0 + value(&follower, "tip.u1")).hypot(value(&follower, "tip.u3"));
+    let resultant = value(&follower, "root.f1").hypot(value(&follower, "root.f3"));
+    assert!((resultant / (60.0 * chord) - 1.0).abs() < 1e-3, "{resultant} {}", 60.0 * chord);
+}
+
+#[test]
+fn a_force_per_length_may_change_in_time() {
+    let analysis = "kind = \"dynamics\"\nscheme = \"radau-iia\"\nend = 0.02\nstep = 1e-3";
+    // Along the axis the free end moves as a bar: here the mean acceleration of the momentum, by the reaction.
+    let run = finished(&beam(2, "force_per_length = [0, \"3*sin(100*t)*s\", 0]", analysis));
+    assert!(run.value("tip.u2").unwrap() > 1e-4);
+    for (force, words) in [
+        ("force_per_length = [0, \"arm.rate\", 0]", "cannot name `arm.rate`"),
+        ("force_per_length = [0, \"1/s\", 0]", "not a finite number at s = 0"),
+        ("force_per_length = [0, 1]", "must have 3 entries"),
+    ] {
+        match Model::from_text("beam.toml", &beam(2, force, analysis)).session(&[]) {
+            Err(SessionError::Model(report)) => {
+                let told = report.render(false).split_whitespace().collect::<Vec<_>>().join(" ");
+                assert!(told.contains(words), "{told}");
+            }
+            Ok(_) => panic!("{force} is no good force"),
+            Err(error) => panic!("{error}"),
+        }
+    }
+}
