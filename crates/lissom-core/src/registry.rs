@@ -62,6 +62,10 @@ pub trait ForceFunction: Send + Sync + fmt::Debug {
     fn kinks(&self) -> Vec<f64> {
         Vec::new()
     }
+    /// Those of them at which steps of chosen size are to end. Default: none.
+    fn switches(&self) -> &[f64] {
+        &[]
+    }
 }
 
 /// A shared force.

@@ -43,6 +43,10 @@ impl ForceFunction for Expressed {
     fn kinks(&self) -> Vec<f64> {
         self.kinks.clone()
     }
+
+    fn switches(&self) -> &[f64] {
+        &self.kinks
+    }
 }
 
 impl Context<'_> {

@@ -159,6 +159,11 @@ impl Element for CoordinateSpring {
         self.law.is_active()
     }
 
+    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+        let [elongation, rate] = self.motion(at);
+        self.law.switches(elongation, rate, out);
+    }
+
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
         let [elongation, rate] = self.motion(at);
         Some([elongation, rate, self.law.evaluate(elongation, rate).force])

@@ -142,6 +142,27 @@ impl ForceLaw {
         response
     }
 
+    /// Appends numbers that change their sign where the force has a kink or a jump: at the ends of the free play, on the
+    /// way to the other side, at kinks of an expression, and at limits.
+    pub fn switches(&self, elongation: f64, rate: f64, out: &mut Vec<f64>) {
+        if self.side != Side::Negative && (self.play > 0.0 || self.side == Side::Positive) {
+            out.push(elongation - self.play);
+        }
+        if self.side != Side::Positive && (self.play > 0.0 || self.side == Side::Negative) {
+            out.push(elongation + self.play);
+        }
+        let past = elongation - elongation.clamp(-self.play, self.play);
+        if let Some(law) = &self.elastic {
+            out.extend(law.switches().iter().map(|kink| past - kink));
+        }
+        if let Some(law) = &self.damper {
+            out.extend(law.switches().iter().map(|kink| rate - kink));
+        }
+        for limit in self.limits.iter().filter(|limit| limit.is_finite() && **limit != 0.0) {
+            out.push(self.unlimited(past, rate).force - limit);
+        }
+    }
+
     /// Potential energy [J]; zero at the free length.
     pub fn energy(&self, elongation: f64) -> f64 {
         let past = elongation - elongation.clamp(-self.play, self.play);
@@ -285,6 +306,30 @@ mod tests {
         assert_eq!(limited.evaluate(0.5, 0.0), Response { force: 8.0, ..Response::default() });
         // ½ k (8/k)² up to where it saturates, then 8 N along the rest of the way.
         assert!((limited.energy(0.5) - (0.32 + 8.0 * 0.32)).abs() < 1e-8, "{}", limited.energy(0.5));
+    }
+
+    #[test]
+    fn switches_change_their_sign_where_the_force_has_a_kink() {
+        let given = Parameters::new()
+            .with("stiffness", Value::Number(100.0))
+            .with("backlash", Value::Number(0.2))
+            .with("limits", Value::Range([f64::NEG_INFINITY, 8.0]));
+        let at = |law: &ForceLaw, elongation: f64| {
+            let mut found = Vec::new();
+            law.switches(elongation, 0.0, &mut found);
+            found
+        };
+        let both = law(&given);
+        for (place, which) in [(0.1, 0), (-0.1, 1), (0.18, 2)] {
+            let [before, after] = [-1e-6, 1e-6].map(|step| at(&both, place + step));
+            assert_eq!(before.len(), 3);
+            for k in 0..3 {
+                assert_eq!(before[k] * after[k] < 0.0, k == which, "{place} {k}");
+            }
+        }
+        let compressed = law(&given.with("side", Value::Text("compression".to_owned())));
+        assert_eq!(at(&compressed, 0.3).len(), 1);
+        assert!(at(&law(&Parameters::new().with("stiffness", Value::Number(1.0))), 0.3).is_empty());
     }
 
     #[test]

@@ -231,6 +231,11 @@ impl Element for PointSpring {
         self.law.is_active()
     }
 
+    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+        let (_, length, rate, _) = self.tension(&self.points(at));
+        self.law.switches(length - self.length, rate, out);
+    }
+
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
         let (_, length, rate, tension) = self.tension(&self.points(at));
         Some([length - self.length, rate, tension.force])

@@ -213,6 +213,11 @@ impl Element for Stop {
         Energy { strain, ..Energy::default() }
     }
 
+    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+        let value = at.coordinates[self.coordinate[0]].value;
+        out.extend(self.range.iter().filter(|end| end.is_finite()).map(|end| value - end));
+    }
+
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
         let coordinate = &at.coordinates[self.coordinate[0]];
         Some([coordinate.value, coordinate.rate, self.force(at)])
