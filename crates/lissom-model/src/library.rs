@@ -41,7 +41,7 @@ impl Library {
         Self { folder: None, found: Mutex::new(found) }
     }
 
-    /// The text at `path`, which [`joined`] has made.
+    /// The text at `path`, which `joined` has made.
     ///
     /// # Errors
     /// If there is none.
