@@ -95,7 +95,7 @@ impl Channel {
                 touched.nodes.insert(*node);
             }
             Source::Place(Place::OnBeam { nodes, .. }, _) => touched.nodes.extend(nodes),
-            Source::Joint(index) => {
+            Source::Joint(index, _) | Source::RelativeMotion(index) => {
                 let joint = &system.joints()[*index];
                 touched.nodes.extend(joint.frames.map(|frame| frame.node));
                 touched.coordinates.extend(&joint.coordinates);
@@ -111,6 +111,12 @@ impl Channel {
                 touched.multipliers = coupling.multiplier..coupling.multiplier + 1;
             }
             Source::Coordinates(coordinates) => touched.coordinates.extend(coordinates),
+            Source::Accelerations(coordinates) => {
+                for joint in coordinates.iter().map(|&(joint, _)| &system.joints()[joint]) {
+                    touched.nodes.extend(joint.frames.map(|frame| frame.node));
+                    touched.coordinates.extend(&joint.coordinates);
+                }
+            }
             Source::Signal(argument) => {
                 let (nodes, coordinates) = system.signals().touched_by(*argument);
                 touched.nodes.extend(nodes);

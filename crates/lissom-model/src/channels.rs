@@ -6,12 +6,12 @@ use std::sync::Arc;
 use lissom_core::elements::beam::line::{BeamLine, BeamProbe};
 use lissom_core::elements::quadrature::gauss_lobatto;
 use lissom_core::elements::shape::lagrange;
-use lissom_core::joints::{Equations, Quantity};
+use lissom_core::joints::{Equations, MOST_COORDINATES, Quantity};
 use lissom_core::signals::Argument;
 use lissom_core::system::{CoordinateId, ElementId, Kinematics, NodeId, State, System};
 use lissom_motion::{Motion, Vector3, rotation_part, translation_part};
 
-use crate::document::{Document, NodeReference, Output, OutputKind, OutputSource};
+use crate::document::{Document, NodeReference, Output, OutputKind, OutputSource, ReactionAxes};
 use crate::report::{Located, Problem};
 
 /// One output: a name, its components, and how they are found.
@@ -55,10 +55,13 @@ pub(crate) enum Place {
 /// Where a channel's numbers come from.
 pub(crate) enum Source {
     Place(Place, Motion),
-    Joint(usize),
+    Joint(usize, ReactionAxes),
+    RelativeMotion(usize),
     Drive(usize),
     Coupling(usize),
     Coordinates(Vec<CoordinateId>),
+    /// Of coordinates by joint and place in it.
+    Accelerations(Vec<(usize, usize)>),
     Spring(ElementId, Quantity),
     Energy,
     Momentum,
@@ -115,12 +118,28 @@ impl Channel {
         let at = &state.kinematics;
         match &self.source {
             Source::Place(place, start) => self.evaluate_place(place, start, at, out),
-            Source::Joint(index) => {
+            Source::RelativeMotion(index) => {
+                let Motion { rotation, position } = system.joints()[*index].relative_motion(at);
+                out.extend(position.iter().chain(rotation.logarithm().iter()));
+            }
+            Source::Joint(index, axes) => {
                 let joint = &system.joints()[*index];
                 let mut mu = Equations::default();
                 let first = joint.first_multiplier;
                 mu[..joint.equations()].copy_from_slice(&state.multipliers[first..first + joint.equations()]);
-                out.extend_from_slice(joint.reaction(at, &mu).as_slice());
+                let reaction = joint.reaction(at, &mu);
+                let frame = match axes {
+                    ReactionAxes::Ground => {
+                        out.extend_from_slice(reaction.as_slice());
+                        return;
+                    }
+                    ReactionAxes::Base => joint.frames[0],
+                    ReactionAxes::Tip => joint.frames[1],
+                };
+                let axes = at.nodes[frame.node].frame.rotation * frame.offset.rotation;
+                for part in [translation_part(&reaction), rotation_part(&reaction)] {
+                    out.extend_from_slice(axes.apply_inverse(&part).as_slice());
+                }
             }
             Source::Drive(index) => {
                 out.push(-state.multipliers[system.drives()[*index].multiplier]);
@@ -128,6 +147,14 @@ impl Channel {
             Source::Coupling(index) => {
                 let coupling = &system.couplings()[*index];
                 out.extend(coupling.forces(at, state.multipliers[coupling.multiplier]));
+            }
+            Source::Accelerations(coordinates) => {
+                let of = |&(joint, k): &(usize, usize)| {
+                    let accelerations: [f64; MOST_COORDINATES] =
+                        system.joints()[joint].coordinate_accelerations(at);
+                    accelerations[k]
+                };
+                out.extend(coordinates.iter().map(of));
             }
             Source::Coordinates(coordinates) => {
                 for &coordinate in coordinates {
@@ -236,7 +263,7 @@ fn joint_source(
     system: &System,
     names: &Resolver<'_>,
 ) -> Result<Source, Problem> {
-    if output.kind == OutputKind::Relative {
+    if matches!(output.kind, OutputKind::Relative | OutputKind::RelativeAcceleration) {
         let coordinates = names.coordinates.get(&name.value).cloned().unwrap_or_default();
         if coordinates.is_empty() {
             let message = format!("joint `{}` has no relative coordinate to record", name.value);
@@ -245,10 +272,29 @@ fn joint_source(
                  or a drive of one",
             ));
         }
+        if output.kind == OutputKind::RelativeAcceleration {
+            let owner = |coordinate: &CoordinateId| {
+                let place = |own: &[CoordinateId]| own.iter().position(|known| known == coordinate);
+                let mut joints = system.joints().iter().enumerate();
+                joints.find_map(|(joint, own)| Some((joint, place(&own.coordinates)?)))
+            };
+            return Ok(Source::Accelerations(coordinates.iter().filter_map(owner).collect()));
+        }
         return Ok(Source::Coordinates(coordinates));
     }
     if let Some(index) = system.joints().iter().position(|joint| joint.name == name.value) {
-        return Ok(Source::Joint(index));
+        return Ok(match output.kind {
+            OutputKind::RelativeMotion => Source::RelativeMotion(index),
+            _ => Source::Joint(index, output.axes),
+        });
+    }
+    if output.kind == OutputKind::RelativeMotion {
+        let message = format!("`{}` stands between no two nodes", name.value);
+        return Err(Problem::error(name.span, message).help("name the joint that it acts on"));
+    }
+    if output.axes != ReactionAxes::Ground {
+        let message = format!("the reaction of `{}` has no axes: it acts on coordinates", name.value);
+        return Err(Problem::error(name.span, message).help("leave out `axes`"));
     }
     if let Some(index) = system.couplings().iter().position(|coupling| coupling.name == name.value) {
         return Ok(Source::Coupling(index));
@@ -340,8 +386,23 @@ fn components(kind: OutputKind, source: &Source, system: &System) -> (Vec<String
         (OutputKind::Reaction, _) => {
             words(&["f1", "f2", "f3", "m1", "m2", "m3"], &["N", "N", "N", "N m", "N m", "N m"])
         }
+        (OutputKind::RelativeMotion, _) => {
+            words(&["x", "y", "z", "r1", "r2", "r3"], &["m", "m", "m", "rad", "rad", "rad"])
+        }
         (OutputKind::Relative, Source::Coordinates(coordinates)) => relative(coordinates, system),
-        (OutputKind::Relative, _) => (Vec::new(), Vec::new()),
+        (OutputKind::RelativeAcceleration, Source::Accelerations(coordinates)) => {
+            let of_kind = |quantity| match quantity {
+                Quantity::Angle => "rad/s²",
+                Quantity::Length | Quantity::State => "m/s²",
+            };
+            let number = |k: usize| if coordinates.len() > 1 { (k + 1).to_string() } else { String::new() };
+            let each = coordinates.iter().enumerate().map(|(k, &(joint, own))| {
+                let coordinate = system.joints()[joint].coordinates[own];
+                (format!("a{}", number(k)), of_kind(system.layout().coordinate_quantity(coordinate)))
+            });
+            each.unzip()
+        }
+        (OutputKind::Relative | OutputKind::RelativeAcceleration, _) => (Vec::new(), Vec::new()),
         (OutputKind::Spring, Source::Spring(_, Quantity::Angle)) => {
             words(&["rotation", "rate", "moment"], &["rad", "rad/s", "N m"])
         }

@@ -384,3 +384,89 @@ fn wrong_locks_are_told() {
         assert!(error.contains(words), "{lines}: {error}");
     }
 }
+
+/// A slider on an arm that turns at a constant rate: r̈ = ω² r, and the guide's side force is Coriolis's, 2 m ω ṙ. The
+/// reaction is told in global axes, in those of the arm and in those of the slider.
+#[test]
+fn a_slider_on_a_turning_arm_feels_coriolis() {
+    let record = run(
+        r#"
+lissom = 1
+[bodies.arm]
+mass = 1
+inertia = [0.01, 0.1, 0.1]
+[bodies.slider]
+mass = 0.5
+inertia = [0.001, 0.001, 0.001]
+position = [0.2, 0, 0]
+[joints.hub]
+kind = "revolute"
+base = "ground"
+tip = "arm"
+at = [0, 0, 0]
+axis = [0, 0, 1]
+[joints.motor]
+kind = "prescribed_rotation"
+joint = "hub"
+rotation = "2*t"
+[joints.guide]
+kind = "prismatic"
+base = "arm"
+tip = "slider"
+axis = [1, 0, 0]
+[outputs.guide]
+kind = "relative"
+of = "guide"
+[outputs.pull]
+kind = "relative_acceleration"
+of = "guide"
+[outputs.from_arm]
+kind = "relative_motion"
+of = "guide"
+[outputs.global]
+kind = "reaction"
+of = "guide"
+[outputs.along]
+kind = "reaction"
+of = "guide"
+axes = "base"
+[outputs.on_slider]
+kind = "reaction"
+of = "guide"
+axes = "tip"
+[outputs.motor]
+kind = "reaction"
+of = "motor"
+[analysis]
+kind = "dynamics"
+scheme = "radau-iia"
+end = 1.0
+step = 0.001
+"#,
+        &[],
+    );
+    let (rate, time) = (2.0_f64, 1.0);
+    let radius = 0.2 * (rate * time).cosh();
+    let speed = 0.2 * rate * (rate * time).sinh();
+    assert!((last(&record, "guide", "displacement") - (radius - 0.2)).abs() < 1e-8);
+    assert!((last(&record, "pull", "a") - rate * rate * radius).abs() < 1e-5);
+    // The joint frame's third axis is along the arm, the first across it.
+    assert!((last(&record, "from_arm", "z") - (radius - 0.2)).abs() < 1e-8);
+    for component in ["x", "y", "r1", "r2", "r3"] {
+        assert!(last(&record, "from_arm", component).abs() < 1e-11, "{component}");
+    }
+    let coriolis = 2.0 * 0.5 * rate * speed;
+    let force = |output: &str| ["f1", "f2", "f3"].map(|axis| last(&record, output, axis));
+    let global = force("global");
+    let side = -global[0] * rate.sin() + global[1] * rate.cos();
+    assert!((side - coriolis).abs() < 1e-3 * coriolis, "{side} {coriolis}");
+    assert!((global[0] * rate.cos() + global[1] * rate.sin()).abs() < 1e-6 * coriolis);
+    for output in ["along", "on_slider"] {
+        let [first, second, third] = force(output);
+        assert!(third.abs() < 1e-6 * coriolis, "{output}: {third}");
+        assert!((first.hypot(second) - side.abs()).abs() < 1e-9 * coriolis, "{output}");
+        assert!(first.abs() < 1e-6 || second.abs() < 1e-6, "{output}: one of them is normal to the plane");
+    }
+    // The motor bears the moment of that force.
+    assert!((last(&record, "motor", "moment") - coriolis * radius).abs() < 1e-2 * coriolis);
+}

@@ -217,6 +217,33 @@ impl AttachedJoint {
         variation
     }
 
+    /// Accelerations of its coordinates that follow from those of its nodes, by the least squares of c̈ = 0. Schemes
+    /// know those of massless coordinates to a lower order than those of nodes.
+    pub fn coordinate_accelerations(&self, at: &Kinematics) -> [f64; MOST_COORDINATES] {
+        let configuration = self.outright(at);
+        let rows = self.gradient_at(&configuration);
+        let speeds = self.speeds(at);
+        let mut accelerations = SVector::<f64, LOCAL>::zeros();
+        for (frame, first) in self.frames.iter().zip([0, TIP]) {
+            accelerations.fixed_rows_mut::<6>(first).copy_from(&at.nodes[frame.node].acceleration);
+        }
+        let known = rows * accelerations;
+        let own = rows.fixed_columns::<MOST_COORDINATES>(OWN);
+        let mut right = SVector::<f64, MOST_COORDINATES>::zeros();
+        for equation in 0..self.equations() {
+            let mut mu = Equations::default();
+            mu[equation] = 1.0;
+            let bias = speeds.dot(&(self.curvature(&configuration, &mu) * speeds));
+            right -= own.row(equation).transpose() * (known[equation] + bias);
+        }
+        let mut square = own.tr_mul(&own);
+        for k in self.coordinates.len()..MOST_COORDINATES {
+            square[(k, k)] = 1.0;
+        }
+        let inverse = square.try_inverse().unwrap_or_else(SMatrix::zeros);
+        (inverse * right).into()
+    }
+
     /// Wrench of the joint on the tip at the joint's point, in inertial axes [N, N m], for the
     /// multipliers `mu` at the configuration `at`.
     pub fn reaction(&self, at: &Kinematics, mu: &Equations) -> Vector6 {

@@ -31,7 +31,7 @@ pub(crate) use bodies::body_axes;
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
 pub use distributed::DistributedForce;
 pub use events::EventEntry;
-pub use outputs::{Output, OutputKind, OutputSource};
+pub use outputs::{Output, OutputKind, OutputSource, ReactionAxes};
 pub use signals::{SignalEntry, StateEntry};
 pub use tables::VERSION;
 

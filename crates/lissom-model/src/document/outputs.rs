@@ -33,6 +33,10 @@ pub enum OutputKind {
     Reaction,
     /// Relative coordinate of a joint [rad or m].
     Relative,
+    /// Second derivative of a joint's relative coordinates [rad/s² or m/s²].
+    RelativeAcceleration,
+    /// Place [m] and rotation vector [rad] of a joint's tip frame in its base frame.
+    RelativeMotion,
     /// Elongation, rate and force of a spring [m, m/s, N or rad, rad/s, N m].
     Spring,
     /// Energies of the whole model [J].
@@ -45,7 +49,7 @@ pub enum OutputKind {
 
 impl OutputKind {
     /// All of them, in the order of the manual.
-    pub const ALL: [Self; 14] = [
+    pub const ALL: [Self; 16] = [
         Self::Position,
         Self::Displacement,
         Self::Rotation,
@@ -56,6 +60,8 @@ impl OutputKind {
         Self::SectionMoment,
         Self::Reaction,
         Self::Relative,
+        Self::RelativeAcceleration,
+        Self::RelativeMotion,
         Self::Spring,
         Self::Energy,
         Self::Momentum,
@@ -75,6 +81,8 @@ impl OutputKind {
             Self::SectionMoment => "section_moment",
             Self::Reaction => "reaction",
             Self::Relative => "relative",
+            Self::RelativeAcceleration => "relative_acceleration",
+            Self::RelativeMotion => "relative_motion",
             Self::Spring => "spring",
             Self::Energy => "energy",
             Self::Momentum => "momentum",
@@ -95,6 +103,10 @@ impl OutputKind {
             Self::SectionMoment => "Torsion and bending moments in a beam, local axes.",
             Self::Reaction => "Force and moment of a joint on its tip.",
             Self::Relative => "Relative coordinate of a joint.",
+            Self::RelativeAcceleration => "Accelerations of a joint's relative coordinates.",
+            Self::RelativeMotion => {
+                "Place and rotation vector of a joint's tip frame, in the axes of its base frame."
+            }
             Self::Spring => "Elongation or rotation of a spring, its rate, and its force or moment.",
             Self::Energy => "Kinetic, strain, gravity and total energy of the model.",
             Self::Signal => "Value of a signal, an input or a state.",
@@ -122,7 +134,7 @@ impl OutputKind {
 
     /// Whether it belongs to a joint.
     pub(crate) fn is_of_joint(self) -> bool {
-        matches!(self, Self::Reaction | Self::Relative)
+        matches!(self, Self::Reaction | Self::Relative | Self::RelativeAcceleration | Self::RelativeMotion)
     }
 
     /// Whether a point carried by the node may be named.
@@ -151,6 +163,31 @@ pub enum OutputSource {
     Signal(Located<String>),
 }
 
+/// Axes in which a joint's reaction is told.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ReactionAxes {
+    /// Global ones.
+    #[default]
+    Ground,
+    /// Those of the joint frame that the base carries.
+    Base,
+    /// Those of the joint frame that the tip carries.
+    Tip,
+}
+
+impl ReactionAxes {
+    /// Words in the model file.
+    pub(crate) const WORDS: [&'static str; 3] = ["ground", "base", "tip"];
+
+    fn named(word: &str) -> Self {
+        match word {
+            "base" => Self::Base,
+            "tip" => Self::Tip,
+            _ => Self::Ground,
+        }
+    }
+}
+
 /// One recorded quantity.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Output {
@@ -160,6 +197,8 @@ pub struct Output {
     pub kind: OutputKind,
     /// Whose.
     pub source: OutputSource,
+    /// In which axes, for a reaction.
+    pub axes: ReactionAxes,
 }
 
 pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output> {
@@ -193,7 +232,12 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
             }
             OutputSource::Node { node, point }
         };
-        Some(Output { name: Located::new(name.to_owned(), reader.name), kind, source })
+        let axes = match kind {
+            OutputKind::Reaction => reader.choice("axes").map(|word| ReactionAxes::named(word.value)),
+            _ => None,
+        };
+        let name = Located::new(name.to_owned(), reader.name);
+        Some(Output { name, kind, source, axes: axes.unwrap_or_default() })
     })
 }
 

@@ -436,6 +436,14 @@ fn outputs() -> Vec<Variant> {
         if kind.is_of_joint() {
             keys.push(required("of", Shape::Name("joints"), "", "the joint"));
         }
+        if *kind == OutputKind::Reaction {
+            keys.push(optional(
+                "axes",
+                choice(&super::ReactionAxes::WORDS),
+                "",
+                "global axes, or those of the joint frame that base or tip carries; default ground",
+            ));
+        }
         if *kind == OutputKind::Spring {
             keys.push(required("of", Shape::Name("springs"), "", "the spring"));
         }

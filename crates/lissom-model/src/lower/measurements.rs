@@ -108,6 +108,8 @@ fn of_output(
         | OutputKind::SectionForce
         | OutputKind::SectionMoment
         | OutputKind::Reaction
+        | OutputKind::RelativeAcceleration
+        | OutputKind::RelativeMotion
         | OutputKind::Spring
         | OutputKind::Energy
         | OutputKind::Momentum => {
