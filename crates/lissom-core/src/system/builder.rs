@@ -21,7 +21,6 @@ use crate::joints::attached::{AttachedJoint, CarriedFrame};
 use crate::joints::blocks::Batches;
 use crate::joints::coupling::Coupling;
 use crate::joints::derivatives::{LOCAL, OWN, TIP};
-use crate::joints::prescribed::Prescribed;
 use crate::joints::{Build, Frames, Geometry, JointKind, Quantity};
 use crate::registry::{Function, ParameterError, Parameters};
 use crate::signals::event::Event;
@@ -249,33 +248,6 @@ impl Builder {
         let mut normal = Vector3::zeros();
         normal[3 - a - b] = 1.0;
         base.rotation.apply_inverse(&frame.rotation.apply(&normal)).z.abs() > 1.0 - 1e-12
-    }
-
-    /// Prescribes a coordinate, with a drive of a kind that acts on one.
-    ///
-    /// # Errors
-    /// If a parameter is missing, or the drive is for another kind of coordinate.
-    pub fn add_drive(
-        &mut self,
-        name: &str,
-        kind: &JointKind,
-        coordinate: CoordinateId,
-        parameters: &Parameters,
-    ) -> Result<(), ParameterError> {
-        let Build::Coordinate(wanted, build) = kind.build else {
-            return Err(ParameterError::new("kind", "stands between two nodes"));
-        };
-        self.check_quantity(coordinate, wanted)?;
-        let prescribed = Prescribed { coordinate, value: build(parameters)? };
-        self.drives.push(Drive {
-            name: name.to_owned(),
-            prescribed,
-            multiplier: self.multipliers.len(),
-            positions: [0; 3],
-        });
-        self.multipliers.push((name.to_owned(), wanted.relative()));
-        self.multiplier_quantities.push(wanted);
-        Ok(())
     }
 
     /// Adds a held value, an input or the last sample of a signal, with its value at the start.

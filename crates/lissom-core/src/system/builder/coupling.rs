@@ -1,13 +1,41 @@
-//! Adds relations between coordinates.
+//! Adds drives of coordinates, and relations between coordinates.
 
 use super::Builder;
 use crate::joints::coupling::{Coupling, MOST_COUPLED, Relation, RelationPoint};
+use crate::joints::prescribed::Prescribed;
 use crate::joints::{Build, JointKind, Quantity};
 use crate::registry::{ParameterError, Parameters};
-use crate::system::CoordinateId;
 use crate::system::layout::Layout;
+use crate::system::{CoordinateId, Drive};
 
 impl Builder {
+    /// Prescribes a coordinate, with a drive of a kind that acts on one.
+    ///
+    /// # Errors
+    /// If a parameter is missing, or the drive is for another kind of coordinate.
+    pub fn add_drive(
+        &mut self,
+        name: &str,
+        kind: &JointKind,
+        coordinate: CoordinateId,
+        parameters: &Parameters,
+    ) -> Result<(), ParameterError> {
+        let Build::Coordinate(wanted, build) = kind.build else {
+            return Err(ParameterError::new("kind", "stands between two nodes"));
+        };
+        self.check_quantity(coordinate, wanted)?;
+        let prescribed = Prescribed { coordinate, value: build(parameters)? };
+        self.drives.push(Drive {
+            name: name.to_owned(),
+            prescribed,
+            multiplier: self.multipliers.len(),
+            positions: [0; 3],
+        });
+        self.multipliers.push((name.to_owned(), wanted.relative()));
+        self.multiplier_quantities.push(wanted);
+        Ok(())
+    }
+
     /// Relates coordinates, with a relation of a kind that does; they are those of the relation, in its order.
     ///
     /// # Errors
