@@ -2,6 +2,7 @@
 //! another law of φ - φ₀ and φ̇.
 
 use super::force_law::{ForceLaw, SIDE_OF_ANGLE, SIDE_OF_LENGTH};
+use super::sides::Sides;
 use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
 use crate::joints::Quantity;
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
@@ -103,6 +104,7 @@ pub struct CoordinateSpring {
     law: ForceLaw,
     /// Where it is free of force.
     rest: f64,
+    sides: Sides,
 }
 
 fn add(
@@ -118,6 +120,7 @@ fn add(
         coordinate: [coordinate],
         law: ForceLaw::new(parameters, [elastic, damper])?,
         rest: parameters.number_or(rest, 0.0)?,
+        sides: Sides::default(),
     });
     Ok(())
 }
@@ -141,12 +144,12 @@ impl Element for CoordinateSpring {
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
         let [elongation, rate] = self.motion(at);
-        out[0] += self.law.evaluate(elongation, rate).force;
+        out[0] += self.law.evaluate(elongation, rate, self.sides.of(at)).force;
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
         let [elongation, rate] = self.motion(at);
-        let response = self.law.evaluate(elongation, rate);
+        let response = self.law.evaluate(elongation, rate, self.sides.of(at));
         out.stiffness[0] += response.stiffness;
         out.damping[0] += response.damping;
     }
@@ -155,17 +158,25 @@ impl Element for CoordinateSpring {
         Energy { strain: self.law.energy(self.motion(at)[0]), ..Energy::default() }
     }
 
-    fn is_load(&self) -> bool {
-        self.law.is_active()
+    fn switch_count(&self) -> usize {
+        self.law.switch_count()
+    }
+
+    fn hold_sides(&mut self, sides: Sides) {
+        self.sides = sides;
     }
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
         let [elongation, rate] = self.motion(at);
-        self.law.switches(elongation, rate, out);
+        self.law.switches(elongation, rate, self.sides.of(at), out);
+    }
+
+    fn is_load(&self) -> bool {
+        self.law.is_active()
     }
 
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
         let [elongation, rate] = self.motion(at);
-        Some([elongation, rate, self.law.evaluate(elongation, rate).force])
+        Some([elongation, rate, self.law.evaluate(elongation, rate, self.sides.of(at)).force])
     }
 }

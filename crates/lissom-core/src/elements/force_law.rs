@@ -11,6 +11,7 @@
 //! either. What f has more than P' takes energy away as long as it has the sign of v, because clamping is monotone. A law
 //! for which that does not hold has no potential energy, and its work is counted as that of a load.
 
+use super::sides::is_above;
 use crate::registry::{Force, Parameter, ParameterError, ParameterType, Parameters};
 
 /// On which side of the free length it acts, for lengths.
@@ -99,22 +100,60 @@ impl ForceLaw {
         self.is_active
     }
 
-    /// The force at an elongation and its rate.
-    pub fn evaluate(&self, elongation: f64, rate: f64) -> Response {
-        let past = elongation - elongation.clamp(-self.play, self.play);
-        let is_free = match self.side {
-            Side::Both => self.play > 0.0 && past == 0.0,
-            Side::Positive => past <= 0.0,
-            Side::Negative => past >= 0.0,
+    /// Whether it is free of force below an elongation, and above one.
+    fn has_ends(&self) -> [bool; 2] {
+        let has_play = self.side == Side::Both && self.play > 0.0;
+        [has_play || self.side == Side::Positive, has_play || self.side == Side::Negative]
+    }
+
+    /// How many kinks it has as far as [`switches`](Self::switches) tells.
+    pub fn switch_count(&self) -> usize {
+        let laws = [&self.elastic, &self.damper].into_iter().flatten();
+        let kinks: usize = laws.map(|law| law.switches().len()).sum();
+        let limits = self.limits.iter().filter(|limit| is_passed(**limit)).count();
+        self.has_ends().iter().filter(|has| **has).count() + kinks + limits
+    }
+
+    /// Appends numbers that change their sign where the force begins or ends, at kinks of its expressions, and at limits.
+    pub fn switches(&self, elongation: f64, rate: f64, sides: &[f64], out: &mut Vec<f64>) {
+        self.walk(elongation, rate, sides, |value| out.push(value));
+    }
+
+    /// The force at an elongation and its rate, continued from known `sides` of its switches.
+    pub fn evaluate(&self, elongation: f64, rate: f64, sides: &[f64]) -> Response {
+        self.walk(elongation, rate, sides, |_| ())
+    }
+
+    /// The force; `hand` is given all switches in their order.
+    fn walk(&self, elongation: f64, rate: f64, sides: &[f64], mut hand: impl FnMut(f64)) -> Response {
+        let mut sides = sides.iter();
+        let mut passes = |value: f64| {
+            hand(value);
+            is_above(sides.next(), value)
         };
-        if is_free {
-            return Response::default();
+        let [has_upper, has_lower] = self.has_ends();
+        let (above, below) = (elongation - self.play, elongation + self.play);
+        let is_above = has_upper && passes(above);
+        let is_below = has_lower && passes(-below);
+        let past = match (is_above, is_below) {
+            (true, _) => above,
+            (_, true) => below,
+            // Limits are of the force where it begins.
+            _ if has_upper || has_lower => 0.0,
+            _ => elongation - elongation.clamp(-self.play, self.play),
+        };
+        for (law, at) in [(&self.elastic, past), (&self.damper, rate)] {
+            law.iter().flat_map(|law| law.switches()).for_each(|kink| _ = passes(at - kink));
         }
         let response = self.unlimited(past, rate);
         let [low, high] = self.limits;
-        if response.force < low {
+        let is_high = if is_passed(high) { passes(response.force - high) } else { response.force > high };
+        let is_low = if is_passed(low) { passes(low - response.force) } else { response.force < low };
+        if (has_upper || has_lower) && !(is_above || is_below) {
+            Response::default()
+        } else if is_low {
             Response { force: low, ..Response::default() }
-        } else if response.force > high {
+        } else if is_high {
             Response { force: high, ..Response::default() }
         } else {
             response
@@ -140,27 +179,6 @@ impl ForceLaw {
             response.damping += by_rate;
         }
         response
-    }
-
-    /// Appends numbers that change their sign where the force has a kink or a jump: at the ends of the free play, on the
-    /// way to the other side, at kinks of an expression, and at limits.
-    pub fn switches(&self, elongation: f64, rate: f64, out: &mut Vec<f64>) {
-        if self.side != Side::Negative && (self.play > 0.0 || self.side == Side::Positive) {
-            out.push(elongation - self.play);
-        }
-        if self.side != Side::Positive && (self.play > 0.0 || self.side == Side::Negative) {
-            out.push(elongation + self.play);
-        }
-        let past = elongation - elongation.clamp(-self.play, self.play);
-        if let Some(law) = &self.elastic {
-            out.extend(law.switches().iter().map(|kink| past - kink));
-        }
-        if let Some(law) = &self.damper {
-            out.extend(law.switches().iter().map(|kink| rate - kink));
-        }
-        for limit in self.limits.iter().filter(|limit| limit.is_finite() && **limit != 0.0) {
-            out.push(self.unlimited(past, rate).force - limit);
-        }
     }
 
     /// Potential energy [J]; zero at the free length.
@@ -208,6 +226,11 @@ impl ForceLaw {
         });
         elastic_is && damper_is
     }
+}
+
+/// Whether a limit is reached while the force acts: one of zero is where it begins.
+fn is_passed(limit: f64) -> bool {
+    limit.is_finite() && limit != 0.0
 }
 
 /// Depth of bisection of an integral.
@@ -292,18 +315,23 @@ mod tests {
             .with("damping", Value::Number(10.0))
             .with("backlash", Value::Number(0.2));
         let both = law(&given);
-        assert_eq!(both.evaluate(0.05, 3.0), Response::default());
-        assert!((both.evaluate(0.3, 0.0).force - 20.0).abs() < 1e-12);
-        assert!((both.evaluate(-0.3, 1.0).force + 10.0).abs() < 1e-12);
+        assert_eq!(both.evaluate(0.05, 3.0, &[]), Response::default());
+        assert!((both.evaluate(0.3, 0.0, &[]).force - 20.0).abs() < 1e-12);
+        assert!((both.evaluate(-0.3, 1.0, &[]).force + 10.0).abs() < 1e-12);
         assert!((both.energy(-0.3) - 2.0).abs() < 1e-12);
         let compressed = law(&given.clone().with("side", Value::Text("compression".to_owned())));
-        assert_eq!(compressed.evaluate(0.3, 0.0).force, 0.0);
-        assert!((compressed.evaluate(-0.3, 0.0).force + 20.0).abs() < 1e-12);
+        assert_eq!(compressed.evaluate(0.3, 0.0, &[]).force, 0.0);
+        assert!((compressed.evaluate(-0.3, 0.0, &[]).force + 20.0).abs() < 1e-12);
         // It does not pull while it is let go.
-        assert_eq!(compressed.evaluate(-0.3, 5.0), Response::default());
+        assert_eq!(compressed.evaluate(-0.3, 5.0, &[]), Response::default());
         assert_eq!(compressed.energy(0.3), 0.0);
         let limited = law(&given.with("limits", Value::Range([-5.0, 8.0])));
-        assert_eq!(limited.evaluate(0.5, 0.0), Response { force: 8.0, ..Response::default() });
+        assert_eq!(limited.evaluate(0.5, 0.0, &[]), Response { force: 8.0, ..Response::default() });
+        // On a known side it goes on, however far an iterate goes.
+        let free = [-1.0; 4];
+        assert_eq!(limited.switch_count(), 4);
+        assert_eq!(limited.evaluate(0.5, 1.0, &free), Response::default());
+        assert!((limited.evaluate(0.05, 0.0, &[1.0, -1.0, -1.0, -1.0]).force + 5.0).abs() < 1e-12);
         // ½ k (8/k)² up to where it saturates, then 8 N along the rest of the way.
         assert!((limited.energy(0.5) - (0.32 + 8.0 * 0.32)).abs() < 1e-8, "{}", limited.energy(0.5));
     }
@@ -316,7 +344,7 @@ mod tests {
             .with("limits", Value::Range([f64::NEG_INFINITY, 8.0]));
         let at = |law: &ForceLaw, elongation: f64| {
             let mut found = Vec::new();
-            law.switches(elongation, 0.0, &mut found);
+            law.switches(elongation, 0.0, &[], &mut found);
             found
         };
         let both = law(&given);

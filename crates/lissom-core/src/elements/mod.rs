@@ -19,6 +19,7 @@ pub mod passage;
 pub mod point_spring;
 pub mod quadrature;
 pub mod shape;
+pub mod sides;
 pub mod stop;
 
 use crate::joints::Quantity;
@@ -215,8 +216,15 @@ pub trait Element: Send + Sync + 'static {
         Vec::new()
     }
 
-    /// Appends numbers that change their sign where its forces have a kink or a jump, as at the contact of a stop: as many
-    /// at every configuration. Default: none.
+    /// How many kinks and jumps of its forces [`switches`](Self::switches) tells of. Default: none.
+    fn switch_count(&self) -> usize {
+        0
+    }
+
+    /// Where the sides of its switches will be held: from these on its forces are to be continued. Default: nothing.
+    fn hold_sides(&mut self, _sides: sides::Sides) {}
+
+    /// Appends numbers that change their sign where its forces have a kink or a jump, as at the contact of a stop.
     fn switches(&self, _at: &Kinematics, _out: &mut Vec<f64>) {}
 
     /// How fast it deforms [1/s]: the largest speed of its nodes relative to each other, over their distance, and one of

@@ -9,6 +9,7 @@ use nalgebra::SMatrix;
 
 use super::force_law::{ForceLaw, Response, SIDE_OF_LENGTH};
 use super::passage::{Passage, STAGES, above_round_off};
+use super::sides::Sides;
 use super::{Attached, Attachment, Element, ElementKind, Energy, MOST_UNKNOWNS, Tangents, add_block};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 use crate::system::state::split;
@@ -60,6 +61,7 @@ pub struct PointSpring {
     points: [Vector3; 2],
     law: ForceLaw,
     length: f64,
+    sides: Sides,
 }
 
 fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
@@ -77,6 +79,7 @@ fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> 
         points,
         law: ForceLaw::new(parameters, ["force", "damper_force"])?,
         length: parameters.number_or("length", distance)?,
+        sides: Sides::default(),
     });
     Ok(())
 }
@@ -119,14 +122,14 @@ impl PointSpring {
     }
 
     /// Direction, length, its rate and the tension with its derivatives.
-    fn tension(&self, [a, b]: &[Point; 2]) -> (Vector3, f64, f64, Response) {
+    fn tension(&self, at: &Kinematics, [a, b]: &[Point; 2]) -> (Vector3, f64, f64, Response) {
         let span = b.position - a.position;
         // The direction of a spring of no length is undefined; any finite answer serves Newton better
         // than NaN.
         let length = span.norm().max(f64::MIN_POSITIVE);
         let direction = span / length;
         let rate = direction.dot(&(b.velocity - a.velocity));
-        (direction, length, rate, self.law.evaluate(length - self.length, rate))
+        (direction, length, rate, self.law.evaluate(length - self.length, rate, self.sides.of(at)))
     }
 }
 
@@ -149,7 +152,7 @@ impl Element for PointSpring {
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
         let points = self.points(at);
-        let (direction, _, _, tension) = self.tension(&points);
+        let (direction, _, _, tension) = self.tension(at, &points);
         add_pull(&points, &(tension.force * direction), out);
     }
 
@@ -167,7 +170,7 @@ impl Element for PointSpring {
         let longer = change.dot(&(2.0 * before + change)) / (length + (before + change).norm());
         let points = passage.stages.map(|at| self.points(at));
         let speeds = [0, 1].map(|j| points[j][1].velocity - points[j][0].velocity);
-        let tensions = [0, 1].map(|j| self.tension(&points[j]));
+        let tensions = [0, 1].map(|j| self.tension(passage.stages[j], &points[j]));
         let (inverse, shares) = passage.shares(speeds.map(|speed| speed.norm_squared()));
         let missed = longer - passage.whole(tensions.map(|(_, _, rate, _)| rate));
         let round_off = 16.0 * f64::EPSILON * (moves[0].norm() + moves[1].norm());
@@ -175,7 +178,8 @@ impl Element for PointSpring {
         let rates = [0, 1].map(|j| tensions[j].2 + shares[j] * missed);
         let lengths = passage.at_stages(length, rates);
         for j in 0..STAGES {
-            let tension = self.law.evaluate(lengths[j] - self.length, rates[j]).force;
+            let sides = self.sides.of(passage.stages[j]);
+            let tension = self.law.evaluate(lengths[j] - self.length, rates[j], sides).force;
             let pull = tension * (tensions[j].0 + missed * inverse * speeds[j]);
             add_pull(&points[j], &pull, &mut out[j]);
         }
@@ -183,7 +187,7 @@ impl Element for PointSpring {
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
         let points = self.points(at);
-        let (u, length, _, response) = self.tension(&points);
+        let (u, length, _, response) = self.tension(at, &points);
         let tension = response.force;
         let across = (Matrix3::identity() - u * u.transpose()) / length;
         let speed = points[1].velocity - points[0].velocity;
@@ -223,21 +227,29 @@ impl Element for PointSpring {
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
-        let (_, length, _, _) = self.tension(&self.points(at));
+        let (_, length, _, _) = self.tension(at, &self.points(at));
         Energy { strain: self.law.energy(length - self.length), ..Energy::default() }
+    }
+
+    fn switch_count(&self) -> usize {
+        self.law.switch_count()
+    }
+
+    fn hold_sides(&mut self, sides: Sides) {
+        self.sides = sides;
+    }
+
+    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+        let (_, length, rate, _) = self.tension(at, &self.points(at));
+        self.law.switches(length - self.length, rate, self.sides.of(at), out);
     }
 
     fn is_load(&self) -> bool {
         self.law.is_active()
     }
 
-    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
-        let (_, length, rate, _) = self.tension(&self.points(at));
-        self.law.switches(length - self.length, rate, out);
-    }
-
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
-        let (_, length, rate, tension) = self.tension(&self.points(at));
+        let (_, length, rate, tension) = self.tension(at, &self.points(at));
         Some([length - self.length, rate, tension.force])
     }
 }

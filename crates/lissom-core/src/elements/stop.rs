@@ -12,6 +12,7 @@
 //! the whole contact, whatever m, k and n. The force is continuous at touch and never pulls. Between e and the velocity of
 //! impact there is the relation of the law: slower impacts lose less.
 
+use super::sides::{Sides, is_above};
 use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
 use crate::joints::Quantity;
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
@@ -99,6 +100,7 @@ pub struct Stop {
     stiffness: f64,
     exponent: f64,
     dissipation: f64,
+    sides: Sides,
 }
 
 fn add(
@@ -120,6 +122,7 @@ fn add(
         stiffness: parameters.number("stiffness")?,
         exponent,
         dissipation: dissipation(parameters)?,
+        sides: Sides::default(),
     };
     builder.add_element(stop);
     Ok(())
@@ -165,15 +168,25 @@ fn relative_dissipation(restitution: f64) -> f64 {
 impl Stop {
     /// Penetration and its rate, and the direction of the force on the left-hand side.
     fn contact(&self, at: &Kinematics) -> Option<(f64, f64, f64)> {
-        let coordinate = &at.coordinates[self.coordinate[0]];
-        let [low, high] = self.range;
-        if coordinate.value > high {
-            Some((coordinate.value - high, coordinate.rate, 1.0))
-        } else if coordinate.value < low {
-            Some((low - coordinate.value, -coordinate.rate, -1.0))
+        let rate = at.coordinates[self.coordinate[0]].rate;
+        let [past_high, past_low] = self.depths(at);
+        let sides = self.sides.of(at);
+        // A contact that lasts until the end of a step may be left within it: its force goes on straight, where it is a
+        // straight line.
+        let depth = |depth: f64| if self.exponent == 1.0 { depth } else { depth.max(0.0) };
+        if is_above(sides.first(), past_high) {
+            Some((depth(past_high), rate, 1.0))
+        } else if is_above(sides.get(1), past_low) {
+            Some((depth(past_low), -rate, -1.0))
         } else {
             None
         }
+    }
+
+    /// How far it is past the upper and the lower end of its range.
+    fn depths(&self, at: &Kinematics) -> [f64; 2] {
+        let value = at.coordinates[self.coordinate[0]].value;
+        [value - self.range[1], self.range[0] - value]
     }
 
     fn force(&self, at: &Kinematics) -> f64 {
@@ -206,16 +219,23 @@ impl Element for Stop {
         }
     }
 
+    fn switch_count(&self) -> usize {
+        2
+    }
+
+    fn hold_sides(&mut self, sides: Sides) {
+        self.sides = sides;
+    }
+
+    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+        out.extend(self.depths(at));
+    }
+
     fn energy(&self, at: &Kinematics) -> Energy {
         let strain = self.contact(at).map_or(0.0, |(depth, ..)| {
             self.stiffness * depth.powf(self.exponent + 1.0) / (self.exponent + 1.0)
         });
         Energy { strain, ..Energy::default() }
-    }
-
-    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
-        let value = at.coordinates[self.coordinate[0]].value;
-        out.extend(self.range.iter().filter(|end| end.is_finite()).map(|end| value - end));
     }
 
     fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {

@@ -78,7 +78,7 @@ impl Graph {
 
     /// Appends numbers that change their sign where a signal has a kink or a jump, in the order of the sides.
     pub(crate) fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
-        if at.held.len() == self.first_side() {
+        if self.first_sides.last() == self.first_sides.first() {
             return;
         }
         self.evaluate(at, |values| {

@@ -112,7 +112,8 @@ pub struct Graph {
     /// Names of the held values, and what they are at the start.
     pub(crate) held: Vec<(String, f64)>,
     pub(crate) events: Vec<event::Event>,
-    /// Where the sides of each signal's switches begin among the held values, after all others.
+    /// Where the sides of each signal's switches begin among the held values, after inputs and samples, and where the
+    /// last ones end; those of elements follow.
     first_sides: Vec<usize>,
 }
 
@@ -177,7 +178,7 @@ impl Graph {
         signal.function.value(at.time, &arguments[..signal.arguments.len()], self.sides(index, at))
     }
 
-    /// Held values at the start: inputs, samples, and the sides of all switches, which are not known.
+    /// Held values at the start: inputs, samples, and the sides of the switches of signals, which are not known.
     pub(crate) fn held_at_start(&mut self) -> Vec<f64> {
         let mut values: Vec<f64> = self.held.iter().map(|&(_, start)| start).collect();
         self.first_sides.clear();
@@ -186,6 +187,7 @@ impl Graph {
             let count = if signal.sampling.is_some() { 0 } else { signal.function.switch_count() };
             values.resize(values.len() + count, 0.0);
         }
+        self.first_sides.push(values.len());
         values
     }
 
@@ -196,9 +198,10 @@ impl Graph {
 
     /// Sides of a signal's switches.
     fn sides<'k>(&self, signal: SignalId, at: &'k Kinematics) -> &'k [f64] {
-        let Some(&first) = self.first_sides.get(signal) else { return &[] };
-        let end = self.first_sides.get(signal + 1).map_or(at.held.len(), |next| *next);
-        at.held.get(first..end).unwrap_or_default()
+        match self.first_sides.get(signal..signal + 2) {
+            Some(&[first, end]) => at.held.get(first..end).unwrap_or_default(),
+            _ => &[],
+        }
     }
 
     fn gather(&self, signal: &Signal, at: &Kinematics, values: &[f64], out: &mut [f64]) {

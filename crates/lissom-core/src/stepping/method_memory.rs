@@ -19,9 +19,9 @@ use crate::analysis::initial::Initial;
 use crate::scaling::Representative;
 use crate::system::{LOCKED, State, System};
 
-/// Where the step grows by more than this at once, what is known of ȧ and v_B is round-off of a short step: a stays, and
-/// velocities are made consistent.
-const LARGEST_RATIO: f64 = 5.0;
+/// Where the step grows by more than this at once, as after one that ended at an event, what is known of ȧ and v_B may be
+/// round-off of a short step, which would grow by r² from step to step: a stays, and velocities are made consistent.
+const LARGEST_RATIO: f64 = 2.0;
 
 /// Changes the memory of a state in place.
 pub(crate) struct MethodMemory {

@@ -6,7 +6,7 @@
 //!               t* ← t* - g/ġ with the step to t* solved anew, to 1e-10 of the step
 //! ```
 //!
-//! Between two steps each number has a side, 1 or -1. Functions of signals are continued from their side over the whole
+//! Between two steps each number has a side, 1 or -1. Functions and forces are continued from their side over the whole
 //! step, so that it is smooth; what was beyond the root is not used. At the root the side changes whatever round-off says, so
 //! that the same root is not found again.
 
@@ -92,16 +92,16 @@ impl Watch {
         self.known.sides.is_empty()
     }
 
-    /// The watched numbers that are switches of signals.
-    fn of_signals(&self, system: &System, at: &Kinematics) -> std::ops::Range<usize> {
+    /// The watched numbers that are switches.
+    fn of_switches(&self, system: &System, at: &Kinematics) -> std::ops::Range<usize> {
         let events = system.signals().events().len();
         let count = if self.has_switches { at.held.len() - system.signals().first_side() } else { 0 };
         events..events + count
     }
 
-    /// Writes the sides of the switches of signals to where they are held.
+    /// Writes the sides of all switches to where they are held.
     pub(crate) fn hold_sides(&self, system: &System, at: &mut Kinematics) {
-        let sides = self.known.sides.get(self.of_signals(system, at)).unwrap_or_default();
+        let sides = self.known.sides.get(self.of_switches(system, at)).unwrap_or_default();
         let held = &mut at.held[system.signals().first_side()..];
         held.iter_mut().zip(sides).for_each(|(held, side)| *held = f64::from(*side));
     }
@@ -213,7 +213,7 @@ impl Watch {
         let events = system.signals().events();
         let who: &[usize] = located.map_or(&[], |located| &located.who);
         values_at(system, state, self.has_switches, &mut self.values);
-        self.note(self.of_signals(system, &state.kinematics), who);
+        self.note(self.of_switches(system, &state.kinematics), who);
         let time = state.kinematics.time;
         let known = &mut self.known;
         known.stopped_by = None;
@@ -239,7 +239,7 @@ impl Watch {
     /// After inputs have changed at the state: sides of events change with them, and nothing happens.
     pub(crate) fn renew(&mut self, system: &System, state: &State, happened: &[usize]) {
         values_at(system, state, self.has_switches, &mut self.values);
-        self.note(self.of_signals(system, &state.kinematics), happened);
+        self.note(self.of_switches(system, &state.kinematics), happened);
     }
 }
 

@@ -13,6 +13,7 @@ use super::state::{Kinematics, NodeId, NodeMotion};
 use super::threads::Threads;
 use crate::elements::blocks::Blocks;
 use crate::elements::passage::{Passage, STAGES, Variation};
+use crate::elements::sides::Sides;
 use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
 use crate::joints::derivatives::IncrementTangent;
 use crate::lanes::processor_for;
@@ -76,6 +77,8 @@ pub(crate) trait AnyBatch: Send + Sync {
     fn spring_motion(&self, item: usize, at: &Kinematics) -> Option<[f64; 3]>;
     /// Times at which forces are known not to be smooth [s].
     fn kinks(&self) -> Vec<f64>;
+    /// Gives every item a place for the sides of its switches, from the held value `first` on, and says how many.
+    fn hold_sides(&mut self, first: usize) -> usize;
     /// Appends numbers that change their sign where forces have a kink or a jump.
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>);
     /// The largest rate at which an element deforms [1/s], with one of its nodes.
@@ -316,6 +319,18 @@ impl<E: Element> AnyBatch for Batch<E> {
 
     fn kinks(&self) -> Vec<f64> {
         self.items.iter().flat_map(E::kinks).collect()
+    }
+
+    fn hold_sides(&mut self, first: usize) -> usize {
+        let mut next = first;
+        for item in &mut self.items {
+            let count = item.switch_count();
+            if count > 0 {
+                item.hold_sides(Sides::held_at(next, count));
+                next += count;
+            }
+        }
+        next - first
     }
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {

@@ -417,7 +417,12 @@ impl Builder {
         let structure = Structure::new(pattern, self.groups(&layout))
             .map_err(|error| BuildError::Structure(error.to_string()))?;
         let joint_starts = starts(joint_rows.iter().map(Vec::len));
-        let state = self.initial_state(&layout, time, feedback.graph.held_at_start());
+        let mut held = feedback.graph.held_at_start();
+        for batch in &mut self.batches {
+            let count = batch.hold_sides(held.len());
+            held.resize(held.len() + count, 0.0);
+        }
+        let state = self.initial_state(&layout, time, held);
         let feedback = Arc::new(feedback);
         if !feedback.is_empty() {
             self.batches.push(Box::new(Arc::clone(&feedback)));

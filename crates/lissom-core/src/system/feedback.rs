@@ -369,6 +369,10 @@ impl AnyBatch for Arc<Feedback> {
         Vec::new()
     }
 
+    fn hold_sides(&mut self, _: usize) -> usize {
+        0
+    }
+
     fn switches(&self, _: &Kinematics, _: &mut Vec<f64>) {
         // Those of signals are watched with their sides.
     }

@@ -1,0 +1,31 @@
+//! The sides of an element's switches: where its forces have a kink or a jump, and steps end, they go on from the side on
+//! which the step began.
+
+use crate::system::Kinematics;
+
+/// Where the sides of an element's switches are held; nowhere until the system is built.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sides {
+    held: Option<(usize, usize)>,
+}
+
+impl Sides {
+    /// `count` sides from the held value `first` on.
+    pub fn held_at(first: usize, count: usize) -> Self {
+        Self { held: Some((first, count)) }
+    }
+
+    /// The sides at a configuration: 1 above, -1 below, 0 where the switch decides by itself.
+    pub fn of<'k>(&self, at: &'k Kinematics) -> &'k [f64] {
+        let held = self.held.and_then(|(first, count)| at.held.get(first..first + count));
+        held.unwrap_or_default()
+    }
+}
+
+/// Whether a switch of this value is taken to be above zero, given its side if that is known.
+pub fn is_above(side: Option<&f64>, value: f64) -> bool {
+    match side {
+        Some(side) if *side != 0.0 => *side > 0.0,
+        _ => value > 0.0,
+    }
+}
