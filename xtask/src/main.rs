@@ -11,6 +11,7 @@ mod formula;
 mod invariants;
 mod outcome;
 mod peers;
+mod reference;
 mod refine;
 mod report;
 mod runs;
@@ -52,6 +53,12 @@ enum Chore {
     },
     /// Run scenes without outputs and print where their time goes
     Bench(BenchArguments),
+    /// Write the reference of the model file to docs/reference.md
+    Reference {
+        /// Write nothing; tell whether it is old
+        #[arg(long)]
+        check: bool,
+    },
     /// Make the tables and figures of the book in docs/ anew
     Figures(FiguresArguments),
 }
@@ -154,6 +161,7 @@ fn main() -> ExitCode {
         Chore::Bytes { name } => bench::print_bytes(&name).map(|()| true).map_err(|error| error.to_string()),
         Chore::Steps { name } => count::steps(&name).map(|()| true).map_err(|error| error.to_string()),
         Chore::Bench(arguments) => bench::bench(&arguments).map(|()| true).map_err(|error| error.to_string()),
+        Chore::Reference { check } => reference::reference(check).map_err(|error| error.to_string()),
         Chore::Figures(arguments) => book::figures(&arguments).map_err(|error| error.to_string()),
     };
     match outcome {

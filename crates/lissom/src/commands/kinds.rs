@@ -7,18 +7,20 @@ use lissom_core::joints::Quantity;
 use lissom_core::registry::{Parameter, ParameterType};
 use lissom_model::lower::registry::registry;
 use lissom_model::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry};
+use lissom_model::{topic, topics};
 
 use super::{Exit, Failure};
 use crate::terminal;
 
-/// List the kinds of joints, springs, loads, schemes and solvers, with parameters and samples.
+/// List what a model can be made of: kinds with parameters and samples, and the keys of every table.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   lissom kinds                    everything
-  lissom kinds revolute           one kind")]
+  lissom kinds revolute           one kind
+  lissom kinds output             all kinds of outputs and their keys; also section, beam, part, function …")]
 pub(super) struct Kinds {
-    /// Only kinds whose name contains this.
+    /// Only kinds whose name contains this, or the tables and functions of this name.
     name: Option<String>,
 }
 
@@ -39,8 +41,18 @@ impl Kinds {
             let told = choices.iter().filter(|choice| choice.name.contains(wanted)).map(of_choice);
             section(&mut text, &format!("[analysis]  {word} = \"…\"  (the first is the default)"), told);
         }
+        if let Some(topic) = topic(&registry, wanted) {
+            text = if text.is_empty() { topic } else { format!("{text}\n{topic}") };
+        }
+        if wanted.is_empty() {
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "\nMore by `lissom kinds WORD`: {}", topics().join(", "));
+        }
         if text.is_empty() {
-            let message = format!("there is no kind whose name contains `{wanted}`; see `lissom kinds`");
+            let message = format!(
+                "there is no kind whose name contains `{wanted}`; see `lissom kinds`, or `lissom kinds` with one of {}",
+                topics().join(", ")
+            );
             return Err(Failure::new(Exit::BadModel, message));
         }
         terminal::print(&text);
