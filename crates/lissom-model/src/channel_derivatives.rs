@@ -88,47 +88,57 @@ impl Channel {
     }
 
     fn touched(&self, system: &System, model: &LinearModel<'_>) -> Option<Touched> {
-        let mut touched =
-            Touched { nodes: BTreeSet::new(), coordinates: BTreeSet::new(), multipliers: 0..0, held: 0..0 };
-        match &self.source {
-            Source::Place(Place::Carried { node, .. }, _) => {
-                touched.nodes.insert(*node);
-            }
-            Source::Place(Place::OnBeam { nodes, .. }, _) => touched.nodes.extend(nodes),
-            Source::Joint(index, _) | Source::RelativeMotion(index) => {
-                let joint = &system.joints()[*index];
+        touched(&self.source, system, model)
+    }
+}
+
+fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<Touched> {
+    let mut touched =
+        Touched { nodes: BTreeSet::new(), coordinates: BTreeSet::new(), multipliers: 0..0, held: 0..0 };
+    match source {
+        Source::Observed { inner, axes, relative_to } => {
+            touched = self::touched(inner, system, model)?;
+            let observers = axes.iter().chain(relative_to.iter().map(|(observer, _)| observer));
+            touched.nodes.extend(observers.map(|observer| observer.node));
+        }
+        Source::Place(Place::Carried { node, .. }, _) => {
+            touched.nodes.insert(*node);
+        }
+        Source::Place(Place::OnBeam { nodes, .. }, _) => touched.nodes.extend(nodes),
+        Source::Joint(index, _) | Source::RelativeMotion(index) => {
+            let joint = &system.joints()[*index];
+            touched.nodes.extend(joint.frames.map(|frame| frame.node));
+            touched.coordinates.extend(&joint.coordinates);
+            touched.multipliers = joint.first_multiplier..joint.first_multiplier + joint.equations();
+        }
+        Source::Drive(index) => {
+            let multiplier = system.drives()[*index].multiplier;
+            touched.multipliers = multiplier..multiplier + 1;
+        }
+        Source::Coupling(index) => {
+            let coupling = &system.couplings()[*index];
+            touched.coordinates.extend(&coupling.coordinates);
+            touched.multipliers = coupling.multiplier..coupling.multiplier + 1;
+        }
+        Source::Coordinates(coordinates) => touched.coordinates.extend(coordinates),
+        Source::Accelerations(coordinates) => {
+            for joint in coordinates.iter().map(|&(joint, _)| &system.joints()[joint]) {
                 touched.nodes.extend(joint.frames.map(|frame| frame.node));
                 touched.coordinates.extend(&joint.coordinates);
-                touched.multipliers = joint.first_multiplier..joint.first_multiplier + joint.equations();
             }
-            Source::Drive(index) => {
-                let multiplier = system.drives()[*index].multiplier;
-                touched.multipliers = multiplier..multiplier + 1;
-            }
-            Source::Coupling(index) => {
-                let coupling = &system.couplings()[*index];
-                touched.coordinates.extend(&coupling.coordinates);
-                touched.multipliers = coupling.multiplier..coupling.multiplier + 1;
-            }
-            Source::Coordinates(coordinates) => touched.coordinates.extend(coordinates),
-            Source::Accelerations(coordinates) => {
-                for joint in coordinates.iter().map(|&(joint, _)| &system.joints()[joint]) {
-                    touched.nodes.extend(joint.frames.map(|frame| frame.node));
-                    touched.coordinates.extend(&joint.coordinates);
-                }
-            }
-            Source::Signal(argument) => {
-                let (nodes, coordinates) = system.signals().touched_by(*argument);
-                touched.nodes.extend(nodes);
-                touched.coordinates.extend(coordinates);
-                if !matches!(argument, Argument::Measured(_)) {
-                    touched.held = 0..model.kinematics().held.len();
-                }
-            }
-            Source::Spring(..) | Source::Energy | Source::Momentum => return None,
         }
-        Some(touched)
+        Source::Signal(argument) => {
+            let (nodes, coordinates) = system.signals().touched_by(*argument);
+            touched.nodes.extend(nodes);
+            touched.coordinates.extend(coordinates);
+            if !matches!(argument, Argument::Measured(_)) {
+                touched.held = 0..model.kinematics().held.len();
+            }
+        }
+        // Several ranges of multipliers may meet in one expression.
+        Source::Expression(..) | Source::Spring(..) | Source::Energy | Source::Momentum => return None,
     }
+    Some(touched)
 }
 
 /// The smallest distance between two of several nodes [m].

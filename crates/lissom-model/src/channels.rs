@@ -7,11 +7,13 @@ use lissom_core::elements::beam::line::{BeamLine, BeamProbe};
 use lissom_core::elements::quadrature::gauss_lobatto;
 use lissom_core::elements::shape::lagrange;
 use lissom_core::joints::{Equations, MOST_COORDINATES, Quantity};
-use lissom_core::signals::Argument;
+use lissom_core::signals::{Argument, SignalFunction};
 use lissom_core::system::{CoordinateId, ElementId, Kinematics, NodeId, State, System};
-use lissom_motion::{Motion, Vector3, rotation_part, translation_part};
+use lissom_motion::{Matrix3, Motion, Rotation, Vector3, rotation_part, translation_part};
 
-use crate::document::{Document, NodeReference, Output, OutputKind, OutputSource, ReactionAxes};
+use crate::document::{NodeReference, Output, OutputKind, OutputSource, ReactionAxes};
+use crate::expression::Formula;
+use crate::observers::{Observer, Seen};
 use crate::report::{Located, Problem};
 
 /// One output: a name, its components, and how they are found.
@@ -66,10 +68,18 @@ pub(crate) enum Source {
     Energy,
     Momentum,
     Signal(Argument),
+    /// An expression of components of other channels.
+    Expression(Formula, Vec<(Channel, usize)>),
+    /// A channel in other axes, or as seen from a frame that moves; with the frame at the start in the observer's.
+    Observed {
+        inner: Box<Source>,
+        axes: Option<Observer>,
+        relative_to: Option<(Observer, Motion)>,
+    },
 }
 
 impl Place {
-    fn frame(&self, at: &Kinematics) -> Motion {
+    pub(crate) fn frame(&self, at: &Kinematics) -> Motion {
         match self {
             Self::Carried { node, offset } => at.nodes[*node].frame * Motion::translation(*offset),
             Self::OnBeam { probe, xi, point, .. } => probe.frame_at(at, *xi) * Motion::translation(*point),
@@ -90,6 +100,11 @@ impl Place {
                 (rotation.apply(&(translation_part(&twist) + angular.cross(point))), rotation.apply(&angular))
             }
         }
+    }
+
+    fn seen(&self, at: &Kinematics) -> Seen {
+        let (velocity, angular_velocity) = self.velocity(at);
+        Seen { frame: self.frame(at), velocity, angular_velocity, acceleration: self.acceleration(at) }
     }
 
     /// Acceleration in global axes; between a beam's nodes, interpolated from theirs.
@@ -115,8 +130,43 @@ impl Place {
 impl Channel {
     /// Appends the components' values.
     pub fn evaluate(&self, system: &System, state: &State, out: &mut Vec<f64>) {
+        self.evaluate_source(&self.source, system, state, out);
+    }
+
+    fn evaluate_source(&self, source: &Source, system: &System, state: &State, out: &mut Vec<f64>) {
         let at = &state.kinematics;
-        match &self.source {
+        match source {
+            Source::Expression(formula, arguments) => {
+                let mut values = Vec::new();
+                let arguments: Vec<f64> = arguments
+                    .iter()
+                    .map(|(channel, index)| {
+                        values.clear();
+                        channel.evaluate(system, state, &mut values);
+                        values.get(*index).copied().unwrap_or(f64::NAN)
+                    })
+                    .collect();
+                out.push(formula.value(at.time, &arguments, &[]));
+            }
+            Source::Observed { inner, axes, relative_to } => {
+                let first = out.len();
+                match (relative_to, &**inner) {
+                    (Some((observer, start)), Source::Place(place, _)) => {
+                        let seen = place.seen(at).relative_to(observer, (self.kind, start), at);
+                        out.extend_from_slice(seen.as_slice());
+                    }
+                    (_, inner) => self.evaluate_source(inner, system, state, out),
+                }
+                let Some(axes) = axes else { return };
+                // What is seen from an observer is in its axes, all else in global ones.
+                let told_in =
+                    relative_to.map_or(Rotation::IDENTITY, |(observer, _)| observer.frame(at).rotation);
+                let axes = axes.frame(at).rotation;
+                for part in out[first..].chunks_exact_mut(3) {
+                    let vector = axes.apply_inverse(&told_in.apply(&Vector3::from_column_slice(part)));
+                    part.copy_from_slice(vector.as_slice());
+                }
+            }
             Source::Place(place, start) => self.evaluate_place(place, start, at, out),
             Source::RelativeMotion(index) => {
                 let Motion { rotation, position } = system.joints()[*index].relative_motion(at);
@@ -179,6 +229,14 @@ impl Channel {
 
     fn evaluate_place(&self, place: &Place, start: &Motion, at: &Kinematics, out: &mut Vec<f64>) {
         let vector = match self.kind {
+            OutputKind::Quaternion => {
+                let quaternion = place.frame(at).rotation.quaternion();
+                // Both signs mean the same axes.
+                let sign = if quaternion[0] < 0.0 { -1.0 } else { 1.0 };
+                out.extend(quaternion.map(|part| sign * part));
+                return;
+            }
+            OutputKind::CardanAngles => cardan_angles(&place.frame(at).rotation.matrix()),
             OutputKind::Position => place.frame(at).position,
             OutputKind::Displacement => place.frame(at).position - start.position,
             OutputKind::Rotation => (place.frame(at).rotation * start.rotation.inverse()).logarithm(),
@@ -204,31 +262,27 @@ impl Channel {
     }
 }
 
-/// Channels of all outputs of a document.
-pub(crate) fn of(
-    document: &Document,
-    system: &System,
-    state: &State,
-    names: &Resolver<'_>,
-    problems: &mut Vec<Problem>,
-) -> Vec<Channel> {
-    let mut channels = Vec::new();
-    for output in &document.outputs {
-        match channel(output, system, state, names) {
-            Ok(channel) => channels.push(channel),
-            Err(problem) => problems.push(problem),
-        }
+/// Angles of R = Rx(α) Ry(β) Rz(γ). Where cos β vanishes α and γ turn about the same axis; then γ is 0.
+fn cardan_angles(rotation: &Matrix3) -> Vector3 {
+    let cosine = rotation[(0, 0)].hypot(rotation[(0, 1)]);
+    let beta = rotation[(0, 2)].atan2(cosine);
+    if cosine < 1e-12 {
+        return Vector3::new(rotation[(2, 1)].atan2(rotation[(1, 1)]), beta, 0.0);
     }
-    channels
+    let alpha = (-rotation[(1, 2)]).atan2(rotation[(2, 2)]);
+    Vector3::new(alpha, beta, (-rotation[(0, 1)]).atan2(rotation[(0, 0)]))
 }
 
-fn channel(
+/// Where the numbers of an output come from that is no expression.
+pub(crate) fn source(
     output: &Output,
     system: &System,
     state: &State,
     names: &Resolver<'_>,
-) -> Result<Channel, Problem> {
-    let source = match &output.source {
+) -> Result<Source, Problem> {
+    Ok(match &output.source {
+        // Expressions name other outputs, which this one does not know.
+        OutputSource::Expression(formula) => Source::Expression(formula.value.clone(), Vec::new()),
         OutputSource::Model if output.kind == OutputKind::Momentum => Source::Momentum,
         OutputSource::Model => Source::Energy,
         OutputSource::Signal(name) => {
@@ -252,9 +306,7 @@ fn channel(
             let start = place.frame(&state.kinematics);
             Source::Place(place, start)
         }
-    };
-    let (components, units) = components(output.kind, &source, system);
-    Ok(Channel { name: output.name.value.clone(), kind: output.kind, components, units, source })
+    })
 }
 
 fn joint_source(
@@ -352,7 +404,12 @@ fn place(
     }
 }
 
-fn components(kind: OutputKind, source: &Source, system: &System) -> (Vec<String>, Vec<&'static str>) {
+/// Names and units of the components of a kind of output.
+pub(crate) fn components(
+    kind: OutputKind,
+    source: &Source,
+    system: &System,
+) -> (Vec<String>, Vec<&'static str>) {
     let three =
         |letter: &str, unit: &'static str| ((1..=3).map(|k| format!("{letter}{k}")).collect(), vec![unit; 3]);
     let words = |words: &[&str], units: &[&'static str]| {
@@ -410,7 +467,9 @@ fn components(kind: OutputKind, source: &Source, system: &System) -> (Vec<String
         (OutputKind::Momentum, _) => {
             words(&["p1", "p2", "p3", "l1", "l2", "l3"], &["N s", "N s", "N s", "N m s", "N m s", "N m s"])
         }
-        (OutputKind::Signal, _) => words(&["value"], &[""]),
+        (OutputKind::Signal | OutputKind::Expression, _) => words(&["value"], &[""]),
+        (OutputKind::Quaternion, _) => words(&["q0", "q1", "q2", "q3"], &[""; 4]),
+        (OutputKind::CardanAngles, _) => words(&["alpha", "beta", "gamma"], &["rad"; 3]),
         (OutputKind::Energy, _) => words(&["kinetic", "strain", "potential", "total"], &["J"; 4]),
     }
 }

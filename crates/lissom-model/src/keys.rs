@@ -30,6 +30,8 @@ pub(crate) enum Shape {
     GlobalVector,
     /// Three numbers, or a place in the frame of a part.
     Point,
+    /// A list of names of parts.
+    Names,
     /// Entries as in the table of this name at the top.
     Entries(&'static str),
     /// Three numbers, not all zero.

@@ -20,7 +20,9 @@ pub mod lower;
 mod manual;
 mod model_text;
 pub mod numbers;
+mod observers;
 pub mod output;
+mod output_channels;
 mod parts;
 mod reader;
 pub mod registry;
@@ -39,7 +41,7 @@ mod values;
 
 pub use document::Document;
 pub use library::Library;
-pub use manual::manual;
+pub use manual::{manual, topic, topics};
 pub use model_text::ModelText;
 pub use report::{Located, Problem, Report, Severity, Sources, Span};
 pub use schema::schema;

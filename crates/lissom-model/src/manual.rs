@@ -2,10 +2,13 @@
 
 use std::fmt::Write;
 
-use crate::document::tables::{Holds, Variants, tops, variants};
+use crate::context::singular;
+use crate::document::part_tables::part_motion;
+use crate::document::tables::{Holds, Top, Variants, tops, variants};
 use crate::expression::FUNCTION_NAMES;
 use crate::keys::{Key, Shape};
 use crate::registry::{ChoiceEntry, KindEntry, Registry};
+use crate::table_values::table_keys;
 
 const INTRODUCTION: &str = "\
 A model is a TOML file. Units are SI, angles radians, axes right-handed.
@@ -33,33 +36,74 @@ A model is a TOML file. Units are SI, angles radians, axes right-handed.
 pub fn manual(registry: &Registry) -> String {
     let mut text = String::from("# The model file\n\n");
     text.push_str(INTRODUCTION);
-    let names: Vec<String> = FUNCTION_NAMES.iter().map(|(name, _)| format!("`{name}`")).collect();
-    line(&mut text, &format!("\nFunctions: {}.", names.join(", ")));
+    functions(&mut text);
     for top in tops() {
-        let must = if top.required { " Required." } else { "" };
-        match &top.holds {
-            Holds::Value(shape) => {
-                line(
-                    &mut text,
-                    &format!("\n## `{}`\n\n{}{must} Holds {}.", top.name, top.summary, words(shape)),
-                );
-            }
-            Holds::Values(shape) => {
-                let heading =
-                    format!("\n## `[{}]`\n\n{} Each entry is {}.", top.name, top.summary, words(shape));
-                line(&mut text, &heading);
-            }
-            Holds::Table => {
-                line(&mut text, &format!("\n## `[{}]`\n\n{}{must}", top.name, top.summary));
-                forms(&mut text, top.name, registry);
-            }
-            Holds::Entries => {
-                line(&mut text, &format!("\n## `[{}.…]`\n\n{}{must}", top.name, top.summary));
-                forms(&mut text, top.name, registry);
-            }
-        }
+        of_top(&mut text, top, registry);
     }
     text
+}
+
+/// Words besides those of the tables that [`topic`] knows.
+const FUNCTION_WORDS: [&str; 2] = ["function", "expression"];
+
+/// What can stand under a word at the top of a model file, such as `outputs` or `output`, as Markdown; also what a
+/// `function` is. None where there is no such word.
+pub fn topic(registry: &Registry, word: &str) -> Option<String> {
+    let mut text = String::new();
+    if FUNCTION_WORDS.contains(&word)
+        || word.strip_suffix('s').is_some_and(|one| FUNCTION_WORDS.contains(&one))
+    {
+        let is_told = |words: &&str| {
+            ["- **Expressions**", "- **Functions of time**", "- **Sizes**"]
+                .iter()
+                .any(|start| words.starts_with(start))
+        };
+        let items = INTRODUCTION.split("\n- ").skip(1).map(|item| format!("- {}", item.trim_end()));
+        items.filter(|item| is_told(&item.as_str())).for_each(|item| line(&mut text, &item));
+        functions(&mut text);
+        line(&mut text, "\nA table of a function:");
+        keys(&mut text, table_keys().iter());
+        return Some(text);
+    }
+    let top = tops().find(|top| top.name == word || singular(top.name) == word)?;
+    of_top(&mut text, top, registry);
+    Some(text.trim_start().to_owned())
+}
+
+/// The words that [`topic`] knows.
+pub fn topics() -> Vec<&'static str> {
+    let tables = tops().filter(|top| !matches!(top.holds, Holds::Value(_)));
+    let name = |top: &'static Top| if singular(top.name) == "entry" { top.name } else { singular(top.name) };
+    tables.map(name).chain(["function"]).collect()
+}
+
+fn functions(text: &mut String) {
+    let names: Vec<String> = FUNCTION_NAMES.iter().map(|(name, _)| format!("`{name}`")).collect();
+    line(text, &format!("\nFunctions: {}.", names.join(", ")));
+}
+
+fn of_top(text: &mut String, top: &Top, registry: &Registry) {
+    let must = if top.required { " Required." } else { "" };
+    match &top.holds {
+        Holds::Value(shape) => {
+            line(text, &format!("\n## `{}`\n\n{}{must} Holds {}.", top.name, top.summary, words(shape)));
+        }
+        Holds::Values(shape) => {
+            line(text, &format!("\n## `[{}]`\n\n{} Each entry is {}.", top.name, top.summary, words(shape)));
+        }
+        Holds::Table => {
+            line(text, &format!("\n## `[{}]`\n\n{}{must}", top.name, top.summary));
+            forms(text, top.name, registry);
+            if top.name == "initial" {
+                line(text, "\n### `[initial.…]`\n\nA rigid motion of some parts. A part has at most one.");
+                keys(text, part_motion().iter());
+            }
+        }
+        Holds::Entries => {
+            line(text, &format!("\n## `[{}.…]`\n\n{}{must}", top.name, top.summary));
+            forms(text, top.name, registry);
+        }
+    }
 }
 
 fn line(text: &mut String, words: &str) {
@@ -135,6 +179,7 @@ fn words(shape: &Shape) -> String {
         Shape::Flag => "`true` or `false`",
         Shape::Vector | Shape::GlobalVector => "three numbers",
         Shape::Point => "three numbers, or `{ in = \"part\", at = [x, y, z] }`",
+        Shape::Names => "a list of names of parts",
         Shape::Entries(table) => return format!("entries as in `[{table}]`"),
         Shape::Direction => "three numbers, not all zero",
         Shape::Choice(words) => {

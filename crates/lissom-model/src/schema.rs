@@ -4,6 +4,7 @@
 use serde_json::{Map, Value, json};
 
 use crate::document::VERSION;
+use crate::document::part_tables::part_motion;
 use crate::document::tables::{Holds, Variant, tops, variants};
 use crate::keys::{Key, Shape};
 use crate::registry::Registry;
@@ -22,6 +23,11 @@ pub fn schema(registry: &Registry) -> Value {
                 json!({ "type": "object", "additionalProperties": table(top.name, registry) })
             }
         };
+        if top.name == "initial"
+            && let Value::Object(object) = &mut value
+        {
+            object.insert("additionalProperties".to_owned(), of_keys(&part_motion()));
+        }
         describe(&mut value, top.summary);
         properties.insert(top.name.to_owned(), value);
     }
@@ -122,6 +128,7 @@ fn of_shape(shape: &Shape) -> Value {
             });
             any_of(&[vector(), placed])
         }
+        Shape::Names => json!({ "type": "array", "minItems": 1, "items": text() }),
         Shape::Entries(table) => json!({ "$ref": format!("#/properties/{table}") }),
         Shape::Choice(words) => json!({ "enum": words }),
         Shape::Choices(words) => {

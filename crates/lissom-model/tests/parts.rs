@@ -173,6 +173,22 @@ fn laws_of_springs_and_data_files_work_in_parts() {
 }
 
 #[test]
+fn events_of_a_part_set_its_own_inputs() {
+    let part = "inputs.gain = 1\n[bodies.b]\nmass = 1\ninertia = [1, 1, 1]\n\
+        [outputs.place]\nkind = \"position\"\nof = \"b\"\n\
+        [events.floor]\nzero_of = \"place.z + gain\"\nset = { gain = 2 }\n";
+    let text = "inputs.gain = 5\n[parts.a]\ninclude = \"part.toml\"\n";
+    let document =
+        read_with(text, &[("part.toml", part)], &[]).map_err(|report| report.render(false)).unwrap();
+    let event = &document.events[0];
+    assert_eq!((event.name.value.as_str(), event.set[0].0.value.as_str()), ("a.floor", "a.gain"));
+    let text = "inputs.gain = 5\n[parts.a]\ninclude = \"part.toml\"\n";
+    let part = part.replace("inputs.gain = 1\n", "").replace(" + gain", "");
+    let shown = told(text, &[("part.toml", &part)], &[]);
+    assert!(shown.contains("sets `gain`, which is no input"), "the model's input is another: {shown}");
+}
+
+#[test]
 fn curved_beams_turn_with_their_part() {
     let document = read(
         "materials.steel = { E = 2e11, nu = 0.3, density = 7800 }\n\

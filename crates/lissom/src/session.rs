@@ -17,6 +17,7 @@ use lissom_model::channels::{Channel, signal_value};
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, Plan, lower};
 use lissom_model::output::{Column, Record, Writer};
+use lissom_model::sweep::Accumulator;
 use lissom_model::{Document, Report};
 
 use serde::{Deserialize, Serialize};
@@ -114,6 +115,7 @@ pub struct SessionSnapshot {
     violation: f64,
     energy: EnergyChange,
     telemetry: Telemetry,
+    histories: Vec<Accumulator>,
 }
 
 impl SessionSnapshot {
@@ -142,6 +144,8 @@ struct Tally {
     energy: EnergyChange,
     values: Vec<f64>,
     violations: Vec<f64>,
+    /// What is known of each column.
+    histories: Vec<Accumulator>,
 }
 
 /// The columns of a lowered model's outputs.
@@ -235,6 +239,11 @@ impl Session {
     /// What is recorded, in the order of [`values`](Self::values).
     pub fn columns(&self) -> &[Column] {
         &self.columns
+    }
+
+    /// What is known of the records of each column, in the order of [`columns`](Self::columns); none before the first.
+    pub fn histories(&self) -> &[Accumulator] {
+        &self.tally.histories
     }
 
     /// Scale factor s of the planned step.
@@ -425,6 +434,7 @@ impl Session {
             violation: self.tally.violation,
             energy: self.tally.energy,
             telemetry: self.telemetry.clone(),
+            histories: self.tally.histories.clone(),
         }
     }
 
@@ -437,6 +447,7 @@ impl Session {
         self.schedule.clone_from(&from.schedule);
         (self.tally.records, self.tally.violation) = (from.records, from.violation);
         self.tally.energy = from.energy;
+        self.tally.histories.clone_from(&from.histories);
         self.telemetry.clone_from(&from.telemetry);
         Ok(())
     }
@@ -585,9 +596,13 @@ impl Session {
         let mut values = std::mem::take(&mut self.tally.values);
         values.clear();
         self.values(&mut values);
+        let time = self.schedule.time();
+        self.tally.histories.resize_with(values.len(), Accumulator::default);
+        for (history, value) in self.tally.histories.iter_mut().zip(&values) {
+            history.add(time, *value);
+        }
         self.tally.values = values;
         self.take_stock();
-        let time = self.schedule.time();
         let written = writers.iter_mut().try_for_each(|writer| writer.row(time, &self.tally.values));
         self.spent.output += began.elapsed();
         written

@@ -5,6 +5,7 @@ use lissom_core::scaling::Representative;
 use lissom_model::Document;
 use lissom_model::lower::Lowered;
 use lissom_model::output::Summary;
+use lissom_model::sweep::{Accumulator, STATISTICS};
 use serde_json::{Value, json};
 
 use crate::model::Override;
@@ -141,6 +142,7 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
             "turned_over": ledger.turned_over,
         }),
     );
+    tell("statistics", statistics(session));
     let scaling = &simulation.settings().scaling;
     tell(
         "scaling",
@@ -195,6 +197,7 @@ pub fn of_failed_start(summary: &mut Summary, error: &dyn std::error::Error) {
         "max_carried_violation",
         "velocity_correction",
         "energy",
+        "statistics",
         "representative",
     ] {
         tell(summary, name, Value::Null);
@@ -211,6 +214,15 @@ fn of_events(session: &Session) -> Value {
         told.insert(event.name.clone(), fact);
     }
     Value::Object(told)
+}
+
+/// Of each column what a sweep could collect of it; `null` where a record is not finite.
+fn statistics(session: &Session) -> Value {
+    let of = |history: &Accumulator| -> Value {
+        STATISTICS.iter().map(|statistic| (statistic.name.to_owned(), json!(statistic.of(history)))).collect()
+    };
+    let columns = session.columns().iter().zip(session.histories());
+    columns.map(|(column, history)| (column.name(), of(history))).collect()
 }
 
 fn of_energy(energy: &Energy) -> Value {

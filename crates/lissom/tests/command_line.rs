@@ -10,6 +10,8 @@ mod modes;
 mod motion;
 #[path = "command_line/new.rs"]
 mod new;
+#[path = "command_line/outputs.rs"]
+mod outputs;
 #[path = "command_line/parts.rs"]
 mod parts;
 #[path = "command_line/path.rs"]

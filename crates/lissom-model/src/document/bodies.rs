@@ -1,15 +1,13 @@
-//! Rigid bodies, point masses and the initial motion of a model file.
+//! Rigid bodies and point masses of a model file.
 
 use lissom_motion::{Matrix3, Rotation, Vector3};
 
 use super::decode::each;
-use super::tables::variants;
-use super::{Body, InitialMotion, Plane, PointMass};
+use super::{Body, Plane, PointMass};
 use crate::context::Context;
 use crate::keys::Shape;
 use crate::line::are_parallel;
 use crate::reader::Reader;
-use crate::registry::Registry;
 use crate::report::Located;
 use crate::solid::Solid;
 use crate::text::{Node, Value};
@@ -192,22 +190,5 @@ pub(super) fn point_masses(context: &Context<'_>) -> Vec<PointMass> {
         }
         let name = Located::new(name.to_owned(), reader.name);
         Some(PointMass { name, mass: mass?.value, position: position?, plane, velocity })
-    })
-}
-
-pub(super) fn initial(context: &Context<'_>) -> Option<InitialMotion> {
-    let (node, name) = context.top("initial").filter(|(node, _)| node.table().is_some())?;
-    let form = variants("initial", &Registry::default()).all.into_iter().next()?;
-    let reader = Reader::open(context, node, ("[initial]".to_owned(), name), form.keys)?;
-    let vector = |key| reader.vector(key).map_or(Vector3::zeros(), |vector| vector.value);
-    let about = match reader.node("about") {
-        None => Vector3::zeros(),
-        Some(node) => context.place(node, &reader.words("about"))?.value,
-    };
-    Some(InitialMotion {
-        velocity: vector("velocity"),
-        angular_velocity: vector("angular_velocity"),
-        about,
-        equilibrium: reader.flag("equilibrium").is_some_and(|flag| flag.value),
     })
 }

@@ -8,7 +8,7 @@ use lissom_motion::Vector3;
 
 use super::tables::{self, Holds, variants};
 use super::{
-    Document, analysis, beams, bodies, components, connections, events, materials, outputs, signals,
+    Document, analysis, beams, bodies, components, connections, events, initial, materials, outputs, signals,
 };
 use crate::context::{Context, singular};
 use crate::expression;
@@ -90,7 +90,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let signals = signals::signals(context);
     let states = signals::states(context);
     let events = events::events(context);
-    let initial = bodies::initial(context);
+    let (initial, initial_of_parts) = initial::initial(context);
     let outputs = outputs::outputs(context, registry);
     let analysis = analysis::analysis(context, registry);
     let document = Document {
@@ -111,6 +111,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
         states,
         events,
         initial,
+        initial_of_parts,
         outputs,
         analysis: analysis?,
         warnings: Report::new(Vec::new(), context.sources),

@@ -60,7 +60,8 @@ pub(super) fn events(context: &Context<'_>) -> Vec<EventEntry> {
                 return context.wrong_type(node, &reader.words("set"), "a table of inputs and expressions");
             };
             for (input, entry) in table {
-                if !context.has("inputs", input) {
+                let own = context.resolve(input, entry.node.scope, &|full| context.has("inputs", full));
+                let Some(own) = own else {
                     let known = context.names("inputs");
                     let help = suggest::help(input, known.iter().map(|(known, _)| *known))
                         .unwrap_or_else(|| format!("add `{input} = 0` to [inputs]: events set inputs only"));
@@ -69,9 +70,9 @@ pub(super) fn events(context: &Context<'_>) -> Vec<EventEntry> {
                         format!("event `{name}` sets `{input}`, which is no input"),
                         help,
                     );
-                }
+                };
                 let formula = context.formula(&entry.node, &format!("`set.{input}` of event `{name}`"))?;
-                set.push((Located::new(input.clone(), entry.key), Located::new(formula, entry.node.span)));
+                set.push((Located::new(own, entry.key), Located::new(formula, entry.node.span)));
             }
         }
         Some(EventEntry {

@@ -9,9 +9,11 @@ mod connections;
 pub(crate) mod decode;
 mod distributed;
 mod events;
+mod initial;
 mod load_input;
 mod materials;
 mod outputs;
+pub(crate) mod part_tables;
 mod places;
 mod signals;
 pub(crate) mod tables;
@@ -93,6 +95,8 @@ pub struct Document {
     pub events: Vec<EventEntry>,
     /// A rigid motion of all parts at the start.
     pub initial: Option<InitialMotion>,
+    /// Rigid motions at the start of parts that move otherwise, by the names of bodies, point masses and beams.
+    pub initial_of_parts: BTreeMap<String, InitialMotion>,
     /// What is recorded.
     pub outputs: Vec<Output>,
     /// What is computed.
@@ -111,6 +115,11 @@ impl Document {
     /// Where a part of an expression stands, whose text is within `whole`.
     pub(crate) fn within(&self, whole: Span, text: &str, range: &std::ops::Range<usize>) -> Span {
         self.sources.within(whole, text, range)
+    }
+
+    /// The rigid motion at the start of the body, point mass or beam called `part`; none where nothing is said of it.
+    pub fn initial_motion(&self, part: &str) -> Option<&InitialMotion> {
+        self.initial_of_parts.get(part).or(self.initial.as_ref())
     }
 
     /// Whether places at the start are those of static equilibrium.

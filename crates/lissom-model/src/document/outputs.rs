@@ -5,10 +5,12 @@ use lissom_motion::Vector3;
 use super::NodeReference;
 use super::decode::each_of_kind;
 use crate::context::Context;
+use crate::expression::Formula;
 use crate::reader::Reader;
 use crate::registry::Registry;
 use crate::report::Located;
 use crate::suggest;
+use crate::text::Node;
 
 /// A recorded quantity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,16 +45,24 @@ pub enum OutputKind {
     Energy,
     /// A signal, an input or a state.
     Signal,
+    /// An expression of other outputs.
+    Expression,
+    /// Orientation of a node as a unit quaternion.
+    Quaternion,
+    /// Orientation of a node as Cardan angles [rad].
+    CardanAngles,
     /// Momentum and angular momentum of the whole model about the origin [N s, N m s], global axes.
     Momentum,
 }
 
 impl OutputKind {
     /// All of them, in the order of the manual.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 19] = [
         Self::Position,
         Self::Displacement,
         Self::Rotation,
+        Self::Quaternion,
+        Self::CardanAngles,
         Self::Velocity,
         Self::AngularVelocity,
         Self::Acceleration,
@@ -66,6 +76,7 @@ impl OutputKind {
         Self::Energy,
         Self::Momentum,
         Self::Signal,
+        Self::Expression,
     ];
 
     /// Word in the model file.
@@ -87,6 +98,9 @@ impl OutputKind {
             Self::Energy => "energy",
             Self::Momentum => "momentum",
             Self::Signal => "signal",
+            Self::Expression => "expression",
+            Self::Quaternion => "quaternion",
+            Self::CardanAngles => "cardan_angles",
         }
     }
 
@@ -110,6 +124,12 @@ impl OutputKind {
             Self::Spring => "Elongation or rotation of a spring, its rate, and its force or moment.",
             Self::Energy => "Kinetic, strain, gravity and total energy of the model.",
             Self::Signal => "Value of a signal, an input or a state.",
+            Self::Expression => {
+                "Value of an expression of time, components of other outputs, coordinates of joints, signals, inputs and \
+                 states."
+            }
+            Self::Quaternion => "Axes of a node as a unit quaternion, q0 not negative.",
+            Self::CardanAngles => "Axes of a node as angles about x, the turned y and the twice turned z.",
             Self::Momentum => "Momentum and angular momentum of the model about the origin, global axes.",
         }
     }
@@ -119,7 +139,7 @@ impl OutputKind {
         !(self.is_of_beam()
             || self.is_of_joint()
             || self.is_of_model()
-            || matches!(self, Self::Signal | Self::Spring))
+            || matches!(self, Self::Signal | Self::Spring | Self::Expression))
     }
 
     /// Whether it belongs to the whole model.
@@ -135,6 +155,16 @@ impl OutputKind {
     /// Whether it belongs to a joint.
     pub(crate) fn is_of_joint(self) -> bool {
         matches!(self, Self::Reaction | Self::Relative | Self::RelativeAcceleration | Self::RelativeMotion)
+    }
+
+    /// Whether it is a vector of a motion, which an observer may see otherwise.
+    pub(crate) fn is_of_motion(self) -> bool {
+        self.takes_point() || matches!(self, Self::Rotation | Self::AngularVelocity)
+    }
+
+    /// Whether the axes in which it is told may be chosen.
+    pub(crate) fn takes_axes(self) -> bool {
+        self.is_of_motion() || self == Self::Momentum
     }
 
     /// Whether a point carried by the node may be named.
@@ -161,6 +191,8 @@ pub enum OutputSource {
     Model,
     /// A signal, an input or a state, by name.
     Signal(Located<String>),
+    /// An expression.
+    Expression(Located<Formula>),
 }
 
 /// Axes in which a joint's reaction is told.
@@ -199,6 +231,10 @@ pub struct Output {
     pub source: OutputSource,
     /// In which axes, for a reaction.
     pub axes: ReactionAxes,
+    /// The node in whose axes its vectors are told; global axes, or those of the observer, where there is none.
+    pub seen_in: Option<Located<NodeReference>>,
+    /// The node as seen from which it is; the ground where there is none.
+    pub relative_to: Option<Located<NodeReference>>,
 }
 
 pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output> {
@@ -210,6 +246,8 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
             OutputSource::Spring(reader.name_in("of")?)
         } else if kind == OutputKind::Signal {
             OutputSource::Signal(signal(reader)?)
+        } else if kind == OutputKind::Expression {
+            OutputSource::Expression(reader.formula("value")?)
         } else if kind.is_of_model() {
             OutputSource::Model
         } else {
@@ -236,9 +274,25 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
             OutputKind::Reaction => reader.choice("axes").map(|word| ReactionAxes::named(word.value)),
             _ => None,
         };
+        let frame = |key: &str, is_allowed: bool| match is_allowed.then(|| reader.node(key)).flatten() {
+            None => Some(None),
+            Some(node) => frame(reader, node, key).map(Some),
+        };
+        let (seen_in, relative_to) =
+            (frame("in", kind.takes_axes())?, frame("relative_to", kind.is_of_motion())?);
         let name = Located::new(name.to_owned(), reader.name);
-        Some(Output { name, kind, source, axes: axes.unwrap_or_default() })
+        Some(Output { name, kind, source, axes: axes.unwrap_or_default(), seen_in, relative_to })
     })
+}
+
+/// A node that has axes.
+fn frame(reader: &Reader<'_, '_>, node: &Node, key: &str) -> Option<Located<NodeReference>> {
+    let found = reader.context.node(node, &reader.words(key))?;
+    if let NodeReference::PointMass(name) = &found.value {
+        let message = format!("{} names the point mass `{name}`, which has no axes", reader.words(key));
+        return reader.context.fail(node.span, message, "name the ground, a body or a place on a beam");
+    }
+    Some(found)
 }
 
 /// The name of a signal, an input or a state.

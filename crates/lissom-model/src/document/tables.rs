@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use lissom_core::joints::Quantity;
 
+use super::part_tables::{initial, part, placed_in};
 use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
 use crate::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry, Registry};
 
@@ -79,7 +80,7 @@ pub(crate) static TOP: [Top; 20] = [
         "initial",
         Holds::Table,
         false,
-        "How the parts are and move at the start: a rigid motion of all, static equilibrium.",
+        "How the parts are and move at the start: a rigid motion of all, or of those that an entry [initial.…] names; static equilibrium.",
     ),
     top("outputs", Holds::Entries, false, "What is recorded."),
 ];
@@ -241,43 +242,6 @@ fn beam() -> Vec<Key> {
     ]
 }
 
-/// The key that names the part in whose frame an entry is placed.
-fn placed_in() -> Key {
-    optional(
-        "in",
-        Shape::Text,
-        "",
-        "body, point mass or part in whose frame at the start places and directions are given; default the one around",
-    )
-}
-
-/// Keys of a part.
-pub(crate) fn part() -> Vec<Key> {
-    let mut keys = vec![
-        optional("include", Shape::Text, "", "path of the file that it is made of, relative to this file"),
-        optional("like", Shape::Text, "", "part of the same table of which it is a copy, turned and shifted"),
-        optional(
-            "count",
-            Shape::Count(1, 20_000),
-            "",
-            "an array `name1`, `name2` …; `index` and `count` are parameters in it",
-        ),
-        placed_in(),
-        optional("position", Shape::Place, "m", "place of its origin"),
-        optional("rotation", Shape::Vector, "rad", "rotation vector of its axes"),
-        optional("parameters", Shape::Table, "", "its parameters, in place of the defaults of its file"),
-        optional(
-            "names",
-            Shape::Table,
-            "",
-            "names in the included file that mean something outside, as { hub = \"hub\" }",
-        ),
-    ];
-    let tables = TOP.iter().filter(|top| has_named_entries(top.name) && top.name != "parameters");
-    keys.extend(tables.map(|top| optional(top.name, Shape::Entries(top.name), "", top.summary)));
-    keys
-}
-
 fn body() -> Vec<Key> {
     vec![
         placed_in(),
@@ -411,20 +375,6 @@ fn state() -> Vec<Key> {
     ]
 }
 
-fn initial() -> Vec<Key> {
-    vec![
-        optional("velocity", Shape::Vector, "m/s", "velocity of the point `about`"),
-        optional("angular_velocity", Shape::Vector, "rad/s", "global axes"),
-        optional("about", Shape::Place, "m", "a point of the rigid motion; default the origin"),
-        optional(
-            "equilibrium",
-            Shape::Flag,
-            "",
-            "start from static equilibrium under the loads of the first instant, default false",
-        ),
-    ]
-}
-
 fn outputs() -> Vec<Variant> {
     use super::OutputKind;
     let words: Vec<&'static str> = OutputKind::ALL.iter().map(|kind| kind.name()).collect();
@@ -449,6 +399,23 @@ fn outputs() -> Vec<Variant> {
         }
         if *kind == OutputKind::Signal {
             keys.push(required("of", Shape::Text, "", "the name of a signal, an input or a state"));
+        }
+        if *kind == OutputKind::Expression {
+            keys.push(required(
+                "value",
+                Shape::Formula,
+                "",
+                "as \"hypot(a.x - b.x, a.y - b.y)\", of components of outputs",
+            ));
+        }
+        if kind.is_of_motion() {
+            let words =
+                "body, or place on a beam, from which the motion is seen, in its axes; default the ground";
+            keys.push(optional("relative_to", Shape::Node, "", words));
+        }
+        if kind.takes_axes() {
+            let words = "body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`";
+            keys.push(optional("in", Shape::Node, "", words));
         }
         if kind.takes_point() {
             keys.push(optional("point", Shape::Place, "m", "a place at the start, carried by the node"));

@@ -87,6 +87,10 @@ fn of_output(
     component: &str,
 ) -> Result<MeasurementId, Fault> {
     let owner = &output.name.value;
+    if output.seen_in.is_some() || output.relative_to.is_some() {
+        let message = format!("`{owner}` is told in moving axes, which signals cannot depend on");
+        return fault(message, Some("name an output without `in` and `relative_to`".to_owned()));
+    }
     let words: [String; 3] = match output.kind {
         OutputKind::Position => ["x", "y", "z"].map(str::to_owned),
         OutputKind::Displacement => ["u1", "u2", "u3"].map(str::to_owned),
@@ -112,7 +116,10 @@ fn of_output(
         | OutputKind::RelativeMotion
         | OutputKind::Spring
         | OutputKind::Energy
-        | OutputKind::Momentum => {
+        | OutputKind::Momentum
+        | OutputKind::Quaternion
+        | OutputKind::CardanAngles
+        | OutputKind::Expression => {
             let message = format!("`{owner}` is a {}, which signals cannot depend on", output.kind.name());
             let help = "use a position, displacement, velocity, rotation, angular_velocity or relative output, or a joint";
             return fault(message, Some(help.to_owned()));

@@ -25,6 +25,7 @@ use lissom_core::system::{Builder, CoordinateId, ElementId, NodeId, State, Syste
 use crate::channels::{self, Channel};
 use crate::document::{Component, Document, NodeReference};
 use crate::functions::Ramp;
+use crate::output_channels;
 use crate::report::{Located, Problem, Report};
 
 pub use analysis::Plan;
@@ -129,7 +130,7 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
     let (system, state) = built?;
     let warnings = beginning::drives(document, &system, &state, &mut problems);
     couplings::check(document, &system, &state, &mut problems);
-    let channels = channels::of(document, &system, &state, &names.resolver(), &mut problems);
+    let channels = output_channels::of(document, &system, &state, &names.resolver(), &mut problems);
     stop_at(document, &mut problems)?;
     Ok(Lowered { system, state, settings, plan, channels, names, warnings })
 }

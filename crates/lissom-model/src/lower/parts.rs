@@ -28,7 +28,7 @@ fn bodies(document: &Document, builder: &mut Builder, names: &mut Names) {
         let node = builder.add_node(&body.name.value, frame, Freedoms::Full);
         builder.add_inertia(node, &Inertia::of_rigid_body(body.mass, &body.center_of_mass, &body.inertia));
         names.nodes.insert(body.name.value.clone(), node);
-        let (velocity, angular) = initial_motion(document.initial.as_ref(), &frame);
+        let (velocity, angular) = initial_motion(document.initial_motion(&body.name.value), &frame);
         let velocity =
             body.velocity.as_ref().map_or(velocity, |given| frame.rotation.apply_inverse(&given.value));
         let angular = body.angular_velocity.as_ref().map_or(angular, |given| given.value);
@@ -48,7 +48,7 @@ fn point_masses(document: &Document, builder: &mut Builder, names: &mut Names) {
         let node = builder.add_node(&mass.name.value, frame, freedoms);
         builder.add_inertia(node, &Inertia::of_rigid_body(mass.mass, &Vector3::zeros(), &Matrix3::zeros()));
         names.nodes.insert(mass.name.value.clone(), node);
-        let (velocity, _) = initial_motion(document.initial.as_ref(), &frame);
+        let (velocity, _) = initial_motion(document.initial_motion(&mass.name.value), &frame);
         let velocity = mass.velocity.as_ref().map_or(velocity, |given| given.value);
         builder.set_twist(node, screw(&velocity, &Vector3::zeros()));
     }
@@ -138,7 +138,8 @@ fn add_beam(
     for (k, &node) in line.nodes.iter().enumerate() {
         let is_own = (k > 0 || ends[0].is_none()) && (k + 1 < line.nodes.len() || ends[1].is_none());
         if is_own {
-            let (velocity, angular) = initial_motion(document.initial.as_ref(), &builder.initial_frame(node));
+            let motion = document.initial_motion(&beam.name.value);
+            let (velocity, angular) = initial_motion(motion, &builder.initial_frame(node));
             builder.set_twist(node, screw(&velocity, &angular));
         }
     }

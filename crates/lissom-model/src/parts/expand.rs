@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{Expanded, MOST_PARTS, Outside, PLACED_TABLES, Placement, ROOT, Scope, ScopeId, overrides};
+use crate::document::part_tables;
 use crate::document::tables::{self, VERSION};
 use crate::library::{Library, joined};
 use crate::report::{Origin, Problem, Shift, Sources, Span};
@@ -256,7 +257,7 @@ impl Expansion<'_> {
     }
 
     fn check_keys(&mut self, name: &str, table: &Table) -> Option<()> {
-        let keys = tables::part();
+        let keys = part_tables::part();
         let known = || keys.iter().map(|key| key.name);
         let mut good = Some(());
         for (word, entry) in table {

@@ -140,7 +140,7 @@ impl Places<'_> {
 
     fn output(&self, output: &crate::document::Output) -> Output {
         let (of, point) = match &output.source {
-            OutputSource::Model => (None, None),
+            OutputSource::Model | OutputSource::Expression(_) => (None, None),
             OutputSource::Joint(name) | OutputSource::Spring(name) | OutputSource::Signal(name) => {
                 (Some(name.value.clone()), None)
             }

@@ -1,6 +1,8 @@
 //! What is taken of a history: one number from a column of values over time. A new statistic is a line in
 //! [`STATISTICS`].
 
+use serde::{Deserialize, Serialize};
+
 /// One number of a history.
 #[derive(Debug)]
 pub struct Statistic {
@@ -58,7 +60,7 @@ impl Statistic {
 }
 
 /// Goes through a history record by record, and keeps what all statistics need.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Accumulator {
     records: usize,
     first: (f64, f64),

@@ -1,0 +1,68 @@
+//! Keys of parts, of places relative to parts, and of motions at the start.
+
+use super::tables::{TOP, has_named_entries};
+use crate::keys::{Key, Shape, optional, required};
+
+/// The key that names the part in whose frame an entry is placed.
+pub(super) fn placed_in() -> Key {
+    optional(
+        "in",
+        Shape::Text,
+        "",
+        "body, point mass or part in whose frame at the start places and directions are given; default the one around",
+    )
+}
+
+/// Keys of a part.
+pub(crate) fn part() -> Vec<Key> {
+    let mut keys = vec![
+        optional("include", Shape::Text, "", "path of the file that it is made of, relative to this file"),
+        optional("like", Shape::Text, "", "part of the same table of which it is a copy, turned and shifted"),
+        optional(
+            "count",
+            Shape::Count(1, 20_000),
+            "",
+            "an array `name1`, `name2` …; `index` and `count` are parameters in it",
+        ),
+        placed_in(),
+        optional("position", Shape::Place, "m", "place of its origin"),
+        optional("rotation", Shape::Vector, "rad", "rotation vector of its axes"),
+        optional("parameters", Shape::Table, "", "its parameters, in place of the defaults of its file"),
+        optional(
+            "names",
+            Shape::Table,
+            "",
+            "names in the included file that mean something outside, as { hub = \"hub\" }",
+        ),
+    ];
+    let tables = TOP.iter().filter(|top| has_named_entries(top.name) && top.name != "parameters");
+    keys.extend(tables.map(|top| optional(top.name, Shape::Entries(top.name), "", top.summary)));
+    keys
+}
+
+/// Keys of an entry of `[initial]`.
+pub(crate) fn part_motion() -> Vec<Key> {
+    let mut keys = vec![required(
+        "parts",
+        Shape::Names,
+        "",
+        "bodies, point masses, beams and entries of [parts] that move in this way",
+    )];
+    keys.extend(initial().into_iter().filter(|key| key.name != "equilibrium"));
+    keys
+}
+
+/// Keys of `[initial]` itself.
+pub(crate) fn initial() -> Vec<Key> {
+    vec![
+        optional("velocity", Shape::Vector, "m/s", "velocity of the point `about`"),
+        optional("angular_velocity", Shape::Vector, "rad/s", "global axes"),
+        optional("about", Shape::Place, "m", "a point of the rigid motion; default the origin"),
+        optional(
+            "equilibrium",
+            Shape::Flag,
+            "",
+            "start from static equilibrium under the loads of the first instant, default false",
+        ),
+    ]
+}

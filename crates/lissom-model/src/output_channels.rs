@@ -1,0 +1,165 @@
+//! From the outputs of a document to channels: expressions find what they name, observers their nodes.
+
+use lissom_core::system::{State, System};
+use lissom_motion::Motion;
+
+use crate::channels::{Channel, Resolver, Source, components, source};
+use crate::document::{Document, NodeReference, Output, OutputKind, OutputSource, ReactionAxes};
+use crate::expression::Formula;
+use crate::observers::Observer;
+use crate::report::{Located, Problem, Span};
+use crate::suggest;
+
+/// Channels of all outputs of a document.
+pub(crate) fn of(
+    document: &Document,
+    system: &System,
+    state: &State,
+    names: &Resolver<'_>,
+    problems: &mut Vec<Problem>,
+) -> Vec<Channel> {
+    let mut channels = Vec::new();
+    let made = Made { document, system, state, names };
+    for output in &document.outputs {
+        match made.channel(output, &mut Vec::new()) {
+            Ok(channel) => channels.push(channel),
+            Err(problem) => problems.push(problem),
+        }
+    }
+    channels
+}
+
+/// What channels are made of.
+struct Made<'a> {
+    document: &'a Document,
+    system: &'a System,
+    state: &'a State,
+    names: &'a Resolver<'a>,
+}
+
+impl Made<'_> {
+    /// The channel of an output; `path` are the expressions that led to it.
+    fn channel(&self, output: &Output, path: &mut Vec<String>) -> Result<Channel, Problem> {
+        let Self { system, state, names, .. } = *self;
+        let source = match &output.source {
+            OutputSource::Expression(formula) => self.expression(output, formula, path)?,
+            _ => source(output, system, state, names)?,
+        };
+        let (components, units) = components(output.kind, &source, system);
+        let source = self.observed(output, source)?;
+        Ok(Channel { name: output.name.value.clone(), kind: output.kind, components, units, source })
+    }
+
+    fn observed(&self, output: &Output, inner: Source) -> Result<Source, Problem> {
+        if output.seen_in.is_none() && output.relative_to.is_none() {
+            return Ok(inner);
+        }
+        let observer =
+            |node: &Option<Located<NodeReference>>| node.as_ref().map(|node| self.observer(node)).transpose();
+        let axes = observer(&output.seen_in)?;
+        let relative_to = observer(&output.relative_to)?.map(|observer| {
+            let at = &self.state.kinematics;
+            let start = match &inner {
+                Source::Place(place, _) => place.frame(at).relative_to(&observer.frame(at)),
+                _ => Motion::IDENTITY,
+            };
+            (observer, start)
+        });
+        Ok(Source::Observed { inner: Box::new(inner), axes, relative_to })
+    }
+
+    fn observer(&self, node: &Located<NodeReference>) -> Result<Observer, Problem> {
+        let unknown = |name: &str| Problem::error(node.span, format!("there is no part called `{name}`"));
+        let (node, offset) = match &node.value {
+            NodeReference::Ground => (lissom_core::system::GROUND, Motion::IDENTITY),
+            NodeReference::Body(name) | NodeReference::PointMass(name) => {
+                (*self.names.nodes.get(name).ok_or_else(|| unknown(name))?, Motion::IDENTITY)
+            }
+            NodeReference::Beam { beam, fraction } => {
+                let line = self.names.lines.get(beam).ok_or_else(|| unknown(beam))?;
+                let found = line.node_at(*fraction).ok_or_else(|| {
+                    Problem::error(node.span, format!("beam `{beam}` has no node at {fraction}")).help(
+                        "name a node of the beam, such as its start or end, or change the number of elements",
+                    )
+                })?;
+                let index = line.nodes.iter().position(|&other| other == found).unwrap_or(0);
+                (found, line.offsets[index])
+            }
+        };
+        Ok(Observer { node, offset })
+    }
+
+    /// An expression of components of other outputs, of joints' coordinates, signals, inputs and states.
+    fn expression(
+        &self,
+        output: &Output,
+        formula: &Located<Formula>,
+        path: &mut Vec<String>,
+    ) -> Result<Source, Problem> {
+        let own = &output.name.value;
+        if path.contains(own) {
+            let message = format!("the output `{own}` is an expression of itself");
+            return Err(Problem::error(formula.span, message).help("leave one of these names out"));
+        }
+        path.push(own.clone());
+        let mut arguments = Vec::new();
+        for name in formula.value.arguments() {
+            let place = self.document.within(formula.span, formula.value.text(), &name.range);
+            let fault =
+                |message: String| Problem::error(place, format!("output `{own}`: {message}")).label("here");
+            let (channel, component) = self.argument(&name.text, place, path)?.ok_or_else(|| {
+                let outputs = self.document.outputs.iter().map(|output| output.name.value.as_str());
+                let known = outputs.chain(self.names.coordinates.keys().map(String::as_str));
+                let owner = name.text.rsplit_once('.').map_or(name.text.as_str(), |(owner, _)| owner);
+                let help = suggest::help(owner, known);
+                fault(format!("there is no `{}`", name.text))
+                    .help(
+                        "name a component of another output, as `tip.u1`, a joint's coordinate, or a signal",
+                    )
+                    .maybe_help(help)
+            })?;
+            let index = channel.components.iter().position(|known| *known == component).ok_or_else(|| {
+                let help = suggest::help(&component, channel.components.iter().map(String::as_str));
+                fault(format!("`{}` has no component `{component}`", channel.name)).maybe_help(help)
+            })?;
+            arguments.push((channel, index));
+        }
+        path.pop();
+        Ok(Source::Expression(formula.value.clone(), arguments))
+    }
+
+    /// The channel and the component that a name in an expression means.
+    fn argument(
+        &self,
+        name: &str,
+        place: Span,
+        path: &mut Vec<String>,
+    ) -> Result<Option<(Channel, String)>, Problem> {
+        if let Some(&argument) = self.names.signals.get(name) {
+            let (components, units) = (vec!["value".to_owned()], vec![""]);
+            let (kind, source) = (OutputKind::Signal, Source::Signal(argument));
+            let channel = Channel { name: name.to_owned(), kind, components, units, source };
+            return Ok(Some((channel, "value".to_owned())));
+        }
+        let Some((owner, component)) = name.rsplit_once('.') else { return Ok(None) };
+        let output = self.document.outputs.iter().find(|output| output.name.value == owner);
+        if let Some(output) = output {
+            return Ok(Some((self.channel(output, path)?, component.to_owned())));
+        }
+        if self.names.coordinates.get(owner).is_none_or(Vec::is_empty) {
+            return Ok(None);
+        }
+        let joint = Located::new(owner.to_owned(), place);
+        let (source, kind) = (OutputSource::Joint(joint.clone()), OutputKind::Relative);
+        let output = Output {
+            name: joint,
+            kind,
+            source,
+            axes: ReactionAxes::Ground,
+            seen_in: None,
+            relative_to: None,
+        };
+        // The relative rotation of a joint is called `angle` in results and also `rotation` in expressions.
+        Ok(Some((self.channel(&output, path)?, component.replace("rotation", "angle"))))
+    }
+}

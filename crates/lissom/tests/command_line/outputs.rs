@@ -1,0 +1,257 @@
+//! Outputs that are expressions, seen from frames that move, or summed up: against formulas.
+
+use std::fs;
+
+use lissom::{Model, Record};
+use lissom_motion::Vector3;
+use serde_json::Value;
+
+use crate::support::{Folder, lissom, summary};
+
+/// A disc that turns at 2 rad/s about z at [1, 0, 0], and a stone that flies straight on.
+const MODEL: &str = r#"
+lissom = 1
+inputs.gain = 2
+
+[bodies.disc]
+mass = 1
+inertia = [1, 1, 2]
+position = [1, 0, 0]
+
+[bodies.stone]
+mass = 1
+inertia = [1, 1, 1]
+position = [0, 3, 1]
+
+[joints.axle]
+kind = "revolute"
+base = "ground"
+tip = "disc"
+axis = [0, 0, 1]
+
+[initial.disc]
+parts = ["disc"]
+angular_velocity = [0, 0, 2]
+about = [1, 0, 0]
+
+[initial.flight]
+parts = ["stone"]
+velocity = [1, -1, 0.5]
+
+[outputs.place]
+kind = "position"
+of = "stone"
+
+[outputs.seen]
+kind = "position"
+of = "stone"
+relative_to = "disc"
+
+[outputs.drift]
+kind = "displacement"
+of = "stone"
+relative_to = "disc"
+
+[outputs.speed]
+kind = "velocity"
+of = "stone"
+relative_to = "disc"
+
+[outputs.pull]
+kind = "acceleration"
+of = "stone"
+relative_to = "disc"
+
+[outputs.pull_global]
+kind = "acceleration"
+of = "stone"
+relative_to = "disc"
+in = "ground"
+
+[outputs.turned]
+kind = "velocity"
+of = "stone"
+in = "disc"
+
+[outputs.spin]
+kind = "angular_velocity"
+of = "stone"
+relative_to = "disc"
+
+[outputs.angles]
+kind = "cardan_angles"
+of = "disc"
+
+[outputs.quaternion]
+kind = "quaternion"
+of = "disc"
+
+[outputs.distance]
+kind = "expression"
+value = "sqrt(seen.x^2 + seen.y^2 + seen.z^2)"
+
+[outputs.twice]
+kind = "expression"
+value = "gain*distance.value + axle.rate - axle.rotation/t0 + t"
+
+[parameters]
+t0 = 0.5
+
+[analysis]
+kind = "dynamics"
+scheme = "radau-iia"
+end = 2
+step = 1e-2
+"#;
+
+fn vectors(record: &Record, output: &str, names: [&str; 3]) -> Vec<Vector3> {
+    let columns = names.map(|name| record.column(output, name).unwrap_or_else(|| panic!("{output}.{name}")));
+    (0..record.times.len()).map(|row| Vector3::from_fn(|i, _| columns[i][row])).collect()
+}
+
+#[test]
+fn what_an_observer_sees_is_what_formulas_say() {
+    let mut session = Model::from_text("seen.toml", MODEL).session(&[]).unwrap();
+    let (record, report) = session.record();
+    assert!(report.is_complete());
+    let xyz = ["x", "y", "z"];
+    let (seen, drift) = (vectors(&record, "seen", xyz), vectors(&record, "drift", ["u1", "u2", "u3"]));
+    let (speed, turned) =
+        (vectors(&record, "speed", ["v1", "v2", "v3"]), vectors(&record, "turned", ["v1", "v2", "v3"]));
+    let pull = vectors(&record, "pull", ["a1", "a2", "a3"]);
+    let pull_global = vectors(&record, "pull_global", ["a1", "a2", "a3"]);
+    let spin = vectors(&record, "spin", ["w1", "w2", "w3"]);
+    let omega = Vector3::new(0.0, 0.0, 2.0);
+    for (row, &t) in record.times.iter().enumerate() {
+        let (sine, cosine) = (2.0 * t).sin_cos();
+        let back = |v: Vector3| Vector3::new(cosine * v.x + sine * v.y, -sine * v.x + cosine * v.y, v.z);
+        let place = Vector3::new(-1.0 + t, 3.0 - t, 1.0 + 0.5 * t);
+        let velocity = Vector3::new(1.0, -1.0, 0.5);
+        let x = back(place);
+        let v = back(velocity) - omega.cross(&x);
+        // Coriolis and centrifugal acceleration.
+        let a = -2.0 * omega.cross(&v) - omega.cross(&omega.cross(&x));
+        let near = |found: &Vector3, wanted: Vector3, what: &str| {
+            assert!((found - wanted).norm() < 1e-8, "{what} at {t}: {found} {wanted}");
+        };
+        near(&seen[row], x, "position");
+        near(&drift[row], x - Vector3::new(-1.0, 3.0, 1.0), "displacement");
+        near(&speed[row], v, "velocity");
+        near(&turned[row], back(velocity), "velocity in other axes");
+        near(&pull[row], a, "acceleration");
+        let global = Vector3::new(cosine * a.x - sine * a.y, sine * a.x + cosine * a.y, a.z);
+        near(&pull_global[row], global, "acceleration in global axes");
+        near(&spin[row], -omega, "angular velocity");
+        let column = |output: &str, name: &str| record.column(output, name).unwrap()[row];
+        assert!((column("distance", "value") - place.norm()).abs() < 1e-8);
+        let twice = 2.0 * place.norm() + 2.0 - 2.0 * t / 0.5 + t;
+        assert!((column("twice", "value") - twice).abs() < 1e-7, "{t}");
+        let gamma = column("angles", "gamma");
+        assert!((gamma.sin() - sine).abs() < 1e-8 && (gamma.cos() - cosine).abs() < 1e-8);
+        assert!(column("angles", "alpha").abs() + column("angles", "beta").abs() < 1e-12);
+        let (q0, q3) = (column("quaternion", "q0"), column("quaternion", "q3"));
+        assert!((q0 - t.cos().abs()).abs() < 1e-8 && (q0 * q0 - q3 * q3 - cosine).abs() < 1e-8);
+    }
+}
+
+#[test]
+fn the_summary_has_statistics_of_every_column() {
+    let folder = Folder::new("outputs-statistics");
+    folder.write("model.toml", MODEL);
+    let args = ["run", "model.toml", "--out", "out", "--no-plots", "--set", "analysis.output_every=3"];
+    let ended = lissom(&args, folder.path());
+    assert_eq!(ended.code, 0, "{}", ended.errors);
+    let out = folder.path().join("out");
+    let facts = summary(&out);
+    let record = Record::from_csv(&fs::read_to_string(out.join("history.csv")).unwrap()).unwrap();
+    assert_eq!(facts["statistics"].as_object().unwrap().len(), record.columns.len());
+    let times = &record.times;
+    for (column, values) in record.columns.iter().zip(&record.values) {
+        let told = &facts["statistics"][column.name()];
+        let number = |name: &str| told[name].as_f64().unwrap();
+        let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let at = times[values.iter().position(|value| *value == most).unwrap()];
+        assert_eq!((number("max"), number("time_of_max")), (most, at), "{}", column.name());
+        assert_eq!(number("min"), values.iter().copied().fold(f64::INFINITY, f64::min));
+        let integral = |power: i32| -> f64 {
+            let pairs = times.windows(2).zip(values.windows(2));
+            pairs.map(|(t, v)| 0.5 * (t[1] - t[0]) * (v[0].powi(power) + v[1].powi(power))).sum::<f64>() / 2.0
+        };
+        assert!((number("mean") - integral(1)).abs() < 1e-12 * (1.0 + most.abs()));
+        assert!((number("rms") - integral(2).sqrt()).abs() < 1e-12 * (1.0 + most.abs()));
+    }
+}
+
+#[test]
+fn mistakes_in_outputs_and_starts_are_told() {
+    for (from, to, wanted) in [
+        ("seen.x^2", "seen.a^2", "`seen` has no component `a`"),
+        ("seen.x^2", "sen.x^2", "there is no `sen.x`"),
+        ("gain*distance.value", "twice.value", "the output `twice` is an expression of itself"),
+        (
+            "relative_to = \"disc\"\n\n[outputs.drift]",
+            "relative_to = \"dics\"\n\n[outputs.drift]",
+            "did you mean `disc`?",
+        ),
+        (
+            "kind = \"position\"\nof = \"stone\"\n\n",
+            "kind = \"energy\"\nin = \"disc\"\n\n",
+            "unknown key `in`",
+        ),
+        (
+            "parts = [\"stone\"]",
+            "parts = [\"stone\", \"disc\"]",
+            "`disc` moves at the start as `disc` and as `flight`",
+        ),
+        ("parts = [\"stone\"]", "parts = [\"stome\"]", "did you mean `stone`?"),
+        ("parts = [\"stone\"]", "part = [\"stone\"]", "lacks `parts`"),
+        (
+            "inputs.gain = 2",
+            "inputs.gain = 2\nsignals.fast = \"speed.v1\"",
+            "is told in moving axes, which signals cannot depend on",
+        ),
+    ] {
+        assert!(MODEL.contains(from), "{from}");
+        let error = Model::from_text("wrong.toml", &MODEL.replacen(from, to, 1))
+            .session(&[])
+            .map(|_| ())
+            .unwrap_err();
+        let lissom::SessionError::Model(report) = error else { panic!("{error}") };
+        let shown = report.render(false);
+        let joined = shown.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
+        assert!(joined.contains(wanted), "{wanted}: {shown}");
+    }
+}
+
+#[test]
+fn an_entry_of_parts_moves_with_all_that_is_in_it() {
+    let text = MODEL
+        .replace("[bodies.stone]", "[parts.kit.bodies.stone]")
+        .replace("parts = [\"stone\"]", "parts = [\"kit\"]")
+        .replace("of = \"stone\"", "of = \"kit.stone\"");
+    let (record, _) = Model::from_text("kit.toml", &text).session(&[]).unwrap().record();
+    assert!((record.column("turned", "v1").unwrap()[0] - 1.0).abs() < 1e-15);
+}
+
+#[test]
+fn kinds_answer_for_tables_and_functions() {
+    let folder = Folder::new("outputs-kinds");
+    for (word, wanted) in [
+        ("output", "### `kind = \"expression\"`"),
+        ("outputs", "relative_to"),
+        ("section", "### `shape = \"tube\"`"),
+        ("function", "`smoothstep`"),
+        ("part", "`like`"),
+        ("initial", "[initial.…]"),
+        ("beam", "`stations`"),
+    ] {
+        let ended = lissom(&["kinds", word], folder.path());
+        assert!(ended.code == 0 && ended.output.contains(wanted), "{word}: {}{}", ended.output, ended.errors);
+    }
+    let ended = lissom(&["kinds", "nonsense"], folder.path());
+    assert!(ended.code == 2 && ended.errors.contains("section"), "{}", ended.errors);
+    let all = lissom(&["kinds"], folder.path()).output;
+    assert!(all.contains("More by `lissom kinds WORD`") && all.contains("output"), "{all}");
+    let schema: Value = serde_json::from_str(&lissom(&["schema"], folder.path()).output).unwrap();
+    assert_eq!(schema["properties"]["initial"]["additionalProperties"]["required"][0], "parts");
+}
