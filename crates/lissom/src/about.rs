@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use lissom_core::analysis::Settings;
 use lissom_core::analysis::equilibrium::at_rest;
-use lissom_core::linear::LinearModel;
+use lissom_core::linear::{LinearModel, steady};
 use lissom_core::system::{State, System};
 use lissom_model::Document;
 use lissom_model::channels::Channel;
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, lower};
+use lissom_motion::rotation_part;
 
 use crate::modes::ModesError;
 use crate::session::Session;
@@ -22,6 +23,8 @@ const STILL_BALANCED: f64 = 1e-6;
 const TOLERANCE: f64 = 1e-12;
 /// A motion whose twists change by less, relative to the square of its rate, is steady.
 const STEADY: f64 = 1e-6;
+/// The same of a rotation whose places were solved for, where light parts show round-off.
+const STEADY_ROTATION: f64 = 1e-5;
 
 /// The state about which a model is linearised.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -30,6 +33,8 @@ pub enum About {
     Static,
     /// The places of the model file, without gravity and loads.
     Undeformed,
+    /// Steady rotation with the velocities of the file.
+    Rotation,
     /// The state that the model's own analysis reaches at this time [s].
     Time(f64),
 }
@@ -51,9 +56,10 @@ impl std::str::FromStr for About {
         match text {
             "static" => Ok(Self::Static),
             "undeformed" => Ok(Self::Undeformed),
+            "rotation" => Ok(Self::Rotation),
             _ => match text.parse::<f64>() {
                 Ok(time) if time.is_finite() => Ok(Self::Time(time)),
-                _ => Err("it must be `static`, `undeformed` or a time in seconds".to_owned()),
+                _ => Err("it must be `static`, `undeformed`, `rotation` or a time in seconds".to_owned()),
             },
         }
     }
@@ -65,8 +71,16 @@ impl About {
         match self {
             Self::Static => "static".to_owned(),
             Self::Undeformed => "undeformed".to_owned(),
+            Self::Rotation => "rotation".to_owned(),
             Self::Time(time) => format!("t = {time} s"),
         }
+    }
+
+    /// Steady rotation, or static equilibrium where nothing turns at the start.
+    pub(crate) fn rotation_or_static(document: &Document) -> Result<Self, ModesError> {
+        let lowered = lower(document)?;
+        let turns = lowered.state.kinematics.nodes.iter().any(|node| rotation_part(&node.twist).norm() > 0.0);
+        Ok(if turns { Self::Rotation } else { Self::Static })
     }
 
     /// Finds the state, linearises `document` there, and hands it to `then`.
@@ -77,6 +91,7 @@ impl About {
     ) -> Result<T, E> {
         match self {
             Self::Undeformed => undeformed(document, then),
+            Self::Rotation => in_rotation(document, then),
             Self::Static if !matches!(document.analysis.kind, AnalysisKind::Statics { .. }) => {
                 in_equilibrium(document, then)
             }
@@ -124,6 +139,19 @@ fn in_equilibrium<T, E: From<ModesError>>(
     let hint =
         "give the model an analysis of kind `statics` in more load steps, and take the modes at its end";
     balanced(&model, "state that was found", STILL_BALANCED, hint)?;
+    then(Reached { model: &model, channels: &channels, warnings: Vec::new() })
+}
+
+fn in_rotation<T, E: From<ModesError>>(
+    document: &Document,
+    then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
+) -> Result<T, E> {
+    let Lowered { system, state, settings, channels, .. } = lower(document).map_err(ModesError::from)?;
+    let state = steady(&system, &state, settings.solver).map_err(ModesError::from)?;
+    let model = linear(&system, &state, &settings)?;
+    if model.unsteadiness() > STEADY_ROTATION {
+        return Err(ModesError::Unsteady(model.unsteadiness()).into());
+    }
     then(Reached { model: &model, channels: &channels, warnings: Vec::new() })
 }
 

@@ -5,7 +5,9 @@ use std::io::{BufWriter, Error, ErrorKind, Seek, SeekFrom};
 use std::path::{Path, PathBuf};
 
 use lissom_model::files::{self, FileError};
-use lissom_model::output::{BodePlot, CsvWriter, FigureError, Record, RecordError, Summary, figures};
+use lissom_model::output::{
+    BodePlot, CampbellPlot, CsvWriter, FigureError, Record, RecordError, Summary, figures,
+};
 use lissom_model::scene::Scene;
 use serde_json::Value;
 
@@ -301,6 +303,15 @@ impl ResultFolder {
         let path = |kind: &str| self.path.join(format!("{}.{kind}", plot.name));
         files::write(&path("svg"), plot.svg()?.as_bytes())?;
         Ok(files::write(&path("png"), &plot.png()?)?)
+    }
+
+    /// Draws a Campbell diagram, as SVG and as PNG.
+    ///
+    /// # Errors
+    /// If it cannot be drawn or written.
+    pub fn write_campbell_plot(&self, plot: &CampbellPlot) -> Result<(), FolderError> {
+        files::write(&self.path.join("campbell.svg"), plot.svg()?.as_bytes())?;
+        Ok(files::write(&self.path.join("campbell.png"), &plot.png()?)?)
     }
 
     /// Draws every output of `record`, as SVG and as PNG. What can be drawn is drawn, even when something

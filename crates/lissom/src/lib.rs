@@ -26,6 +26,7 @@
 
 mod about;
 pub mod buckling;
+pub mod campbell;
 mod checkpoint;
 mod folder;
 mod folder_page;

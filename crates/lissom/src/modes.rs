@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 use lissom_core::analysis::{InitialError, StepError};
 use lissom_core::linear::{
-    Completeness, LinearError, LinearModel, Mode, ModeError, ModeKind, ModeOptions, NodeShape,
+    Completeness, LinearError, LinearModel, Mode, ModeError, ModeKind, ModeOptions, NodeShape, SteadyError,
 };
 use lissom_core::system::Kinematics;
 use lissom_model::document::AnalysisKind;
@@ -18,6 +18,9 @@ use crate::model::{Model, Override};
 use crate::session::SessionError;
 
 pub use crate::about::About;
+
+/// A mode that departs by more from being one when the model has turned belongs to coefficients that change.
+const CONSTANT: f64 = 3e-4;
 
 /// What is asked for beyond the model; what is left out is as the model's table `[analysis]` says if it is of kind `modes`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -66,6 +69,29 @@ pub enum ModesError {
         imbalance: f64,
         /// What to try.
         hint: &'static str,
+    },
+    /// There is no steady rotation.
+    #[error(transparent)]
+    Steady(#[from] SteadyError),
+    /// The rotation is not steady.
+    #[error(
+        "the velocities at the start are no steady rotation: in the axes of the nodes they change by {0:.1e} of their squares; \
+         gravity across the axis, loads at rest in space and other motions are not steady in rotating axes"
+    )]
+    Unsteady(f64),
+    /// Coefficients change as the model turns.
+    #[error(
+        "mode {number} ({frequency:.4e} Hz) belongs to coefficients that change as the model turns ({departure:.1e}): parts that \
+         turn and parts that do not are coupled across the axis, as by a support that yields; such modes need multi-blade \
+         coordinates or Floquet's theory, which are not there"
+    )]
+    Periodic {
+        /// Number of the mode, from 1.
+        number: usize,
+        /// Its frequency at this instant [Hz].
+        frequency: f64,
+        /// How far the mode is from being one a part of a turn later.
+        departure: f64,
     },
     /// There is no linear model.
     #[error(transparent)]
@@ -140,6 +166,9 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
     }
     let mut report = about.linearized(&document, |reached| -> Result<ModeReport, ModesError> {
         let mut report = tell(reached.model, count, shift)?;
+        if about == About::Rotation {
+            constant_coefficients(reached.model, &report.modes)?;
+        }
         report.warnings.extend(reached.warnings);
         Ok(report)
     })?;
@@ -149,6 +178,21 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
         return Err(ModesError::Missing(missed));
     }
     Ok(report)
+}
+
+/// Whether the modes of a steady rotation go on as they are while it turns.
+pub(crate) fn constant_coefficients(model: &LinearModel<'_>, modes: &[Mode]) -> Result<(), ModesError> {
+    if model.is_at_rest() {
+        return Ok(());
+    }
+    let later = model.turned()?;
+    for (index, mode) in modes.iter().enumerate() {
+        let departure = model.departure_of(mode, &later)?;
+        if departure.is_nan() || departure > CONSTANT {
+            return Err(ModesError::Periodic { number: index + 1, frequency: mode.frequency, departure });
+        }
+    }
+    Ok(())
 }
 
 fn tell(model: &LinearModel<'_>, count: usize, shift: Option<f64>) -> Result<ModeReport, ModesError> {

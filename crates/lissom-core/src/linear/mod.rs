@@ -20,6 +20,8 @@ mod response;
 mod shapes;
 mod shifted;
 mod state_space;
+mod steady;
+mod whirl;
 
 pub use buckling::{Buckling, BucklingError, BucklingMode};
 pub use mode::{Completeness, Mode, ModeError, ModeKind, ModeOptions, Modes};
@@ -28,3 +30,5 @@ pub use output::OutputDerivatives;
 pub use response::{FrequencyResponse, ResponseError};
 pub use shapes::NodeShape;
 pub use state_space::{StateSpace, StateSpaceError};
+pub use steady::{SteadyError, steady};
+pub use whirl::Whirl;

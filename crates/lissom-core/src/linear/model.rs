@@ -66,6 +66,8 @@ pub struct LinearModel<'a> {
     imbalance: f64,
     unsteadiness: f64,
     multipliers: Vec<f64>,
+    /// What finds accelerations.
+    pub(super) solver: &'a SolverKind,
 }
 
 impl<'a> LinearModel<'a> {
@@ -74,7 +76,7 @@ impl<'a> LinearModel<'a> {
     ///
     /// # Errors
     /// If they do not exist.
-    pub fn of(system: &'a System, state: &State, solver: &SolverKind) -> Result<Self, LinearError> {
+    pub fn of(system: &'a System, state: &State, solver: &'a SolverKind) -> Result<Self, LinearError> {
         if system.signals().has_samples() {
             return Err(LinearError::Sampled);
         }
@@ -108,9 +110,8 @@ impl<'a> LinearModel<'a> {
         if !is_at_rest {
             add_accelerated_mass(system, &state.kinematics, &mut parts);
         }
-        let pattern = system.pattern();
-        let is_conservative = parts.damping.iter().all(|&value| value == 0.0)
-            && is_symmetric(&pattern, &parts.stiffness, &parts.mass);
+        let is_conservative =
+            parts.damping.iter().all(|&value| value == 0.0) && is_symmetric(system, &representative, &parts);
         Ok(Self {
             system,
             at: state.kinematics,
@@ -121,6 +122,7 @@ impl<'a> LinearModel<'a> {
             imbalance,
             unsteadiness,
             multipliers: state.multipliers,
+            solver,
         })
     }
 
@@ -152,7 +154,7 @@ impl<'a> LinearModel<'a> {
     /// Directions in which the energy falls and which the constraints leave, at rest; none where the stiffness belongs to
     /// no energy or cannot be factored.
     pub fn unstable_directions(&self) -> Option<usize> {
-        if !self.is_at_rest || !is_symmetric(&self.pattern(), &self.parts.stiffness, &self.parts.mass) {
+        if !self.is_at_rest || !is_symmetric(self.system, &self.representative, &self.parts) {
             return None;
         }
         let mut shifted = RealShift::new(self.system, &self.representative);
@@ -222,7 +224,7 @@ impl<'a> LinearModel<'a> {
     }
 }
 
-fn stopped(system: &System, time: f64, error: &FactorError) -> LinearError {
+pub(super) fn stopped(system: &System, time: f64, error: &FactorError) -> LinearError {
     let (FactorError::ZeroPivot { unknown, .. } | FactorError::NotFinite { unknown }) = error;
     LinearError::Factor { time, unknown: system.layout().name_of(*unknown) }
 }
@@ -232,11 +234,11 @@ fn is_at_rest(at: &Kinematics) -> bool {
         && at.coordinates.iter().all(|coordinate| coordinate.rate == 0.0)
 }
 
-fn nothing(at: &Kinematics) -> (Vec<MotionChange>, Vec<f64>) {
+pub(super) fn nothing(at: &Kinematics) -> (Vec<MotionChange>, Vec<f64>) {
     (vec![MotionChange::none(); at.nodes.len()], vec![0.0; at.coordinates.len()])
 }
 
-fn point<'b>(
+pub(super) fn point<'b>(
     at: &'b Kinematics,
     (nodes, coordinates): (&'b [MotionChange], &'b [f64]),
     multipliers: &'b [f64],
@@ -375,8 +377,15 @@ fn add_accelerated_mass(system: &System, at: &Kinematics, parts: &mut Linearizat
     }
 }
 
-fn is_symmetric(pattern: &Pattern, stiffness: &[f64], mass: &[f64]) -> bool {
-    [stiffness, mass].iter().all(|values| {
+/// Whether stiffness and mass are symmetric but for round-off.
+fn is_symmetric(system: &System, representative: &Representative, parts: &Linearization) -> bool {
+    let pattern = system.pattern();
+    let quantities = system.layout().quantities();
+    let unit = |row: usize| match quantities[row] {
+        Quantity::Length | Quantity::State => 1.0,
+        Quantity::Angle => representative.length,
+    };
+    [(&parts.stiffness, representative.stiffness), (&parts.mass, 0.0)].into_iter().all(|(values, usual)| {
         let range = |column: usize| pattern.column_starts()[column]..pattern.column_starts()[column + 1];
         let largest: Vec<f64> = (0..pattern.size())
             .map(|column| values[range(column)].iter().fold(0.0, |most: f64, value| most.max(value.abs())))
@@ -388,6 +397,7 @@ fn is_symmetric(pattern: &Pattern, stiffness: &[f64], mass: &[f64]) -> bool {
                 let difference = (value - mirror).abs();
                 difference <= UNEQUAL * value.abs().max(mirror.abs())
                     || difference <= ROUND_OFF * (largest[row] * largest[column]).sqrt()
+                    || difference <= f64::EPSILON * usual * unit(row) * unit(column)
             })
         })
     })

@@ -1,6 +1,7 @@
 //! Where results go: columns of numbers over time, to tables, summaries and plots. Knows no mechanics.
 
 mod bode;
+mod campbell;
 mod csv;
 mod log_plot;
 mod matrix_market;
@@ -11,6 +12,7 @@ mod summary;
 use std::io;
 
 pub use bode::BodePlot;
+pub use campbell::CampbellPlot;
 pub use csv::{CsvWriter, number_text, quoted};
 pub use log_plot::LogFigure;
 pub use matrix_market::{full_matrix, sparse_matrix};

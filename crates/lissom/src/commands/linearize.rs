@@ -39,7 +39,7 @@ pub(super) struct Linearize {
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     output: Vec<String>,
 
-    /// State to linearise about: `static` (default), `undeformed` or a time of the model's analysis [s].
+    /// State to linearise about: `static` (default), `undeformed`, `rotation` or a time of the model's analysis [s].
     #[arg(
         long,
         value_name = "STATE|TIME",

@@ -1,6 +1,7 @@
 //! The subcommands. A new one is a file here, a variant of [`Command`] and a line in [`Line::run`].
 
 mod buckling;
+mod campbell;
 mod check;
 mod completions;
 mod gradient;
@@ -113,6 +114,7 @@ enum Command {
     Modes(modes::Modes),
     Buckling(buckling::Buckling),
     Gradient(gradient::Gradient),
+    Campbell(campbell::Campbell),
     Response(response::Response),
     Linearize(linearize::Linearize),
     Kinds(kinds::Kinds),
@@ -136,6 +138,7 @@ impl Line {
             Command::Modes(command) => command.run(),
             Command::Buckling(command) => command.run(),
             Command::Gradient(command) => command.run(),
+            Command::Campbell(command) => command.run(),
             Command::Response(command) => command.run(),
             Command::Linearize(command) => command.run(),
             Command::Kinds(command) => command.run(),

@@ -38,7 +38,7 @@ pub(super) struct Modes {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     count: Option<u32>,
 
-    /// State to linearise about: `static` (default), `undeformed` or a time of the model's analysis [s].
+    /// State to linearise about: `static` (default), `undeformed`, `rotation` (steady, with the velocities of the file) or a time of the model's analysis [s].
     #[arg(long, value_name = "STATE|TIME", allow_negative_numbers = true)]
     about: Option<About>,
 

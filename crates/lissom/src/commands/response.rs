@@ -48,7 +48,7 @@ pub(super) struct Response {
     #[arg(long, value_name = "N", default_value_t = DEFAULT_POINTS as u32, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     points: u32,
 
-    /// State to linearise about: `static` (default), `undeformed` or a time of the model's analysis [s].
+    /// State to linearise about: `static` (default), `undeformed`, `rotation` or a time of the model's analysis [s].
     #[arg(
         long,
         value_name = "STATE|TIME",

@@ -1,0 +1,235 @@
+//! Steady rotation: the places at which a model keeps turning as it does, without any change in the axes of its nodes.
+//!
+//! The field of velocities that nodes have at the start, each its own, stays in space; places are found at which the equations
+//! of motion hold with constant body twists. Newton's method with the linear model about the state, in departures from going on:
+//!
+//! ```text
+//! (s² M + s D + K) δ + Bᵀ δμ = -r(V̇ = 0),    B δ = -c,    δV = ad_V δ
+//! ```
+//!
+//! with a small s, so that free rotations have no share in the corrections.
+
+use lissom_motion::{Motion, Vector3, Vector6, rotation_part};
+use lissom_solver::SolverKind;
+use num_complex::Complex64;
+
+use super::krylov::product;
+use super::mode::Mode;
+use super::model::{LinearError, LinearModel, nothing, point, stopped};
+use super::shifted::ComplexShift;
+use crate::analysis::initial::Initial;
+use crate::joints::Quantity;
+use crate::scaling::Representative;
+use crate::system::{Chart, LOCKED, Linearization, NodeMotion, State, System};
+
+/// Most corrections.
+const MOST: usize = 60;
+/// A correction below this, of angles and of parts of the model's length, ends it …
+const STILL: f64 = 1e-13;
+/// … and so does one that is no smaller than the last, if it is below this.
+const ROUND_OFF: f64 = 1e-8;
+/// The small s, over the rate of rotation.
+const SMALL: f64 = 1e-3;
+/// How far a state is turned to see whether coefficients are constant [rad].
+const TURN: f64 = 0.7;
+/// The shift at which that is seen, relative to the eigenvalue.
+const BESIDE: f64 = 0.9;
+
+/// A steady rotation that was not found.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SteadyError {
+    /// Nothing turns.
+    #[error("nothing turns at the start: give parts an angular velocity, or take the static equilibrium")]
+    AtRest,
+    /// Velocities or the linear model do not exist.
+    #[error(transparent)]
+    Linear(#[from] LinearError),
+    /// No places were found.
+    #[error(
+        "no steady rotation was found from the places of the file: the last correction was {0:.1e} of the model's length; at this \
+         speed there may be none, or the velocities at the start are no steady rotation"
+    )]
+    NotConverged(f64),
+}
+
+/// The state of steady rotation with the velocities of `state`, which the constraints may correct.
+///
+/// # Errors
+/// If nothing turns, or there are no such places.
+pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<State, SteadyError> {
+    if rate_of(state) == 0.0 {
+        return Err(SteadyError::AtRest);
+    }
+    let mut state = state.clone();
+    let layout = system.layout();
+    let count = layout.coordinate_count();
+    let time = state.kinematics.time;
+    let unloaded = Linearization::of_state(system, &state.kinematics);
+    let representative = Representative::of(system, &state.kinematics, &unloaded);
+    let mut initial = Initial::new(system, &state, &representative, solver);
+    initial.velocities(system, &mut state).map_err(|error| LinearError::Accelerations { time, error })?;
+    let rate = rate_of(&state);
+    let fields: Vec<Vector6> =
+        state.kinematics.nodes.iter().map(|node| node.frame.adjoint_times(&node.twist)).collect();
+    for node in &mut state.kinematics.nodes {
+        node.acceleration.fill(0.0);
+    }
+    for coordinate in &mut state.kinematics.coordinates {
+        coordinate.acceleration = 0.0;
+    }
+    let zeros = vec![0.0; layout.multiplier_rows().len()];
+    let (mut start, mut violations) = (zeros.clone(), zeros.clone());
+    system.violations(&state.kinematics, &mut start);
+    state.multipliers.clone_from(&zeros);
+    let mut parts = Linearization::new(system);
+    let mut shifted = ComplexShift::new(system, &representative);
+    let mut residual = vec![0.0; layout.size()];
+    let (mut last, mut right) = (f64::INFINITY, vec![Complex64::default(); layout.size()]);
+    for _ in 0..MOST {
+        system.violations(&state.kinematics, &mut violations);
+        for (violation, start) in violations.iter_mut().zip(&start) {
+            *violation -= start;
+        }
+        let (still, unchanged) = nothing(&state.kinematics);
+        let at = point(&state.kinematics, (&still, &unchanged), &state.multipliers, &violations);
+        system.residual(&at, &mut residual);
+        system.linearize(&at, Chart::Departures(&state.kinematics.nodes), &mut parts);
+        shifted
+            .factor(&parts, Complex64::from(SMALL * rate))
+            .map_err(|error| stopped(system, time, &error))?;
+        for (value, residual) in right.iter_mut().zip(&residual) {
+            *value = Complex64::from(-residual);
+        }
+        shifted.solve(&mut right);
+        let size = correct(system, &mut state, &right, &fields, representative.length);
+        for (multiplier, change) in state.multipliers.iter_mut().zip(&right[count..]) {
+            *multiplier += shifted.multiplier_factor() * change.re;
+        }
+        if size <= STILL || (size <= ROUND_OFF && size >= last) {
+            return Ok(state);
+        }
+        if !size.is_finite() {
+            return Err(SteadyError::NotConverged(size));
+        }
+        last = size;
+    }
+    if last <= ROUND_OFF { Ok(state) } else { Err(SteadyError::NotConverged(last)) }
+}
+
+/// Largest rate at which a node turns [rad/s].
+fn rate_of(state: &State) -> f64 {
+    state.kinematics.nodes.iter().map(|node| rotation_part(&node.twist).norm()).fold(0.0, f64::max)
+}
+
+/// Moves the state; gives the size of the correction in angles and parts of `length`.
+fn correct(system: &System, state: &mut State, change: &[Complex64], fields: &[Vector6], length: f64) -> f64 {
+    let layout = system.layout();
+    let mut size = 0.0_f64;
+    let unit = |quantity: Quantity| match quantity {
+        Quantity::Length => 1.0 / length,
+        Quantity::Angle | Quantity::State => 1.0,
+    };
+    for (value, &quantity) in change[..layout.coordinate_count()].iter().zip(layout.quantities()) {
+        let own = value.re.abs() * unit(quantity);
+        size = if own.is_finite() { size.max(own) } else { f64::NAN };
+        if size.is_nan() {
+            return size;
+        }
+    }
+    for (node, (motion, field)) in state.kinematics.nodes.iter_mut().zip(fields).enumerate() {
+        let rows = layout.rows_of_node(node);
+        let psi = Vector6::from_fn(|k, _| if rows[k] == LOCKED { 0.0 } else { change[rows[k] as usize].re });
+        motion.frame = motion.frame * Motion::exponential(&psi);
+        motion.twist = motion.frame.adjoint_inverse_times(field);
+    }
+    for (coordinate, motion) in state.kinematics.coordinates.iter_mut().enumerate() {
+        motion.value += change[layout.row_of_coordinate(coordinate)].re;
+    }
+    size
+}
+
+impl<'a> LinearModel<'a> {
+    /// Largest rate at which a node turns, as a vector [rad/s], in global axes.
+    pub fn spin(&self) -> Vector3 {
+        let spins = self.at.nodes.iter().map(NodeMotion::angular_velocity);
+        spins.fold(Vector3::zeros(), |most, spin| if spin.norm() > most.norm() { spin } else { most })
+    }
+
+    /// The model a part of a turn later, if it goes on steadily: everything where its own twist takes it.
+    ///
+    /// # Errors
+    /// If there is no linear model there.
+    pub fn turned(&self) -> Result<LinearModel<'a>, LinearError> {
+        let mut kinematics = self.at.clone();
+        let rate = self.spin().norm();
+        let later = if rate > 0.0 { TURN / rate } else { 0.0 };
+        for node in &mut kinematics.nodes {
+            node.frame = node.frame * Motion::exponential(&(later * node.twist));
+        }
+        for coordinate in &mut kinematics.coordinates {
+            coordinate.value += later * coordinate.rate;
+        }
+        let size = self.multipliers().len();
+        let state = State {
+            position_remainders: vec![Vector3::zeros(); kinematics.nodes.len()],
+            algorithmic: vec![0.0; self.coordinate_count()],
+            violations: vec![0.0; size],
+            multipliers: self.multipliers().to_vec(),
+            time_remainder: 0.0,
+            kinematics,
+        };
+        LinearModel::of(self.system, &state, self.solver)
+    }
+
+    /// How far a mode of this model is from being one of `other`, the model a part of a turn later: 0 where the coefficients it
+    /// sees are constant, so that it oscillates as it says.
+    ///
+    /// # Errors
+    /// If the matrices cannot be factored.
+    pub fn departure_of(&self, mode: &Mode, other: &LinearModel<'_>) -> Result<f64, LinearError> {
+        let s = mode.eigenvalue;
+        if s.norm() == 0.0 {
+            return Ok(0.0);
+        }
+        let mut shifted = ComplexShift::new(other.system, &other.representative);
+        shifted.factor(&other.parts, BESIDE * s).map_err(|error| other.stopped(&error))?;
+        let pattern = other.pattern();
+        let mut right = vec![Complex64::default(); pattern.size()];
+        let count = self.coordinate_count();
+        for (column, value) in mode.shape.iter().enumerate() {
+            for at in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
+                let row = pattern.row_indices()[at];
+                right[row] += value
+                    * if row < count {
+                        s * (s * other.parts.mass[at] + other.parts.damping[at]) + other.parts.stiffness[at]
+                    } else {
+                        Complex64::from(other.parts.constraint[at])
+                    };
+            }
+        }
+        shifted.solve(&mut right);
+        let size = |values: &[Complex64]| product(values, values).re.sqrt();
+        Ok(size(&right[..count]) / size(&mode.shape))
+    }
+
+    /// How alike two shapes are, weighed with the mass of this model: 1 for the same, 0 for orthogonal ones.
+    pub fn assurance(&self, one: &Mode, other: &Mode) -> f64 {
+        let pattern = self.pattern();
+        let weighed = |shape: &[Complex64]| {
+            let mut sum = vec![Complex64::default(); pattern.size()];
+            for (column, value) in shape.iter().enumerate() {
+                for at in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
+                    sum[pattern.row_indices()[at]] += value * self.parts.mass[at];
+                }
+            }
+            sum.truncate(shape.len());
+            sum
+        };
+        let (a, b) = (weighed(&one.shape), weighed(&other.shape));
+        let sizes = product(&one.shape, &a).re * product(&other.shape, &b).re;
+        let mirrored: Vec<Complex64> = one.shape.iter().map(Complex64::conj).collect();
+        let most = product(&one.shape, &b).norm_sqr().max(product(&mirrored, &b).norm_sqr());
+        if sizes > 0.0 { most / sizes } else { 0.0 }
+    }
+}

@@ -1,0 +1,86 @@
+//! Whirl of a mode about the axis of rotation, from the shape in rotating axes to what is seen in axes at rest.
+//!
+//! With e₁, e₂, e₃ = axis and displacements d, z = d₁ + i d₂ turns in rotating axes as
+//!
+//! ```text
+//! z = ½ (d₁ + i d₂) e^{iωt} + ½ (d₁ - i d₂)* e^{-iωt}
+//! ```
+//!
+//! forward with rate ω and backward with rate -ω; in axes at rest both are faster by the rate of rotation.
+
+use lissom_motion::Vector3;
+use num_complex::Complex64;
+
+use super::mode::Mode;
+use super::model::LinearModel;
+
+/// A mode with less displacement across the axis than this part of all is none that whirls.
+const LATERAL: f64 = 1e-6;
+/// Parts of forward and backward that differ by less are an ellipse, with two frequencies in axes at rest.
+const CIRCULAR: f64 = 0.999;
+
+/// What a mode is in axes at rest.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Whirl {
+    /// Along the axis or about it, or nothing turns.
+    None,
+    /// A circle in the sense of the rotation, with this frequency in axes at rest [Hz].
+    Forward(f64),
+    /// A circle against the rotation, likewise.
+    Backward(f64),
+    /// An ellipse in rotating axes: two frequencies in axes at rest.
+    Mixed,
+}
+
+impl Whirl {
+    /// The word in tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Forward(_) => "forward",
+            Self::Backward(_) => "backward",
+            Self::Mixed => "mixed",
+        }
+    }
+}
+
+impl LinearModel<'_> {
+    /// What a mode is in axes at rest.
+    pub fn whirl(&self, mode: &Mode) -> Whirl {
+        let spin = self.spin();
+        let rate = spin.norm();
+        if rate == 0.0 {
+            return Whirl::None;
+        }
+        let axis = spin / rate;
+        let other = Vector3::ith(axis.iamin(), 1.0);
+        let first = axis.cross(&other).normalize();
+        let second = axis.cross(&first);
+        let length = self.length();
+        let (mut forward, mut backward, mut whole) = (0.0, 0.0, 0.0);
+        for (node, shape) in self.at.nodes.iter().skip(1).zip(self.shape(mode)) {
+            if node.angular_velocity() == Vector3::zeros() {
+                continue;
+            }
+            for (vector, unit) in [(shape.displacement, 1.0), (shape.rotation, length)] {
+                let along = |direction: &Vector3| -> Complex64 {
+                    vector.iter().zip(direction).map(|(value, factor)| value * *factor * unit).sum()
+                };
+                let (one, two) = (along(&first), along(&second));
+                forward += (one + Complex64::i() * two).norm_sqr();
+                backward += (one - Complex64::i() * two).norm_sqr();
+                whole += vector.iter().map(|value| value.norm_sqr() * unit * unit).sum::<f64>();
+            }
+        }
+        if forward + backward <= LATERAL * whole {
+            return Whirl::None;
+        }
+        let sense = (forward - backward) / (forward + backward);
+        if sense.abs() < CIRCULAR {
+            return Whirl::Mixed;
+        }
+        let seen = rate + sense.signum() * mode.eigenvalue.im;
+        let frequency = seen.abs() / std::f64::consts::TAU;
+        if seen >= 0.0 { Whirl::Forward(frequency) } else { Whirl::Backward(frequency) }
+    }
+}

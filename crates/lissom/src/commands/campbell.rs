@@ -1,0 +1,136 @@
+//! `lissom campbell`: natural frequencies over a parameter.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use lissom::campbell::{CampbellError, CampbellReport, CampbellRequest, campbell};
+use lissom::{FolderError, ResultFolder, summary};
+use serde_json::json;
+
+use super::{Exit, Failure, ModelArguments, show_warnings};
+use crate::terminal;
+
+/// Find natural frequencies and damping over a parameter, as the speed of a rotor.
+///
+/// At each value modes are found about the steady rotation that the velocities of the file begin, or about static equilibrium
+/// where nothing turns, and followed by their shapes. The results go to a folder: `campbell.csv`, `campbell.svg` and
+/// `campbell.png` (diagram with the multiples of the rotation) and `summary.json` (critical speeds).
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  lissom campbell rotor.toml --vary parameters.speed=0:200:41
+  lissom campbell blade.toml --vary parameters.speed=0:2:21 --count 6 --rays 1,3,6
+
+Exit code: 0 all is done; 2 wrong model or command line; 3 no steady rotation, no modes, or coefficients that are not constant.")]
+pub(super) struct Campbell {
+    #[command(flatten)]
+    model: ModelArguments,
+
+    /// Number of the model file, its first and last value, and how many values.
+    #[arg(long, value_name = "PATH=FROM:TO:VALUES", value_parser = parse_variation)]
+    vary: (String, f64, f64, usize),
+
+    /// How many modes, the lowest first.
+    #[arg(long, value_name = "N", default_value_t = 8, value_parser = clap::value_parser!(u32).range(1..))]
+    count: u32,
+
+    /// Multiples of the rotation whose crossings are critical speeds.
+    #[arg(long, value_name = "N,…", value_delimiter = ',', default_value = "1,2,3", value_parser = clap::value_parser!(u32).range(1..))]
+    rays: Vec<u32>,
+
+    /// Folder for the results [default: out/<name of the model file>-campbell].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Nothing on the terminal.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+fn parse_variation(text: &str) -> Result<(String, f64, f64, usize), String> {
+    let wrong = || "it must be PATH=FROM:TO:VALUES, as `parameters.speed=0:20:41`".to_owned();
+    let (path, range) = text.split_once('=').ok_or_else(wrong)?;
+    let parts: Vec<&str> = range.split(':').collect();
+    let [from, to, values] = parts[..] else { return Err(wrong()) };
+    let number =
+        |text: &str| text.trim().parse::<f64>().ok().filter(|value| value.is_finite()).ok_or_else(wrong);
+    let values = values.trim().parse::<usize>().map_err(|_| wrong())?;
+    if !(2..=100_000).contains(&values) {
+        return Err("there must be 2 values at least, and 100000 at most".to_owned());
+    }
+    Ok((path.trim().to_owned(), number(from)?, number(to)?, values))
+}
+
+impl Campbell {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let (model, document) = self.model.read()?;
+        if !self.quiet {
+            show_warnings(&document);
+        }
+        let (path, from, to, values) = self.vary;
+        let request = CampbellRequest { path, from, to, values, count: self.count as usize, rays: self.rays };
+        let found = match campbell(&model, &self.model.set, &request) {
+            Err(CampbellError::Model(report)) => return Err(report.into()),
+            Err(error @ (CampbellError::Range { .. } | CampbellError::Unlike(_))) => {
+                return Err(Failure::new(Exit::BadModel, error));
+            }
+            other => other,
+        };
+        let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let path = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-campbell")));
+        let unwritable = |error: FolderError| Failure::folder(Exit::Failed, &error);
+        let folder = ResultFolder::create(&path).map_err(|error| unwritable(error.into()))?;
+        folder.clear().map_err(|error| unwritable(error.into()))?;
+        let found = match found {
+            Ok(found) => found,
+            Err(error) => {
+                let mut summary = summary::of_request("campbell", model.name(), &self.model.set, &document);
+                // A text can be said in JSON.
+                let _ = summary.insert("error", json!(error.to_string()));
+                folder.write_summary(&summary).map_err(|error| unwritable(error.into()))?;
+                return Err(Failure::new(Exit::Failed, error));
+            }
+        };
+        let heading = document.title.as_deref().unwrap_or(model.name());
+        folder.write_table("campbell.csv", &found.csv()).map_err(|error| unwritable(error.into()))?;
+        folder.write_campbell_plot(&found.figure(heading)).map_err(unwritable)?;
+        let summary = found.summary(model.name(), &self.model.set, &document);
+        folder.write_summary(&summary).map_err(|error| unwritable(error.into()))?;
+        if !self.quiet {
+            for warning in &found.warnings {
+                terminal::complain(&format!("warning: {warning}\n"));
+            }
+            terminal::print(&told(heading, &found, &path));
+        }
+        Ok(Exit::Done)
+    }
+}
+
+/// A few lines for a person.
+fn told(heading: &str, found: &CampbellReport, folder: &Path) -> String {
+    let mut text = format!("{heading}\n");
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "  {} lines over {} values of {}, {:.3} s",
+        found.lines,
+        found.points.len(),
+        found.path,
+        found.wall.as_secs_f64()
+    );
+    for crossing in &found.crossings {
+        let _ = writeln!(
+            text,
+            "  line {} meets {}P at {} = {:.6e}, rotation {:.6e} Hz, whirl {}",
+            crossing.line + 1,
+            crossing.ray,
+            found.path,
+            crossing.value,
+            crossing.spin,
+            crossing.whirl
+        );
+    }
+    let _ = writeln!(text, "  results in {}", folder.display());
+    text
+}
