@@ -63,6 +63,11 @@ impl Simulation {
     fn step(&self, py: Python<'_>) -> PyResult<()> {
         py.detach(|| {
             let mut inner = self.lock();
+            if let Some(event) = inner.session.stopped_by() {
+                return Err(PyValueError::new_err(format!(
+                    "event `{event}` has ended the simulation: go on by `step_to`"
+                )));
+            }
             if inner.session.is_finished() {
                 let end = inner.session.progress().end;
                 return Err(PyValueError::new_err(format!(
@@ -74,7 +79,8 @@ impl Simulation {
         })
     }
 
-    /// Goes on to `time` [s], which is met exactly; beyond the end of the model's analysis, too.
+    /// Goes on to `time` [s], which is met exactly; beyond the end of the model's analysis, too. Stands still before it
+    /// at an event that ends the run, which `stopped_by` names.
     ///
     /// Raises `SolutionError` if a step has no solution: the simulation then stands at the end of the last one that has.
     /// Raises `ValueError` if `time` is before the present time or not finite.
@@ -114,6 +120,18 @@ impl Simulation {
     #[getter]
     fn is_finished(&self) -> bool {
         self.lock().session.is_finished()
+    }
+
+    /// Name of the event at which the simulation stands, if that is to end the run.
+    #[getter]
+    fn stopped_by(&self) -> Option<String> {
+        self.lock().session.stopped_by().map(str::to_owned)
+    }
+
+    /// Names and times [s] of the events that have happened.
+    #[getter]
+    fn events(&self) -> Vec<(String, f64)> {
+        self.lock().session.events().map(|(name, time)| (name.to_owned(), time)).collect()
     }
 
     /// Names of the columns, in the order of `values`.

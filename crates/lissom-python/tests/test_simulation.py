@@ -34,6 +34,37 @@ def test_steps_are_those_of_a_run() -> None:
     assert sim.time == 1.5
 
 
+THROWN = """
+lissom = 1
+[point_masses.stone]
+mass = 1
+velocity = [2, 0, 0]
+[outputs.stone]
+kind = "position"
+of = "stone"
+[events.far]
+zero_of = "stone.x - 0.5"
+stop = true
+[analysis]
+kind = "dynamics"
+end = 1
+step = 0.1
+"""
+
+
+def test_an_event_ends_a_simulation() -> None:
+    model = lissom.loads(THROWN)
+    sim = model.simulation()
+    assert sim.stopped_by is None and sim.events == []
+    sim.step_to(1.0)
+    assert sim.stopped_by == "far" and sim.is_finished and abs(sim.time - 0.25) < 1e-12
+    assert sim.events == [("far", sim.time)]
+    with pytest.raises(ValueError, match="event `far`"):
+        sim.step()
+    sim.step_to(1.0)
+    assert sim.time == 1.0 and sim.stopped_by is None and abs(sim["stone.x"] - 2.0) < 1e-9
+
+
 def test_a_simulation_goes_to_any_time() -> None:
     sim = lissom.load(PENDULUM).simulation()
     sim.step_to(0.1234)

@@ -50,7 +50,8 @@ class Simulation:
         Raises `SolutionError` if the step has no solution, `ValueError` at the end of the model's analysis.
         """
     def step_to(self, time: float) -> None:
-        """Goes on to `time` [s], which is met exactly; beyond the end of the model's analysis, too.
+        """Goes on to `time` [s], which is met exactly; beyond the end of the model's analysis, too. Stands still before it
+        at an event that ends the run, which `stopped_by` names.
 
         Raises `SolutionError` if a step has no solution: the simulation then stands at the end of the last one that has.
         Raises `ValueError` if `time` is before the present time or not finite.
@@ -64,6 +65,12 @@ class Simulation:
     @property
     def is_finished(self) -> bool:
         """Whether that end is reached."""
+    @property
+    def stopped_by(self) -> Optional[str]:
+        """Name of the event at which the simulation stands, if that is to end the run."""
+    @property
+    def events(self) -> list[tuple[str, float]]:
+        """Names and times [s] of the events that have happened."""
     @property
     def names(self) -> list[str]:
         """Names of the columns, in the order of `values`."""
