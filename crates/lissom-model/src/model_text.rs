@@ -8,7 +8,7 @@ use crate::document::decode::from_tree;
 use crate::library::Library;
 use crate::registry::Registry;
 use crate::report::Report;
-use crate::text::{self, Tree};
+use crate::text::{self, Patch, Tree};
 use crate::toml_text;
 
 /// A model's text as a tree of values. It is read once and opened many times, with different overrides.
@@ -54,7 +54,17 @@ impl ModelText {
         &self.0.library
     }
 
-    /// The model as TOML, overrides in place except those inside of parts, without comments. Files stay included. Every number comes back to the last bit.
+    /// Overrides of what stands inside of parts, each as `path = value`: [`to_toml`](Self::to_toml) cannot tell them.
+    pub fn overrides_inside_parts(&self) -> Vec<String> {
+        let line = |patch: &Patch| {
+            let path: Vec<String> = patch.path.iter().map(|(name, _)| toml_text::key(name)).collect();
+            format!("{} = {}", path.join("."), toml_text::inline(&patch.value))
+        };
+        self.0.deferred.iter().map(line).collect()
+    }
+
+    /// The model as TOML, overrides in place except those inside of parts, without comments. Files stay included. Every
+    /// number comes back to the last bit.
     pub fn to_toml(&self) -> String {
         toml_text::file(&self.0.root)
     }
@@ -98,6 +108,17 @@ step = 1e-300
         }
         let report = text.document(&registry, &set(&[("analysis.stepp", "1")])).unwrap_err().render(false);
         assert!(report.contains("stepp") && report.contains("[override:1"), "{report}");
+    }
+
+    #[test]
+    fn overrides_inside_parts_are_told() {
+        let text = format!("{TEXT}[parts.leg.point_masses.foot]\nmass = 1\n");
+        let read = |value: &str| {
+            let changes = set(&[("leg.foot.mass", value), ("analysis.end", "2")]);
+            ModelText::read(&text, "a.toml", &changes).unwrap().overrides_inside_parts()
+        };
+        assert_eq!(read("3"), ["leg.foot.mass = 3"]);
+        assert_ne!(read("3"), read("4"));
     }
 
     #[test]

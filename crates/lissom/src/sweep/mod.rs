@@ -172,6 +172,7 @@ impl Sweep {
             "lissom_sweep": lissom_model::sweep::VERSION,
             "version": crate::VERSION,
             "model": self.text.to_toml(),
+            "inside_parts": self.text.overrides_inside_parts(),
             "included": self.text.library().texts(),
             "sweep": self.file,
             "members": self.len(),
