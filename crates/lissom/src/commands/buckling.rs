@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use lissom::buckling::{BucklingReport, BucklingRunError, buckling, of_request};
-use lissom::{Document, FolderError, Model, Override, ResultFolder};
-use serde_json::json;
+use lissom::{Document, Model, Override};
 
+use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
@@ -63,19 +63,7 @@ pub(super) fn report(
         Err(BucklingRunError::Model(report)) => return Err(report.into()),
         other => other,
     };
-    let unwritable = |error: lissom::FileError| Failure::folder(Exit::Failed, &FolderError::from(error));
-    let folder = ResultFolder::create(folder).map_err(unwritable)?;
-    folder.clear().map_err(unwritable)?;
-    let found = match found {
-        Ok(found) => found,
-        Err(error) => {
-            let mut summary = of_request(model.name(), overrides, document);
-            // A text can be said in JSON.
-            let _ = summary.insert("error", json!(error.to_string()));
-            folder.write_summary(&summary).map_err(unwritable)?;
-            return Err(Failure::new(Exit::Failed, error));
-        }
-    };
+    let (folder, found) = folder_for(folder, found, || of_request(model.name(), overrides, document))?;
     folder.write_table("buckling.csv", &found.csv()).map_err(unwritable)?;
     folder.write_table("shapes.csv", &found.shapes_csv()).map_err(unwritable)?;
     folder.write_summary(&found.summary(model.name(), overrides, document)).map_err(unwritable)?;

@@ -5,9 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use lissom::campbell::{CampbellError, CampbellReport, CampbellRequest, campbell};
-use lissom::{FolderError, ResultFolder, summary};
-use serde_json::json;
+use lissom::summary;
 
+use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
@@ -79,24 +79,14 @@ impl Campbell {
         };
         let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let path = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-campbell")));
-        let unwritable = |error: FolderError| Failure::folder(Exit::Failed, &error);
-        let folder = ResultFolder::create(&path).map_err(|error| unwritable(error.into()))?;
-        folder.clear().map_err(|error| unwritable(error.into()))?;
-        let found = match found {
-            Ok(found) => found,
-            Err(error) => {
-                let mut summary = summary::of_request("campbell", model.name(), &self.model.set, &document);
-                // A text can be said in JSON.
-                let _ = summary.insert("error", json!(error.to_string()));
-                folder.write_summary(&summary).map_err(|error| unwritable(error.into()))?;
-                return Err(Failure::new(Exit::Failed, error));
-            }
-        };
+        let (folder, found) = folder_for(&path, found, || {
+            summary::of_request("campbell", model.name(), &self.model.set, &document)
+        })?;
         let heading = document.title.as_deref().unwrap_or(model.name());
-        folder.write_table("campbell.csv", &found.csv()).map_err(|error| unwritable(error.into()))?;
+        folder.write_table("campbell.csv", &found.csv()).map_err(unwritable)?;
         folder.write_campbell_plot(&found.figure(heading)).map_err(unwritable)?;
         let summary = found.summary(model.name(), &self.model.set, &document);
-        folder.write_summary(&summary).map_err(|error| unwritable(error.into()))?;
+        folder.write_summary(&summary).map_err(unwritable)?;
         if !self.quiet {
             for warning in &found.warnings {
                 terminal::complain(&format!("warning: {warning}\n"));

@@ -7,9 +7,9 @@ use clap::Args;
 use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize};
 use lissom::modes::About;
 use lissom::response::FrequencyError;
-use lissom::{FolderError, ResultFolder, summary};
-use serde_json::json;
+use lissom::summary;
 
+use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
@@ -72,19 +72,9 @@ impl Linearize {
         };
         let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let path = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-linear")));
-        let unwritable = |error: lissom::FileError| Failure::folder(Exit::Failed, &FolderError::from(error));
-        let folder = ResultFolder::create(&path).map_err(unwritable)?;
-        folder.clear().map_err(unwritable)?;
-        let found = match found {
-            Ok(found) => found,
-            Err(error) => {
-                let mut summary = summary::of_request("linearize", model.name(), &self.model.set, &document);
-                // A text can be said in JSON.
-                let _ = summary.insert("error", json!(error.to_string()));
-                folder.write_summary(&summary).map_err(unwritable)?;
-                return Err(Failure::new(Exit::Failed, error));
-            }
-        };
+        let (folder, found) = folder_for(&path, found, || {
+            summary::of_request("linearize", model.name(), &self.model.set, &document)
+        })?;
         for (name, text) in &found.files {
             folder.write_table(name, text).map_err(unwritable)?;
         }

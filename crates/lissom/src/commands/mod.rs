@@ -13,6 +13,7 @@ mod new;
 mod path;
 mod plot;
 mod response;
+mod results;
 mod run;
 mod schema;
 mod study;

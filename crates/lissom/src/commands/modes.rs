@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use lissom::modes::{About, ModeReport, ModeRequest, ModesError, modes, of_request};
 use lissom::motion::MotionRecorder;
-use lissom::{Document, FolderError, Model, Override, ResultFolder};
+use lissom::{Document, Model, Override, ResultFolder};
 use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
-use serde_json::json;
 
+use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
@@ -83,19 +83,7 @@ pub(super) fn report(
         }
         other => other,
     };
-    let unwritable = |error: lissom::FileError| Failure::folder(Exit::Failed, &FolderError::from(error));
-    let folder = ResultFolder::create(folder).map_err(unwritable)?;
-    folder.clear().map_err(unwritable)?;
-    let found = match found {
-        Ok(found) => found,
-        Err(error) => {
-            let mut summary = of_request(model.name(), overrides, document);
-            // A text can be said in JSON.
-            let _ = summary.insert("error", json!(error.to_string()));
-            folder.write_summary(&summary).map_err(unwritable)?;
-            return Err(Failure::new(Exit::Failed, error));
-        }
-    };
+    let (folder, found) = folder_for(folder, found, || of_request(model.name(), overrides, document))?;
     folder.write_table("modes.csv", &found.csv()).map_err(unwritable)?;
     folder.write_table("shapes.csv", &found.shapes_csv()).map_err(unwritable)?;
     write_state(&folder, document, &found)?;
@@ -111,7 +99,6 @@ pub(super) fn report(
 
 /// Writes the state about which the modes are, as a motion of one frame, for the page that shows them.
 fn write_state(folder: &ResultFolder, document: &Document, found: &ModeReport) -> Result<(), Failure> {
-    let unwritable = |error: lissom::FileError| Failure::folder(Exit::Failed, &FolderError::from(error));
     let lowered = lower(document)?;
     folder.write_scene(&Scene::of(document, &lowered)).map_err(unwritable)?;
     let file = folder.motion().map_err(unwritable)?;

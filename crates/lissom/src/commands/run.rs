@@ -18,6 +18,7 @@ use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
 
+use super::results::unwritable;
 use super::{Exit, Failure, show_warnings};
 use crate::terminal::{self, Bar, Interrupt};
 
@@ -307,11 +308,6 @@ impl Task {
         let motion = plots.then(|| folder.motion_path());
         Some(CheckpointFile::new(&self.folder, &folder.history_path(), motion, parsed, frame))
     }
-}
-
-/// Results that cannot be left where they belong.
-fn unwritable(error: impl Into<FolderError>) -> Failure {
-    Failure::folder(Exit::Failed, &error.into())
 }
 
 /// A few lines for a person.

@@ -1,0 +1,36 @@
+//! What analyses leave: their folder, and what a failed one without time steps has there.
+
+use std::fmt::Display;
+use std::path::Path;
+
+use lissom::{FolderError, ResultFolder};
+use lissom_model::output::Summary;
+use serde_json::json;
+
+use super::{Exit, Failure};
+
+/// The folder for what was `found`, emptied of former results. A failed analysis leaves its `summary` there, with the
+/// reason.
+pub(super) fn folder_for<T, E: Display>(
+    path: &Path,
+    found: Result<T, E>,
+    summary: impl FnOnce() -> Summary,
+) -> Result<(ResultFolder, T), Failure> {
+    let folder = ResultFolder::create(path).map_err(unwritable)?;
+    folder.clear().map_err(unwritable)?;
+    match found {
+        Ok(found) => Ok((folder, found)),
+        Err(error) => {
+            let mut summary = summary();
+            // A text can be said in JSON.
+            let _ = summary.insert("error", json!(error.to_string()));
+            folder.write_summary(&summary).map_err(unwritable)?;
+            Err(Failure::new(Exit::Failed, error))
+        }
+    }
+}
+
+/// Results that cannot be left where they belong.
+pub(super) fn unwritable(error: impl Into<FolderError>) -> Failure {
+    Failure::folder(Exit::Failed, &error.into())
+}
