@@ -1,40 +1,10 @@
 //! Relations between coordinates of joints against closed forms.
 
-use lissom::{Model, Record, Session, SessionError};
+#[path = "support/runs.rs"]
+mod runs;
 
-const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
-
-fn set(path: &str, value: &str) -> (String, String) {
-    (path.to_owned(), value.to_owned())
-}
-
-fn run(text: &str, overrides: &[(String, String)]) -> Record {
-    let model = Model::from_text("model.toml", text);
-    let mut session = match model.session(overrides) {
-        Ok(session) => session,
-        Err(SessionError::Model(report)) => panic!("{}", report.render(false)),
-        Err(error) => panic!("{error}"),
-    };
-    let (record, report) = session.record();
-    assert!(report.is_complete(), "{:?}", report.error());
-    record
-}
-
-fn column<'r>(record: &'r Record, output: &str, component: &str) -> &'r [f64] {
-    record.column(output, component).unwrap_or_else(|| panic!("{output}.{component}"))
-}
-
-fn last(record: &Record, output: &str, component: &str) -> f64 {
-    *column(record, output, component).last().expect("steps")
-}
-
-fn told(text: &str) -> String {
-    match Model::from_text("wrong.toml", text).session(&[]) {
-        Err(SessionError::Model(report)) => report.render(false),
-        Err(error) => panic!("{error}"),
-        Ok(_) => panic!("not refused"),
-    }
-}
+use lissom::Record;
+use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, run, set, told};
 
 /// Sun (20 teeth), three planets' one (15) on a carrier, and a ring (50), all about z; each with an inertia of its own.
 const PLANETARY: &str = r#"
@@ -405,23 +375,7 @@ fn curved_relations_keep_energy_and_hold() {
 #[test]
 fn relations_go_on_from_a_snapshot_to_the_last_bit() {
     for text in [TIED, CAM, PLANETARY] {
-        let model = Model::from_text("model.toml", text);
-        for scheme in SCHEMES {
-            let overrides = [set("analysis.scheme", scheme)];
-            let mut session = model.session(&overrides).unwrap();
-            session.step_to(0.4).unwrap();
-            let snapshot = session.snapshot().to_bytes();
-            let go_on = |session: &mut Session| {
-                session.step_to(0.8).unwrap();
-                let mut values = Vec::new();
-                session.values(&mut values);
-                values
-            };
-            let straight = go_on(&mut session);
-            let mut other = model.session(&overrides).unwrap();
-            other.restore(&lissom::SessionSnapshot::from_bytes(&snapshot).unwrap()).unwrap();
-            assert_eq!(go_on(&mut other), straight, "{scheme}");
-        }
+        goes_on_from_a_snapshot(text, [0.4, 0.8]);
     }
 }
 

@@ -1,38 +1,12 @@
 //! Kinds of joints against closed forms, and all of them with every scheme, with chosen steps and restarted.
 
-use lissom::{Model, Record, Session, SessionError};
+#[path = "support/runs.rs"]
+mod runs;
+
+use lissom::Record;
+use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, run, set, told};
 
 const EVERY_KIND: &str = include_str!("../../lissom-model/tests/every_kind.toml");
-const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
-
-fn set(path: &str, value: &str) -> (String, String) {
-    (path.to_owned(), value.to_owned())
-}
-
-fn run(text: &str, overrides: &[(String, String)]) -> Record {
-    let model = Model::from_text("model.toml", text);
-    let (record, report) = model.session(overrides).unwrap_or_else(|error| panic!("{error}")).record();
-    assert!(report.is_complete(), "{:?}", report.error());
-    record
-}
-
-fn column(record: &Record, output: &str, component: &str) -> Vec<f64> {
-    record.column(output, component).unwrap_or_else(|| panic!("{output}.{component}")).to_vec()
-}
-
-fn last(record: &Record, output: &str, component: &str) -> f64 {
-    *column(record, output, component).last().expect("steps")
-}
-
-/// What a wrong model is told.
-fn told(text: &str) -> String {
-    match Model::from_text("wrong.toml", text).session(&[]) {
-        Err(SessionError::Model(report)) => report.render(false),
-        Err(error) => panic!("{error}"),
-        Ok(_) => panic!("not refused"),
-    }
-}
-
 const OUTPUTS: &str = "
 [outputs.nut]
 kind = \"position\"
@@ -79,23 +53,7 @@ fn all_kinds_run_with_every_scheme_and_with_chosen_steps() {
 
 #[test]
 fn all_kinds_go_on_from_a_snapshot_to_the_last_bit() {
-    let model = Model::from_text("every_kind.toml", &format!("{EVERY_KIND}{OUTPUTS}"));
-    for scheme in SCHEMES {
-        let overrides = [set("analysis.scheme", scheme)];
-        let mut session = model.session(&overrides).unwrap();
-        session.step_to(0.1).unwrap();
-        let snapshot = session.snapshot().to_bytes();
-        let go_on = |session: &mut Session| {
-            session.step_to(0.2).unwrap();
-            let mut values = Vec::new();
-            session.values(&mut values);
-            values
-        };
-        let straight = go_on(&mut session);
-        let mut other = model.session(&overrides).unwrap();
-        other.restore(&lissom::SessionSnapshot::from_bytes(&snapshot).unwrap()).unwrap();
-        assert_eq!(go_on(&mut other), straight, "{scheme}");
-    }
+    goes_on_from_a_snapshot(&format!("{EVERY_KIND}{OUTPUTS}"), [0.1, 0.2]);
 }
 
 /// A nut on a thread, released: with p = lead/2π, d̈ = -g m / (m + J/p²).
