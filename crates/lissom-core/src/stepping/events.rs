@@ -76,6 +76,9 @@ impl Simulation {
             .accept(&self.system, &self.state, located, longest)
             .map_err(|which| self.chatters(which))?;
         self.hold_sides()?;
+        if happened.is_empty() {
+            return Ok(());
+        }
         let graph = self.system.signals();
         let mut at = self.state.kinematics.clone();
         for &event in &happened {
@@ -96,16 +99,13 @@ impl Simulation {
 
     /// Lets signals be continued from the sides of their switches that are known: forces may jump with them.
     pub(crate) fn hold_sides(&mut self) -> Result<(), StepError> {
-        let first = self.system.signals().first_side();
-        if self.state.kinematics.held.len() == first {
+        if self.watch.holds_sides(&self.system, &self.state.kinematics) {
             return Ok(());
         }
+        let first = self.system.signals().first_side();
         let mut at = self.state.kinematics.clone();
         self.watch.hold_sides(&self.system, &mut at);
         let pairs = || at.held[first..].iter().zip(&self.state.kinematics.held[first..]);
-        if pairs().all(|(side, held)| side == held) {
-            return Ok(());
-        }
         if pairs().all(|(side, held)| side == held || *held == 0.0) {
             // Sides that become known change nothing.
             self.state.kinematics = at;

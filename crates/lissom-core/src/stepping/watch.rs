@@ -99,6 +99,13 @@ impl Watch {
         events..events + count
     }
 
+    /// Whether the sides of all switches are held as they are known.
+    pub(crate) fn holds_sides(&self, system: &System, at: &Kinematics) -> bool {
+        let sides = self.known.sides.get(self.of_switches(system, at)).unwrap_or_default();
+        let held = &at.held[system.signals().first_side()..];
+        sides.iter().zip(held).all(|(side, held)| f64::from(*side) == *held)
+    }
+
     /// Writes the sides of all switches to where they are held.
     pub(crate) fn hold_sides(&self, system: &System, at: &mut Kinematics) {
         let sides = self.known.sides.get(self.of_switches(system, at)).unwrap_or_default();
