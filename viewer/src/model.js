@@ -5,9 +5,11 @@ import * as THREE from "three";
 import { BeamMesh } from "./beams.js";
 import { BodyMesh, PointMassMesh } from "./bodies.js";
 import { fields, rangeOf } from "./fields.js";
-import { JointSymbol } from "./joints.js";
-import { LoadArrow, SpringMesh } from "./springs.js";
+import { Symbols } from "./joints.js";
+import { BeamLoad, LoadArrow, SpringMesh } from "./springs.js";
 import { shade } from "./theme.js";
+
+const spaced = (kind) => kind.replaceAll("_", " ");
 
 export class ModelView {
   constructor(scene, kinematics, stage, theme, choices) {
@@ -51,41 +53,49 @@ export class ModelView {
 
   buildConnections(size) {
     const { scene, kinematics, theme } = this;
-    const symbols = new Map();
-    for (const joint of scene.joints.filter((joint) => joint.anchors)) {
-      const symbol = new JointSymbol({ ...joint, around: this.thicknessAt(joint) }, kinematics, size, theme);
-      symbols.set(joint.name, symbol);
-      this.add(joint.name, symbol, symbol.group, null, { kind: `${joint.kind} joint`, part: joint });
-      if (symbol.link) this.group.add(symbol.link);
-      this.byKind.joints.push(symbol.group, ...(symbol.link ? [symbol.link] : []));
-    }
-    for (const drive of scene.joints.filter((joint) => joint.joint)) {
-      symbols.get(drive.joint)?.addDrive(drive, theme);
-      this.parts.set(drive.name, { kind: drive.kind.replaceAll("_", " "), part: drive });
+    const of = (list, name) => list.filter((each) => each.name === name);
+    /** By its symbols, if it has any. */
+    const bySymbols = (part, kind, list) => {
+      const own = { symbols: of(scene.symbols, part.name), rods: of(scene.rods, part.name) };
+      if (own.symbols.length === 0) return false;
+      const drawn = new Symbols(part, own, kinematics, size, theme);
+      this.add(part.name, drawn, drawn.group, null, { kind, part });
+      this.byKind[list].push(drawn.group);
+      return true;
+    };
+    for (const joint of scene.joints) {
+      const kind = joint.anchors ? `${spaced(joint.kind)} joint` : spaced(joint.kind);
+      if (!bySymbols(joint, kind, "joints")) this.parts.set(joint.name, { kind, part: joint });
     }
     for (const spring of scene.springs) {
+      const kind = /friction|stop|bushing/.test(spring.kind) ? spaced(spring.kind) : `${spring.kind} spring`;
+      if (bySymbols(spring, kind, "springs")) continue;
       if (!spring.anchors) {
-        this.parts.set(spring.name, { kind: `${spring.kind} spring`, part: spring });
+        this.parts.set(spring.name, { kind, part: spring });
         continue;
       }
       const drawn = new SpringMesh(spring, kinematics, size, theme);
-      this.add(spring.name, drawn, drawn.mesh, null, { kind: `${spring.kind} spring`, part: spring });
+      this.add(spring.name, drawn, drawn.mesh, null, { kind, part: spring });
       this.byKind.springs.push(drawn.mesh);
     }
+    const span = [scene.start, scene.end];
     for (const load of scene.loads) {
-      const drawn = new LoadArrow(load, kinematics, size, theme, [scene.start, scene.end]);
+      if (bySymbols(load, spaced(load.kind), "loads")) continue;
+      const drawn = new LoadArrow(load, kinematics, size, theme, span);
       this.add(load.name, drawn, drawn.group, null, { kind: load.kind, part: load });
       this.byKind.loads.push(drawn.group);
     }
-  }
-
-  /** Radius of a symbol that the sections at a joint do not hide. */
-  thicknessAt(joint) {
-    const nodes = joint.anchors.map((anchor) => anchor.node);
-    const half = ({ outline: o }) => (o.shape === "circle" ? o.radius : o.shape === "ellipse" ? Math.min(o.width, o.height) : Math.min(o.width, o.height) / 2);
-    const beams = this.scene.beams.filter((beam) => [beam.nodes[0], beam.nodes[beam.nodes.length - 1]].some((node) => node !== 0 && nodes.includes(node)));
-    const thickest = Math.max(...beams.flatMap((beam) => beam.stations.map(half)), 0);
-    return Math.min(1.45 * thickest, 0.04 * this.stage.size);
+    // Loads of coordinates are in no list of their own.
+    const known = new Set([...scene.joints, ...scene.springs, ...scene.loads].map((each) => each.name));
+    for (const name of new Set(scene.symbols.map((symbol) => symbol.name))) {
+      if (!known.has(name)) bySymbols({ name }, "load of a joint", "loads");
+    }
+    for (const load of scene.beam_loads) {
+      const drawn = new BeamLoad(load, kinematics, size, theme, span);
+      this.moving.push(drawn);
+      this.group.add(drawn.group);
+      this.byKind.loads.push(drawn.group);
+    }
   }
 
   add(name, drawn, object, own, facts) {
@@ -145,7 +155,6 @@ export class ModelView {
   select(name) {
     const glow = (part, colour) => {
       part?.object?.traverse((child) => child.material?.emissive?.set(colour));
-      part?.drawn?.link?.material.emissive.set(colour);
     };
     glow(this.parts.get(this.selected), 0x000000);
     this.selected = this.parts.has(name) ? name : null;
@@ -171,12 +180,12 @@ export class ModelView {
   anchorOf(name) {
     const known = this.parts.get(name);
     if (!known) return null;
-    const { part, kind } = known;
+    const { part, kind, drawn } = known;
     if (kind === "beam") return { node: part.nodes[part.nodes.length >> 1], position: [0, 0, 0] };
     if (part.node !== undefined) return { node: part.node, position: part.shape?.center ?? [0, 0, 0] };
     if (part.anchor) return part.anchor;
     if (part.anchors) return part.anchors[1];
-    return part.joint ? this.anchorOf(part.joint) : null;
+    return drawn?.anchor ?? (part.joint ? this.anchorOf(part.joint) : null);
   }
 
   /** Draws the paths of points. */

@@ -105,3 +105,57 @@ export class LoadArrow {
     this.heads.forEach((head, k) => (head.position.y = tip - this.headLength * (0.5 + 0.8 * k)));
   }
 }
+
+/** A force per length of a beam: arrows that end on its line. */
+export class BeamLoad {
+  constructor(load, kinematics, size, theme, span) {
+    this.load = load;
+    this.kinematics = kinematics;
+    this.span = span;
+    this.length = 0.08 * size;
+    const material = new THREE.MeshStandardMaterial({ color: theme.load, roughness: 0.4 });
+    const r = 0.0025 * size;
+    this.headLength = 8 * r;
+    this.most = Math.max(...load.vectors.flat().map((vector) => Math.hypot(...vector)), 0) || 1;
+    this.group = new THREE.Group();
+    this.arrows = load.anchors.map(() => {
+      const arrow = new THREE.Group();
+      const shaft = new THREE.Mesh(new THREE.CylinderGeometry(r, r, 1, 8), material);
+      const head = new THREE.Mesh(new THREE.ConeGeometry(2.9 * r, this.headLength, 12), material);
+      arrow.add(shaft, head);
+      this.group.add(arrow);
+      return { arrow, shaft, head };
+    });
+    this.group.traverse((child) => (child.userData.part = load.beam));
+  }
+
+  /** Forces per length at all places, now. */
+  vectors() {
+    const { vectors } = this.load;
+    const [start, end] = this.span;
+    const x = Math.min(Math.max((this.kinematics.time - start) / (end - start || 1), 0), 1) * (vectors.length - 1);
+    const k = Math.max(Math.min(Math.floor(x), vectors.length - 2), 0);
+    const next = vectors[Math.min(k + 1, vectors.length - 1)];
+    return vectors[k].map((vector, at) => vector.map((value, i) => value + (x - k) * (next[at][i] - value)));
+  }
+
+  update() {
+    const { load, kinematics } = this;
+    const vectors = this.vectors();
+    this.arrows.forEach(({ arrow, shaft, head }, k) => {
+      const direction = new THREE.Vector3(...vectors[k]);
+      const share = direction.length() / this.most;
+      arrow.visible = share > 1e-3;
+      if (!arrow.visible) return;
+      direction.normalize();
+      const { node } = load.anchors[k];
+      if (load.follower) direction.applyQuaternion(new THREE.Quaternion(...kinematics.quaternions.subarray(4 * node, 4 * node + 4)));
+      const length = this.length * (0.25 + 0.75 * share);
+      arrow.position.set(...kinematics.point(load.anchors[k]));
+      arrow.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), direction);
+      shaft.scale.y = Math.max(length - this.headLength, 1e-3 * length);
+      shaft.position.y = -this.headLength - shaft.scale.y / 2;
+      head.position.y = -this.headLength / 2;
+    });
+  }
+}

@@ -6,7 +6,7 @@ export const curves = ["#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#
 const light = {
   background: "#f4f6f9",
   parts: ["#6f9bc8", "#d99a6c", "#74b49b", "#c59bbd", "#d8bf6b", "#8fb8d6", "#a3a8b0", "#b5a98f"],
-  joint: "#f1b434", pin: "#4d5663", axis: "#8a94a3", ground: "#a9b2be", drive: "#d1495b", spring: "#5b8c5a",
+  joint: "#f1b434", pin: "#4d5663", axis: "#8a94a3", ground: "#a9b2be", drive: "#d1495b", spring: "#5b8c5a", stop: "#8a6d3b",
   load: "#d1495b", moment: "#8e5bb5", grid: "#d3d9e1", gridMain: "#c0c8d2", trace: "#d55e00", text: "#1d2430",
   faint: "#6b7686", line: "#e3e7ed", selected: "#1f6feb", sky: "#ffffff", floor: "#b9c0ca",
 };

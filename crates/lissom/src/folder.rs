@@ -8,7 +8,7 @@ use lissom_model::files::{self, FileError};
 use lissom_model::output::{
     BodePlot, CampbellPlot, CsvWriter, FigureError, Record, RecordError, Summary, figures,
 };
-use lissom_model::scene::Scene;
+use lissom_model::scene::{Scene, SceneError};
 use serde_json::Value;
 
 use crate::checkpoint::Checkpoint;
@@ -24,9 +24,11 @@ pub(crate) const MOTION: &str = "motion.bin";
 pub(crate) const SCENE: &str = "scene.json";
 /// Name of the page that shows the results.
 const PAGE: &str = "view.html";
-/// Names of the tables of natural modes.
+/// Names of the picture of the mechanism.
+const PICTURES: [&str; 2] = ["snapshot.svg", "snapshot.png"];
 /// Instants at which events happened.
 const EVENTS: &str = "events.csv";
+/// Names of the tables of natural modes.
 pub(crate) const MODES: &str = "modes.csv";
 pub(crate) const SHAPES: &str = "shapes.csv";
 /// Files of analyses of the linear model.
@@ -82,6 +84,22 @@ pub enum FolderError {
         /// What is wrong with it.
         error: MotionError,
     },
+    /// What describes how the model looks is none.
+    #[error("`{path}`: {error}")]
+    Scene {
+        /// The file.
+        path: String,
+        /// What is wrong with it.
+        error: SceneError,
+    },
+    /// There is no motion to be shown.
+    #[error("`{path}` holds {holds}")]
+    NoMotion {
+        /// The folder.
+        path: String,
+        /// What it holds instead.
+        holds: &'static str,
+    },
     /// A plot cannot be drawn.
     #[error(transparent)]
     Figure(#[from] FigureError),
@@ -135,6 +153,7 @@ impl ResultFolder {
         let mut stale = [HISTORY, SUMMARY, TELEMETRY, MOTION, SCENE, PAGE, EVENTS, MODES, SHAPES]
             .map(|name| self.path.join(name))
             .to_vec();
+        stale.extend(PICTURES.map(|name| self.path.join(name)));
         stale.extend(OF_LINEAR_MODELS.map(|name| self.path.join(name)));
         if let Ok((_, record, title)) = Self::open(&self.path) {
             for figure in figures(&record, &title) {

@@ -4,13 +4,52 @@ use std::io::ErrorKind;
 use std::path::Path;
 
 use lissom_model::files;
+use lissom_model::output::Record;
+use lissom_model::scene::Scene;
 use serde_json::Value;
 
 use crate::folder::{FolderError, MODES, MOTION, ResultFolder, SCENE, SHAPES, SUMMARY};
 use crate::motion::{Motion, MotionError};
 use crate::view::{Notice, Results};
 
+/// A run with its motion, read back from a folder of results.
+#[derive(Clone, Debug)]
+pub struct RecordedRun {
+    /// One line about the model; empty for none.
+    pub title: String,
+    /// What the model looks like.
+    pub scene: Scene,
+    /// How it moves.
+    pub motion: Motion,
+    /// The table of results.
+    pub record: Record,
+}
+
 impl ResultFolder {
+    /// A run with its motion.
+    ///
+    /// # Errors
+    /// If the folder holds no table or no motion, or if table, motion or scene are none.
+    pub fn recorded(path: &Path) -> Result<RecordedRun, FolderError> {
+        if path.join(MODES).is_file() {
+            let kind = "natural modes, whose shapes `lissom view` shows";
+            return Err(FolderError::NoMotion { path: path.display().to_string(), holds: kind });
+        }
+        let (_, record, title) = Self::open(path)?;
+        let Some((_, bytes)) = drawn(path)? else {
+            let kind = "a run without its motion: run the model without `--no-plots`";
+            return Err(FolderError::NoMotion { path: path.display().to_string(), holds: kind });
+        };
+        let scene = read_scene(&path.join(SCENE))?;
+        let motion = Motion::from_bytes(&bytes).map_err(|error| foreign(&path.join(MOTION), error))?;
+        // A scene of another model would show what has not been computed.
+        let count = motion.reference().len();
+        if scene.most_node() >= count || motion.header().point_count() > 0 && scene.beams.is_empty() {
+            return Err(foreign(&path.join(SCENE), MotionError::Damaged));
+        }
+        Ok(RecordedRun { title, scene, motion, record })
+    }
+
     /// All that a page shows of a folder left by a run or by a search for modes.
     ///
     /// # Errors
@@ -55,9 +94,15 @@ fn drawn(path: &Path) -> Result<Option<(Value, Vec<u8>)>, FolderError> {
     };
     // What is no motion file is told before the scene is missed.
     Motion::last_time(&bytes).map_err(|error| foreign(&motion, error))?;
-    let scene = path.join(SCENE);
-    let described = serde_json::from_str(&files::read_text(&scene)?);
-    Ok(Some((described.map_err(|_| foreign(&scene, MotionError::Damaged))?, bytes)))
+    let scene = read_scene(&path.join(SCENE))?;
+    let described =
+        serde_json::to_value(&scene).map_err(|_| foreign(&path.join(SCENE), MotionError::Damaged));
+    Ok(Some((described?, bytes)))
+}
+
+fn read_scene(path: &Path) -> Result<Scene, FolderError> {
+    Scene::from_json(&files::read_text(path)?)
+        .map_err(|error| FolderError::Scene { path: path.display().to_string(), error })
 }
 
 fn with_modes(path: &Path, results: Results) -> Result<Results, FolderError> {

@@ -18,6 +18,8 @@ mod parts;
 mod path;
 #[path = "command_line/silent.rs"]
 mod silent;
+#[path = "command_line/snapshot.rs"]
+mod snapshot;
 #[path = "command_line/study.rs"]
 mod study;
 mod support;

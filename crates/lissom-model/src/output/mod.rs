@@ -3,6 +3,7 @@
 mod bode;
 mod campbell;
 mod csv;
+mod drawing;
 mod log_plot;
 mod matrix_market;
 mod plot;
@@ -14,6 +15,7 @@ use std::io;
 pub use bode::BodePlot;
 pub use campbell::CampbellPlot;
 pub use csv::{CsvWriter, number_text, quoted};
+pub use drawing::{Align, Drawing, Shade};
 pub use log_plot::LogFigure;
 pub use matrix_market::{full_matrix, sparse_matrix};
 pub use plot::{Figure, FigureError, figures};

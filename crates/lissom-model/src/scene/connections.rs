@@ -1,15 +1,22 @@
 //! Joints, drives, springs and loads as they look.
 
-use serde::Serialize;
+use lissom_core::registry::TimeFunction;
+use lissom_motion::Vector3;
+use serde::{Deserialize, Serialize};
 
+use super::symbols::attached;
 use super::{Anchor, Places, part_of};
 use crate::document::{Attachment, Component, Document};
 
 /// Instants at which the size of a load is told, less one.
 const SAMPLES: u32 = 240;
+/// Instants at which a force per length is told, less one.
+const FEW_SAMPLES: u32 = 60;
+/// Most places along a beam at which a force per length is told.
+const MOST_PLACES: usize = 13;
 
 /// A joint, or a drive of one.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Joint {
     /// Name.
     pub name: String,
@@ -26,7 +33,7 @@ pub struct Joint {
 }
 
 /// A spring.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Spring {
     /// Name.
     pub name: String,
@@ -41,7 +48,7 @@ pub struct Spring {
 }
 
 /// A force or moment from outside.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Load {
     /// Name.
     pub name: String,
@@ -59,9 +66,23 @@ pub struct Load {
     pub scale: Vec<f64>,
 }
 
+/// A force per length of a beam.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct BeamLoad {
+    /// Name of the beam.
+    pub beam: String,
+    /// Places along the beam.
+    pub anchors: Vec<Anchor>,
+    /// Force per length [N/m] at each place, at equal distances from the start to the end of the analysis; one instant
+    /// where it does not change. In global axes, those of a follower in the node's.
+    pub vectors: Vec<Vec<[f64; 3]>>,
+    /// Whether it turns with the nodes.
+    pub follower: bool,
+}
+
 pub(super) fn joints(document: &Document, places: &Places<'_>) -> Vec<Joint> {
     let drawn = |component: &Component| {
-        let (parts, anchors) = ends(component, places)?;
+        let (parts, anchors) = attached(component, places)?;
         let axes = match &component.attachment {
             Attachment::TwoNodes { base, axis, second_axis, .. } => {
                 let node = places.node(&base.value)?;
@@ -78,7 +99,7 @@ pub(super) fn joints(document: &Document, places: &Places<'_>) -> Vec<Joint> {
 
 pub(super) fn springs(document: &Document, places: &Places<'_>) -> Vec<Spring> {
     let drawn = |component: &Component| {
-        let (parts, anchors) = ends(component, places)?;
+        let (parts, anchors) = attached(component, places)?;
         let (name, kind) = (component.name.value.clone(), component.kind.value.clone());
         Some(Spring { name, kind, parts, anchors, joint: joint_of(component) })
     };
@@ -117,24 +138,50 @@ pub(super) fn loads(document: &Document, places: &Places<'_>) -> Vec<Load> {
     document.loads.iter().filter_map(drawn).collect()
 }
 
+pub(super) fn beam_loads(document: &Document, places: &Places<'_>) -> Vec<BeamLoad> {
+    let (start, end) = (document.analysis.start, document.analysis.end);
+    let mut found = Vec::new();
+    for beam in &document.beams {
+        let Some(line) = places.lowered.names.lines.get(&beam.name.value) else { continue };
+        let step = line.nodes.len().div_ceil(MOST_PLACES).max(1);
+        let kept: Vec<usize> = (0..line.nodes.len()).step_by(step).collect();
+        let anchor = |&k: &usize| Anchor { node: line.nodes[k], position: line.offsets[k].position.into() };
+        for force in &beam.distributed {
+            let at = |time: f64, k: usize| {
+                let components = force.components.each_ref().map(|formula| {
+                    let arguments = vec![line.places[k]; formula.arguments().len()];
+                    let function = formula.with_arguments(&arguments);
+                    let grows = document.analysis.ramp && !formula.depends_on_time();
+                    // In statics what is constant grows with the load.
+                    let share = if grows { (time - start) / (end - start) } else { 1.0 };
+                    share * function.value(time)
+                });
+                let given = Vector3::from(components);
+                match &force.axes {
+                    Some(axes) => axes.apply(&given).into(),
+                    None => line.offsets[k].rotation.apply(&given).into(),
+                }
+            };
+            let changes = document.analysis.ramp
+                || force.components.iter().any(crate::expression::Formula::depends_on_time);
+            let samples = if changes { FEW_SAMPLES } else { 0 };
+            let instant = |sample: u32| start + (end - start) * f64::from(sample) / f64::from(samples.max(1));
+            let vectors =
+                (0..=samples).map(|sample| kept.iter().map(|&k| at(instant(sample), k)).collect()).collect();
+            found.push(BeamLoad {
+                beam: beam.name.value.clone(),
+                anchors: kept.iter().map(anchor).collect(),
+                vectors,
+                follower: force.axes.is_none(),
+            });
+        }
+    }
+    found
+}
+
 fn joint_of(component: &Component) -> Option<String> {
     match &component.attachment {
         Attachment::JointCoordinate { joint } => Some(joint.value.clone()),
         _ => None,
     }
-}
-
-/// Names of the parts at both ends, and where on them; nothing where a node is missing.
-fn ends(component: &Component, places: &Places<'_>) -> Option<(Vec<String>, Option<[Anchor; 2]>)> {
-    let (base, tip, at_base, at_tip) = match &component.attachment {
-        Attachment::TwoNodes { base, tip, at, .. } if component.kind.value == "swing_arm" => {
-            // The arm leads from the hinge to the tip's own place.
-            (base, tip, *at, places.frame(places.node(&tip.value)?).position)
-        }
-        Attachment::TwoNodes { base, tip, at, .. } => (base, tip, *at, *at),
-        Attachment::TwoPlaces { base, tip, at_base, at_tip } => (base, tip, *at_base, *at_tip),
-        _ => return Some((Vec::new(), None)),
-    };
-    let names = [base, tip].map(|end| part_of(&end.value).to_owned());
-    Some((names.into(), Some([places.anchor(base, &at_base)?, places.anchor(tip, &at_tip)?])))
 }

@@ -5,26 +5,43 @@
 //! node they name. Node 0 is the ground.
 
 mod connections;
+mod kinds;
 mod parts;
 mod shapes;
+mod solids;
+mod symbols;
 
 use lissom_core::system::NodeId;
 use lissom_motion::{Motion, Vector3};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::document::{Document, NodeReference, OutputSource};
 use crate::lower::Lowered;
 use crate::report::Located;
 
-pub use connections::{Joint, Load, Spring};
+pub use connections::{BeamLoad, Joint, Load, Spring};
 pub use parts::{Beam, Body, PointMass, Station};
 pub use shapes::{InertiaBox, Outline};
+pub use solids::{Form, Solid, Tone};
+pub use symbols::{Rod, Symbol};
 
 /// Version of what is written.
-const VERSION: usize = 1;
+const VERSION: usize = 2;
+
+/// A text that is no scene of this version.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SceneError {
+    /// It was written by another version.
+    #[error("it is of version {0}, and this program reads version {VERSION}: run the model again")]
+    Version(usize),
+    /// It is damaged or something else.
+    #[error("it does not describe a model: {0}; run the model again")]
+    Damaged(String),
+}
 
 /// A model as it looks.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
     /// Version of the format.
     pub lissom_scene: usize,
@@ -50,12 +67,18 @@ pub struct Scene {
     pub springs: Vec<Spring>,
     /// Loads.
     pub loads: Vec<Load>,
+    /// Forces per length of beams.
+    pub beam_loads: Vec<BeamLoad>,
+    /// What joints, springs and loads look like.
+    pub symbols: Vec<Symbol>,
+    /// Rods of joints that hold two places apart.
+    pub rods: Vec<Rod>,
     /// What is recorded, and of which part.
     pub outputs: Vec<Output>,
 }
 
 /// A place carried by a node.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Anchor {
     /// The node.
     pub node: NodeId,
@@ -64,7 +87,7 @@ pub struct Anchor {
 }
 
 /// What is recorded.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Output {
     /// Name; its columns in the table begin with it.
     pub name: String,
@@ -80,6 +103,7 @@ impl Scene {
     /// How `document`, lowered to `lowered`, looks.
     pub fn of(document: &Document, lowered: &Lowered) -> Self {
         let places = Places { lowered };
+        let (symbols, rods) = symbols::symbols(document, &places);
         Self {
             lissom_scene: VERSION,
             title: document.title.clone(),
@@ -93,8 +117,47 @@ impl Scene {
             joints: connections::joints(document, &places),
             springs: connections::springs(document, &places),
             loads: connections::loads(document, &places),
+            beam_loads: connections::beam_loads(document, &places),
+            symbols,
+            rods,
             outputs: document.outputs.iter().map(|output| places.output(output)).collect(),
         }
+    }
+
+    /// Reads what [`to_json`](Self::to_json) has written.
+    ///
+    /// # Errors
+    /// If it is something else, or of another version.
+    pub fn from_json(text: &str) -> Result<Self, SceneError> {
+        #[derive(Deserialize)]
+        struct Version {
+            lissom_scene: usize,
+        }
+        let damaged = |error: serde_json::Error| SceneError::Damaged(error.to_string());
+        let Version { lissom_scene } = serde_json::from_str(text).map_err(damaged)?;
+        if lissom_scene != VERSION {
+            return Err(SceneError::Version(lissom_scene));
+        }
+        serde_json::from_str(text).map_err(damaged)
+    }
+
+    /// The greatest number of a node that is named.
+    pub fn most_node(&self) -> NodeId {
+        let anchors = (self.joints.iter().filter_map(|joint| joint.anchors))
+            .chain(self.springs.iter().filter_map(|spring| spring.anchors))
+            .flatten()
+            .chain(self.loads.iter().map(|load| load.anchor))
+            .chain(self.symbols.iter().map(|symbol| symbol.anchor));
+        let parts = (self.bodies.iter().map(|body| body.node))
+            .chain(self.point_masses.iter().map(|mass| mass.node))
+            .chain(self.beams.iter().flat_map(|beam| beam.nodes.iter().copied()));
+        anchors.map(|anchor| anchor.node).chain(parts).max().unwrap_or_default()
+    }
+
+    /// The direction that is upward in a picture: against gravity where that is along an axis, otherwise z.
+    pub fn up(&self) -> Vector3 {
+        let up = (-Vector3::from(self.gravity)).try_normalize(0.0);
+        up.filter(|up| up.amax() > 0.999).unwrap_or_else(Vector3::z)
     }
 
     /// As a JSON text.

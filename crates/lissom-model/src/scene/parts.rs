@@ -2,14 +2,14 @@
 
 use lissom_core::system::NodeId;
 use lissom_motion::{Matrix3, Motion};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::Places;
 use super::shapes::{InertiaBox, Outline};
 use crate::document::Document;
 
 /// A rigid body.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Body {
     /// Name.
     pub name: String,
@@ -24,7 +24,7 @@ pub struct Body {
 }
 
 /// A point mass.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PointMass {
     /// Name.
     pub name: String,
@@ -35,7 +35,7 @@ pub struct PointMass {
 }
 
 /// A section at a place along a beam.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Station {
     /// Fraction of the beam, 0 to 1.
     pub at: f64,
@@ -46,7 +46,7 @@ pub struct Station {
 }
 
 /// A beam.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Beam {
     /// Name.
     pub name: String,

@@ -1,13 +1,13 @@
 //! Shapes that are drawn: outlines of cross sections, and the box that has the inertia of a body.
 
 use lissom_motion::{Matrix3, Rotation, Vector3};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::document::Section;
 use crate::sections::{SectionProperties, Shape};
 
 /// The outline of a cross section in its axes 2 and 3.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "shape", rename_all = "snake_case")]
 pub enum Outline {
     /// Rectangle about the reference line.
@@ -64,7 +64,7 @@ impl Outline {
 }
 
 /// The homogeneous box that has the mass and the inertia of a body.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct InertiaBox {
     /// Centre of mass in body axes [m].
     pub center: [f64; 3],

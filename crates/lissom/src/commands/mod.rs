@@ -16,6 +16,8 @@ mod response;
 mod results;
 mod run;
 mod schema;
+mod snapshot;
+mod still;
 mod study;
 mod sweep;
 mod view;
@@ -96,6 +98,7 @@ impl From<Report> for Failure {
 Examples:
   lissom run examples/pendulum.toml            simulate; results go to out/pendulum
   lissom view examples/four-bar.toml --open    simulate, and watch it move in the browser
+  lissom snapshot out/pendulum --strip 6       a picture at six instants, as SVG or PNG
   lissom check examples/four-bar.toml          look for mistakes and redundant constraints
   lissom modes examples/four-bar.toml          natural frequencies and shapes
   lissom kinds                                 what a model can be made of
@@ -121,6 +124,7 @@ enum Command {
     Kinds(kinds::Kinds),
     Schema(schema::Schema),
     Plot(plot::Plot),
+    Snapshot(snapshot::Snapshot),
     Study(study::Study),
     View(view::View),
     Sweep(sweep::SweepCommand),
@@ -145,6 +149,7 @@ impl Line {
             Command::Kinds(command) => command.run(),
             Command::Schema(command) => command.run(),
             Command::Plot(command) => command.run(),
+            Command::Snapshot(command) => command.run(),
             Command::Study(command) => command.run(),
             Command::View(command) => command.run(),
             Command::Sweep(command) => command.run(),

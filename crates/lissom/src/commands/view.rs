@@ -4,16 +4,13 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use clap::Args;
-use lissom::motion::MotionRecorder;
 use lissom::view::Results;
-use lissom::{FileError, Model, Override, ResultFolder, Session};
-use lissom_model::document::AnalysisKind;
+use lissom::{FileError, Override, ResultFolder};
 use lissom_model::files;
-use lissom_model::lower::lower;
-use lissom_model::scene::Scene;
 
 use super::run::Run;
-use super::{Exit, Failure, show_warnings};
+use super::still::{Still, refuse_what_does_not_move};
+use super::{Exit, Failure};
 use crate::terminal;
 
 /// Show results as a moving picture with plots, in one HTML file for any browser.
@@ -69,7 +66,7 @@ impl View {
         if self.initial {
             return self.view_start(&folder);
         }
-        self.refuse_what_does_not_move()?;
+        refuse_what_does_not_move(&self.what, &self.set)?;
         let run = Run::of_model(&self.what, &self.set, &folder, self.quiet).run();
         // A run that failed leaves results up to there, one that could not start leaves none to be shown.
         match run {
@@ -79,24 +76,6 @@ impl View {
                 Err(failure)
             }
             Err(failure) => Err(failure),
-        }
-    }
-
-    /// Paths and buckling loads have tables of their own, and no motion.
-    fn refuse_what_does_not_move(&self) -> Result<(), Failure> {
-        let model = Model::read(&self.what).map_err(|error| Failure::file(Exit::BadModel, &error))?;
-        let kind = model.document(&self.set)?.analysis.kind;
-        match kind {
-            AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } | AnalysisKind::Modes { .. } => {
-                Ok(())
-            }
-            _ => {
-                let message = format!("an analysis of kind `{}` leaves no motion to be shown", kind.name());
-                Err(Failure::new(
-                    Exit::BadModel,
-                    format!("{message}; `--initial` shows the model at its start"),
-                ))
-            }
         }
     }
 
@@ -121,26 +100,9 @@ impl View {
 
     /// Writes the page of a model that has not moved yet.
     fn view_start(&self, folder: &Path) -> Result<Exit, Failure> {
-        let model = Model::read(&self.what).map_err(|error| Failure::file(Exit::BadModel, &error))?;
-        let document = model.document(&self.set)?;
-        if !self.quiet {
-            show_warnings(&document);
-        }
-        let lowered = lower(&document)?;
-        let scene = Scene::of(&document, &lowered);
-        let mut motion = Vec::new();
-        let mut recorder = MotionRecorder::new(&lowered, None, &mut motion);
-        // Where the model starts from equilibrium, that is the start.
-        let start = if document.starts_in_equilibrium() {
-            let again = lower(&document)?;
-            let session = Session::start(again).map_err(|error| Failure::new(Exit::Failed, error))?;
-            session.simulation().state().clone()
-        } else {
-            lowered.state.clone()
-        };
-        recorder.write_still(&start.kinematics).map_err(|error| Failure::new(Exit::Failed, error))?;
-        let results = Results::new(model.name())
-            .with_title(document.title.as_deref().unwrap_or_default())
+        let Still { name, title, scene, motion } = Still::of(&self.what, &self.set, self.quiet)?;
+        let results = Results::new(&name)
+            .with_title(&title)
             .with_scene(&scene, &motion)
             .map_err(|error| Failure::new(Exit::Failed, error))?;
         let target = if let Some(file) = &self.html {

@@ -1,0 +1,199 @@
+//! The symbols of all kinds of joints, springs and loads: one line for each. What turns is round about its axis, what
+//! slides lies along it. A kind that is not here has no picture, and a test asks for it.
+
+use super::solids::{Axes, Form, Solid, Tone};
+
+use Tone::{Dark, Drive, Light, Load, Moment, Spring, Stop};
+
+/// Axes of a symbol on the base and on the tip; the same where there is one node.
+pub(super) type Both = [Axes; 2];
+
+/// How a kind is drawn.
+#[derive(Clone, Copy)]
+pub(super) enum Drawn {
+    /// By solids on the base and on the tip, and by what leads from one to the other.
+    Solids(fn(&Both) -> [Vec<Solid>; 2]),
+    /// Likewise, with a rod from base to tip.
+    WithRod(fn(&Both) -> [Vec<Solid>; 2]),
+    /// By a coil from base to tip.
+    Coil,
+    /// By an arrow as long as its size tells.
+    Arrow,
+}
+
+/// How a kind of joint, spring or load is drawn; none for kinds that are not known.
+pub(super) fn drawn(kind: &str) -> Option<Drawn> {
+    joint(kind).or_else(|| spring_or_load(kind))
+}
+
+fn joint(kind: &str) -> Option<Drawn> {
+    use Drawn::{Solids, WithRod};
+    Some(match kind {
+        "revolute" => {
+            Solids(|[b, _]| base(vec![b.cylinder(0, 0.62, 1.5, Dark), b.cylinder(0, 0.95, 0.7, Light)]))
+        }
+        "spherical" => Solids(|[b, _]| base(vec![b.ball(0.85, [0.0; 3], Light)])),
+        "universal" => {
+            Solids(|[b, _]| base(vec![b.cylinder(0, 0.4, 2.4, Light), b.cylinder(1, 0.4, 2.4, Dark)]))
+        }
+        "constant_velocity" => Solids(|[b, t]| {
+            let stub =
+                |axes: &Axes, at| axes.solid(Form::Cylinder, [0.38, 1.8, 0.0], (0, [at, 0.0, 0.0]), Dark);
+            [vec![b.ball(0.9, [0.0; 3], Light), stub(b, -1.4)], vec![stub(t, 1.4)]]
+        }),
+        "prismatic" => Solids(|[b, _]| {
+            base(vec![b.block([1.3, 2.2, 1.3], [0.0; 3], Light), b.block([0.55, 4.6, 0.55], [0.0; 3], Dark)])
+        }),
+        "cylindrical" => {
+            Solids(|[b, _]| base(vec![b.cylinder(0, 0.85, 2.0, Light), b.cylinder(0, 0.4, 4.6, Dark)]))
+        }
+        "screw" => Solids(|[b, _]| {
+            let threads = [-2.1, -1.7, -1.3, 1.3, 1.7, 2.1].map(|at| b.ring(0.45, 0.16, at, Dark));
+            let nut = b.cylinder(0, 0.9, 1.8, Light);
+            base([vec![nut, b.cylinder(0, 0.4, 4.8, Dark)], threads.to_vec()].concat())
+        }),
+        "planar" => Solids(|[b, t]| {
+            let slider = t.block([0.9, 0.6, 0.9], [0.4, 0.0, 0.0], Dark);
+            [vec![b.cylinder(0, 2.0, 0.16, Light)], vec![slider]]
+        }),
+        "point_in_plane" => {
+            Solids(|[b, t]| [vec![b.cylinder(0, 2.0, 0.16, Light)], vec![t.ball(0.6, [0.0; 3], Dark)]])
+        }
+        "point_on_line" | "inline" => {
+            Solids(|[b, t]| [vec![b.cylinder(0, 0.24, 6.0, Dark)], vec![t.ball(0.8, [0.0; 3], Light)]])
+        }
+        "parallel_axes" => Solids(|[b, t]| {
+            let beside = t.solid(Form::Cylinder, [0.3, 3.2, 0.0], (0, [0.0, 0.0, 0.9]), Dark);
+            [vec![b.cylinder(0, 0.3, 3.2, Light)], vec![beside]]
+        }),
+        "perpendicular_axes" => Solids(|[b, t]| {
+            let across = t.solid(Form::Cylinder, [0.3, 3.2, 0.0], (1, [0.0, 0.0, 0.7]), Dark);
+            [vec![b.cylinder(0, 0.3, 3.2, Light)], vec![across]]
+        }),
+        "generic" => Solids(|[b, _]| {
+            let pins = [0, 1, 2].map(|along| b.cylinder(along, 0.25, 2.8, Dark));
+            base([vec![b.block([1.3, 1.3, 1.3], [0.0; 3], Light)], pins.to_vec()].concat())
+        }),
+        "clamp" => Solids(|[b, _]| base(vec![b.block([1.5, 1.5, 1.5], [0.0; 3], Dark)])),
+        "distance" => {
+            WithRod(|[b, t]| [vec![b.ball(0.6, [0.0; 3], Light)], vec![t.ball(0.6, [0.0; 3], Light)]])
+        }
+        "rigid_link" => WithRod(|[b, t]| {
+            let end = |axes: &Axes| vec![axes.block([1.1, 1.1, 1.1], [0.0; 3], Dark)];
+            [end(b), end(t)]
+        }),
+        "swing_arm" => {
+            WithRod(|[b, t]| [vec![b.cylinder(0, 0.75, 1.2, Light)], vec![t.ball(0.6, [0.0; 3], Light)]])
+        }
+        "prescribed_rotation" => Solids(|[b, _]| base(b.turn(Drive))),
+        "prescribed_displacement" => Solids(|[b, _]| base(b.arrow(Drive))),
+        "gear" => Solids(|[b, t]| [wheel(b), wheel(t)]),
+        "cam" => Solids(|[b, t]| {
+            let disc = b.solid(Form::Cylinder, [1.5, 0.35, 0.0], (0, [0.0, 0.6, 0.0]), Dark);
+            [vec![disc], vec![t.ring(0.9, 0.25, 0.0, Dark)]]
+        }),
+        "equation" => Solids(|[b, _]| {
+            let bar = |at| b.solid(Form::Block, [0.3, 1.7, 0.3], (0, [0.0, 2.3, at]), Dark);
+            base(vec![bar(-0.35), bar(0.35)])
+        }),
+        _ => return None,
+    })
+}
+
+fn spring_or_load(kind: &str) -> Option<Drawn> {
+    use Drawn::Solids;
+    Some(match kind {
+        "point" => Drawn::Coil,
+        "bushing" => {
+            Solids(|[b, t]| [vec![b.ring(0.95, 0.5, 0.0, Spring)], vec![t.cylinder(0, 0.4, 1.9, Dark)]])
+        }
+        "torsional" => {
+            Solids(|[b, _]| base([1.2, 1.55, 1.9].map(|radius| b.ring(radius, 0.1, 0.5, Spring)).to_vec()))
+        }
+        "axial" => Solids(|[b, _]| {
+            base([-1.8, -1.2, -0.6, 0.0, 0.6, 1.2, 1.8].map(|at| b.ring(1.1, 0.12, at, Spring)).to_vec())
+        }),
+        "torsional_friction" => Solids(|[b, _]| {
+            let pad = |at| b.block([0.5, 0.7, 0.9], [-0.6, at, 0.0], Stop);
+            base(vec![b.ring(1.3, 0.16, -0.6, Dark), pad(1.5), pad(-1.5)])
+        }),
+        "axial_friction" => Solids(|[b, _]| {
+            let pad = |at| b.block([0.4, 1.4, 0.9], [0.0, at, 0.0], Stop);
+            base(vec![pad(1.1), pad(-1.1)])
+        }),
+        "torsional_stop" => Solids(|[b, _]| {
+            let block = |at: [f64; 3]| b.block([0.55, 0.8, 0.55], at, Stop);
+            base(vec![block([0.0, 1.5, 1.1]), block([0.0, 1.5, -1.1])])
+        }),
+        "axial_stop" => Solids(|[b, _]| {
+            let disc = |at| b.solid(Form::Cylinder, [1.1, 0.35, 0.0], (0, [at, 0.0, 0.0]), Stop);
+            base(vec![disc(-2.6), disc(2.6)])
+        }),
+        "force" | "moment" => Drawn::Arrow,
+        "joint_torque" => Solids(|[b, _]| base(b.turn(Moment))),
+        "joint_force" => Solids(|[b, _]| base(b.arrow(Load))),
+        "gyrostat" => {
+            Solids(|[b, _]| base(vec![b.cylinder(0, 1.8, 0.6, Light), b.cylinder(0, 0.3, 2.6, Dark)]))
+        }
+        _ => return None,
+    })
+}
+
+fn base(solids: Vec<Solid>) -> [Vec<Solid>; 2] {
+    [solids, Vec::new()]
+}
+
+/// A wheel with twelve teeth.
+fn wheel(axes: &Axes) -> Vec<Solid> {
+    let tooth = |k: u32| {
+        let (sine, cosine) = (f64::from(k) * std::f64::consts::TAU / 12.0).sin_cos();
+        axes.block([0.4, 0.34, 0.4], [0.0, 1.75 * cosine, 1.75 * sine], Dark)
+    };
+    std::iter::once(axes.cylinder(0, 1.6, 0.3, Dark)).chain((0..12).map(tooth)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lower::registry::registry;
+
+    #[test]
+    fn every_registered_kind_has_a_symbol_that_is_there() {
+        use lissom_motion::Vector3;
+        let registry = registry();
+        let kinds = registry.joints.iter().chain(&registry.springs).chain(&registry.loads);
+        let axes = Axes::of(&Vector3::new(1.0, 2.0, -0.5), None);
+        for kind in kinds {
+            let name = kind.name;
+            let found =
+                drawn(name).unwrap_or_else(|| panic!("`{name}` has no symbol: give it one in this file"));
+            if let Drawn::Solids(solids) | Drawn::WithRod(solids) = found {
+                let solids = solids(&[axes, axes]).concat();
+                assert!(!solids.is_empty(), "{name}");
+                for solid in solids {
+                    assert!(solid.size[0] > 0.0 && solid.size.iter().all(|size| *size >= 0.0), "{name}");
+                    let reach = Vector3::from(solid.place).norm();
+                    assert!(reach < 4.0, "{name}: {reach}");
+                    assert!((Vector3::from(solid.axis).norm() - 1.0).abs() < 1e-12, "{name}");
+                }
+            }
+        }
+        assert!(drawn("no such kind").is_none());
+    }
+
+    #[test]
+    fn symbols_of_joints_differ() {
+        let registry = registry();
+        let axes = Axes::of(&lissom_motion::Vector3::x(), None);
+        let mut seen: Vec<(String, &str)> = Vec::new();
+        for kind in registry.joints {
+            let Some(Drawn::Solids(solids) | Drawn::WithRod(solids)) = drawn(kind.name) else { continue };
+            let told = format!("{:?}", solids(&[axes, axes]));
+            if let Some((_, other)) = seen.iter().find(|(known, _)| *known == told) {
+                // They lock the same motions, one with a coordinate and one without.
+                assert_eq!([*other, kind.name], ["inline", "point_on_line"]);
+            }
+            seen.push((told, kind.name));
+        }
+    }
+}

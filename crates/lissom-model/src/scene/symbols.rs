@@ -1,0 +1,169 @@
+//! Symbols of joints, springs and loads at their places: solids that nodes carry, and rods between two nodes.
+
+use lissom_motion::Vector3;
+use serde::{Deserialize, Serialize};
+
+use super::kinds::{Drawn, drawn};
+use super::shapes::Outline;
+use super::solids::{Axes, Solid};
+use super::{Anchor, Places, part_of};
+use crate::document::{Attachment, Component, Document, NodeReference};
+use crate::report::Located;
+
+/// Solids that one node carries.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Symbol {
+    /// Name of the joint, spring or load.
+    pub name: String,
+    /// Where it is.
+    pub anchor: Anchor,
+    /// Half the thickness [m] of the thickest beam that ends there, which a symbol must not hide in.
+    pub around: f64,
+    /// What it is made of.
+    pub solids: Vec<Solid>,
+}
+
+/// A straight rod between two places.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Rod {
+    /// Name of the joint.
+    pub name: String,
+    /// Its ends.
+    pub anchors: [Anchor; 2],
+}
+
+/// Symbols and rods of all components.
+pub(super) fn symbols(document: &Document, places: &Places<'_>) -> (Vec<Symbol>, Vec<Rod>) {
+    let (mut symbols, mut rods) = (Vec::new(), Vec::new());
+    let all = document.joints.iter().chain(&document.springs).chain(&document.loads);
+    for component in all {
+        let Some(kind @ (Drawn::Solids(solids) | Drawn::WithRod(solids))) = drawn(&component.kind.value)
+        else {
+            continue;
+        };
+        let Some(ends) = ends(component, document, places) else { continue };
+        let axes = [ends[0].1, ends[ends.len().min(2) - 1].1];
+        let [base, tip] = solids(&axes);
+        // A relation of several coordinates has its sign at each of them.
+        let of_others = if tip.is_empty() { &base } else { &tip };
+        for (index, (anchor, _)) in ends.iter().enumerate() {
+            let solids = match (&component.attachment, index) {
+                (Attachment::NamedCoordinates, _) | (_, 0) => &base,
+                (Attachment::JointCoordinates { .. }, _) => of_others,
+                _ => &tip,
+            };
+            if !solids.is_empty() {
+                symbols.push(Symbol {
+                    name: component.name.value.clone(),
+                    anchor: *anchor,
+                    around: thickness(document, places, anchor.node),
+                    solids: solids.clone(),
+                });
+            }
+        }
+        if let (Drawn::WithRod(_), [(base, _), (tip, _)]) = (kind, &*ends) {
+            rods.push(Rod { name: component.name.value.clone(), anchors: [*base, *tip] });
+        }
+    }
+    (symbols, rods)
+}
+
+type End = (Anchor, Axes);
+
+/// Places of a component with their axes: base and tip, one node, or those of the joints whose coordinates it acts on.
+fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Option<Vec<End>> {
+    let end =
+        |reference: &Located<NodeReference>, at: &Vector3, first: &Vector3, second: Option<&Vector3>| {
+            let anchor = places.anchor(reference, at)?;
+            let carried = |direction: &Vector3| places.frame(anchor.node).rotation.apply_inverse(direction);
+            Some((anchor, Axes::of(&carried(first), second.map(carried).as_ref())))
+        };
+    let given = |key: &str| component.parameters.vector(key).ok();
+    match &component.attachment {
+        Attachment::TwoNodes { base, tip, at, axis, second_axis } => {
+            let second = second_axis.as_ref().map(|axis| axis.value);
+            // Without an axis that matters, that of the first base axis or of the model.
+            let first = axis.as_ref().map_or_else(Vector3::y, |axis| axis.value);
+            let on_tip = given("tip_axis").unwrap_or(first);
+            let at_tip = match component.kind.value.as_str() {
+                // The arm leads from the hinge to the tip's own place.
+                "swing_arm" => places.frame(places.node(&tip.value)?).position,
+                _ => *at,
+            };
+            Some(vec![end(base, at, &first, second.as_ref())?, end(tip, &at_tip, &on_tip, second.as_ref())?])
+        }
+        Attachment::TwoPlaces { base, tip, at_base, at_tip } => {
+            let first = given("axis").unwrap_or_else(Vector3::x);
+            let second = given("second_axis");
+            Some(vec![
+                end(base, at_base, &first, second.as_ref())?,
+                end(tip, at_tip, &first, second.as_ref())?,
+            ])
+        }
+        Attachment::OneNode { on, at } => {
+            Some(vec![end(on, at, &given("axis").unwrap_or_else(Vector3::z), None)?])
+        }
+        Attachment::JointCoordinate { joint } => Some(vec![of_joint(&joint.value, document, places)?]),
+        Attachment::JointCoordinates { joint, other } => {
+            let of = |name: &Located<String>| of_joint(&name.value, document, places);
+            Some(vec![of(joint)?, of(other)?])
+        }
+        Attachment::NamedCoordinates => {
+            let (_, formula) = component.signal.as_ref()?;
+            let mut joints: Vec<&str> = (formula.value.arguments().iter())
+                .filter_map(|name| Some(name.text.rsplit_once('.')?.0))
+                .collect();
+            joints.dedup();
+            let found: Vec<End> =
+                joints.iter().filter_map(|joint| of_joint(joint, document, places)).collect();
+            (!found.is_empty()).then_some(found)
+        }
+    }
+}
+
+/// The base's place and axes of the joint called `name`.
+fn of_joint(name: &str, document: &Document, places: &Places<'_>) -> Option<End> {
+    let joint = document.joints.iter().find(|joint| joint.name.value == name)?;
+    match &joint.attachment {
+        Attachment::TwoNodes { .. } | Attachment::TwoPlaces { .. } => {
+            ends(joint, document, places)?.first().copied()
+        }
+        _ => None,
+    }
+}
+
+/// Half the thickness of the thickest beam that ends at a node.
+fn thickness(document: &Document, places: &Places<'_>, node: usize) -> f64 {
+    let half = |outline: Outline| match outline {
+        Outline::Circle { radius, .. } => radius,
+        Outline::Rectangle { width, height } => 0.5 * width.min(height),
+        Outline::Ellipse { width, height, .. } => width.min(height),
+    };
+    let ends_there = |beam: &&crate::document::Beam| {
+        let line = places.lowered.names.lines.get(&beam.name.value);
+        node != 0
+            && line.is_some_and(|line| line.nodes.first() == Some(&node) || line.nodes.last() == Some(&node))
+    };
+    let beams = document.beams.iter().filter(ends_there);
+    let sections =
+        beams.flat_map(|beam| &beam.stations).filter_map(|station| document.section(&station.section.value));
+    sections.map(|section| half(Outline::of(section))).fold(0.0, f64::max)
+}
+
+/// Names of the parts at both ends, and where on them; nothing where a node is missing.
+pub(super) fn attached(
+    component: &Component,
+    places: &Places<'_>,
+) -> Option<(Vec<String>, Option<[Anchor; 2]>)> {
+    let (base, tip, at_base, at_tip) = match &component.attachment {
+        Attachment::TwoNodes { base, tip, at, .. } if component.kind.value == "swing_arm" => {
+            // The arm leads from the hinge to the tip's own place.
+            (base, tip, *at, places.frame(places.node(&tip.value)?).position)
+        }
+        Attachment::TwoNodes { base, tip, at, .. } => (base, tip, *at, *at),
+        Attachment::TwoPlaces { base, tip, at_base, at_tip } => (base, tip, *at_base, *at_tip),
+        _ => return Some((Vec::new(), None)),
+    };
+    let names = [base, tip].map(|end| part_of(&end.value).to_owned());
+    Some((names.into(), Some([places.anchor(base, &at_base)?, places.anchor(tip, &at_tip)?])))
+}

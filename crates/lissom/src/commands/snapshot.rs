@@ -1,0 +1,172 @@
+//! `lissom snapshot`: a picture of a mechanism at one or several instants, as SVG or PNG, without a browser.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+use lissom::motion::Motion;
+use lissom::picture::{Picture, View, instants};
+use lissom::{Override, ResultFolder};
+use lissom_model::files;
+use lissom_model::scene::Scene;
+
+use super::run::Run;
+use super::still::{Still, refuse_what_does_not_move};
+use super::{Exit, Failure};
+use crate::terminal;
+
+/// Draw a mechanism at one or several instants, as SVG or PNG.
+///
+/// The shapes are those of `lissom view`. A model is simulated first, as by `lissom run`, unless `--initial` asks for its
+/// start. Without `--at` and `--strip` the last instant is drawn.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  lissom snapshot out/tip-crank --strip 6      writes out/tip-crank/snapshot.svg
+  lissom snapshot out/tip-crank --at 0.1,0.2 --out crank.png
+  lissom snapshot examples/four-bar.toml --initial --view front
+
+Exit code: 0 all is done; 2 wrong model or command line, or an instant without motion; 3 no solution: the picture then
+shows how far it came.")]
+pub(super) struct Snapshot {
+    /// A folder of results, or a model file.
+    #[arg(value_name = "RESULT|MODEL.toml")]
+    what: PathBuf,
+
+    /// Instants to be drawn beside each other [s].
+    #[arg(
+        long,
+        value_name = "TIME",
+        value_delimiter = ',',
+        allow_negative_numbers = true,
+        conflicts_with = "strip"
+    )]
+    at: Vec<f64>,
+
+    /// So many instants at equal distances from the first to the last.
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100))]
+    strip: Option<u64>,
+
+    /// Where the picture goes: a name that ends in .svg or .png [default: snapshot.svg in the folder of results].
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+
+    /// Where it is seen from.
+    #[arg(long, value_enum, default_value_t = From::Chosen)]
+    view: From,
+
+    /// Draw the paths of the points that are observed.
+    #[arg(long)]
+    paths: bool,
+
+    /// Draw the model at its start, without simulating it.
+    #[arg(long, conflicts_with_all = ["at", "strip"])]
+    initial: bool,
+
+    /// Put another value into the model, as `analysis.step=1e-4`; may be repeated.
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
+    set: Vec<Override>,
+
+    /// No progress, no summary on the terminal.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+/// Directions of view on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum From {
+    /// The front for a model in a plane, otherwise oblique.
+    Chosen,
+    /// From the front, the right and above.
+    Oblique,
+    /// Along the global axis y.
+    Front,
+    /// Against the global axis x.
+    Side,
+    /// Against the global axis z.
+    Top,
+}
+
+impl Snapshot {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        // A name that says nothing is refused before a model is simulated.
+        let is_png = match self.out.as_deref().map(Path::extension) {
+            None => false,
+            Some(Some(ending)) if ending.eq_ignore_ascii_case("svg") => false,
+            Some(Some(ending)) if ending.eq_ignore_ascii_case("png") => true,
+            Some(_) => {
+                let message = "the name of the picture must end in .svg or .png";
+                return Err(Failure::new(Exit::BadModel, message));
+            }
+        };
+        if let Some(time) = self.at.iter().find(|time| !time.is_finite()) {
+            return Err(Failure::new(Exit::BadModel, format!("`--at {time}` is no instant")));
+        }
+        if self.what.is_dir() {
+            if self.initial || !self.set.is_empty() {
+                let message = format!("`{}` is a folder of results", self.what.display());
+                return Err(Failure::new(
+                    Exit::BadModel,
+                    format!("{message}; --initial and --set need a model"),
+                ));
+            }
+            return self.of_folder(&self.what, is_png).map(|()| Exit::Done);
+        }
+        let folder = Path::new("out").join(self.what.file_stem().unwrap_or_default());
+        if self.initial {
+            let Still { title, scene, motion, .. } = Still::of(&self.what, &self.set, self.quiet)?;
+            let motion = Motion::from_bytes(&motion).map_err(|error| Failure::new(Exit::Failed, error))?;
+            return self.draw((&scene, &motion, &title), (&folder, is_png)).map(|()| Exit::Done);
+        }
+        refuse_what_does_not_move(&self.what, &self.set)?;
+        // A run that failed leaves results up to there, one that could not start leaves none to be drawn.
+        match Run::of_model(&self.what, &self.set, &folder, self.quiet).run() {
+            Ok(exit) => self.of_folder(&folder, is_png).map(|()| exit),
+            Err(failure) if failure.exit == Exit::Failed && folder.join("motion.bin").is_file() => {
+                self.of_folder(&folder, is_png)?;
+                Err(failure)
+            }
+            Err(failure) => Err(failure),
+        }
+    }
+
+    fn of_folder(&self, folder: &Path, is_png: bool) -> Result<(), Failure> {
+        let run = ResultFolder::recorded(folder).map_err(|error| Failure::folder(Exit::BadModel, &error))?;
+        self.draw((&run.scene, &run.motion, &run.title), (folder, is_png))
+    }
+
+    fn draw(
+        &self,
+        (scene, motion, title): (&Scene, &Motion, &str),
+        (folder, is_png): (&Path, bool),
+    ) -> Result<(), Failure> {
+        let wrong = |error| Failure::new(Exit::BadModel, error);
+        let times = if self.at.is_empty() {
+            instants(motion, self.strip.unwrap_or(1) as usize).map_err(wrong)?
+        } else {
+            self.at.clone()
+        };
+        let view = match self.view {
+            From::Chosen => View::Chosen,
+            From::Oblique => View::Oblique,
+            From::Front => View::Front,
+            From::Side => View::Side,
+            From::Top => View::Top,
+        };
+        let drawing = Picture { times, view, paths: self.paths }.draw(scene, motion, title).map_err(wrong)?;
+        let failed = |error| Failure::new(Exit::Failed, error);
+        let bytes =
+            if is_png { drawing.png().map_err(failed)? } else { drawing.svg().map_err(failed)?.into_bytes() };
+        let unwritable = |error| Failure::file(Exit::Failed, &error);
+        let target = if let Some(file) = &self.out {
+            file.clone()
+        } else {
+            files::create_folder(folder).map_err(unwritable)?;
+            folder.join("snapshot.svg")
+        };
+        files::write(&target, &bytes).map_err(unwritable)?;
+        if !self.quiet {
+            terminal::print(&format!("{}\n", target.display()));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,62 @@
+//! A model that has not moved yet, as pictures show it, and which analyses leave a motion.
+
+use std::path::Path;
+
+use lissom::motion::MotionRecorder;
+use lissom::{Model, Override, Session};
+use lissom_model::document::AnalysisKind;
+use lissom_model::lower::lower;
+use lissom_model::scene::Scene;
+
+use super::{Exit, Failure, show_warnings};
+
+/// A model at its start.
+pub(super) struct Still {
+    /// Name of the model.
+    pub(super) name: String,
+    /// One line about it; empty for none.
+    pub(super) title: String,
+    /// What it looks like.
+    pub(super) scene: Scene,
+    /// A motion file of one frame.
+    pub(super) motion: Vec<u8>,
+}
+
+impl Still {
+    /// Reads a model and finds its start.
+    pub(super) fn of(path: &Path, set: &[Override], quiet: bool) -> Result<Self, Failure> {
+        let model = Model::read(path).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let document = model.document(set)?;
+        if !quiet {
+            show_warnings(&document);
+        }
+        let lowered = lower(&document)?;
+        let scene = Scene::of(&document, &lowered);
+        let mut motion = Vec::new();
+        let mut recorder = MotionRecorder::new(&lowered, None, &mut motion);
+        // Where the model starts from equilibrium, that is the start.
+        let start = if document.starts_in_equilibrium() {
+            let again = lower(&document)?;
+            let session = Session::start(again).map_err(|error| Failure::new(Exit::Failed, error))?;
+            session.simulation().state().clone()
+        } else {
+            lowered.state.clone()
+        };
+        recorder.write_still(&start.kinematics).map_err(|error| Failure::new(Exit::Failed, error))?;
+        let title = document.title.clone().unwrap_or_default();
+        Ok(Self { name: model.name().to_owned(), title, scene, motion })
+    }
+}
+
+/// Paths and buckling loads have tables of their own, and no motion.
+pub(super) fn refuse_what_does_not_move(path: &Path, set: &[Override]) -> Result<(), Failure> {
+    let model = Model::read(path).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+    let kind = model.document(set)?.analysis.kind;
+    match kind {
+        AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } | AnalysisKind::Modes { .. } => Ok(()),
+        _ => {
+            let message = format!("an analysis of kind `{}` leaves no motion to be shown", kind.name());
+            Err(Failure::new(Exit::BadModel, format!("{message}; `--initial` shows the model at its start")))
+        }
+    }
+}

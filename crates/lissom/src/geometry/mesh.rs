@@ -1,0 +1,262 @@
+//! Surfaces made of flat faces, and the solids that symbols are made of.
+
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+use lissom_model::scene::{Form, Solid};
+use lissom_motion::{Motion as Pose, Rotation, Vector3};
+
+/// Sides of what is round.
+const ROUND: usize = 20;
+
+/// A closed surface. Faces are convex and flat or nearly so; seen from outside their points run counterclockwise.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Mesh {
+    /// Places [m].
+    pub points: Vec<Vector3>,
+    /// Points of every face.
+    pub faces: Vec<Vec<u32>>,
+}
+
+impl Mesh {
+    /// Rings of equally many points, each joined to the next, closed by a face at both ends. Points of a ring run
+    /// counterclockwise about the direction from the first ring to the last.
+    pub fn of_rings(rings: &[Vec<Vector3>]) -> Self {
+        let around = rings.first().map_or(0, Vec::len) as u32;
+        let points: Vec<Vector3> = rings.iter().flatten().copied().collect();
+        let mut faces = vec![(0..around).rev().collect()];
+        for ring in 0..(rings.len() as u32).saturating_sub(1) {
+            let (here, next) = (ring * around, (ring + 1) * around);
+            for side in 0..around {
+                let other = (side + 1) % around;
+                faces.push(vec![here + side, here + other, next + other, next + side]);
+            }
+        }
+        let last = points.len() as u32 - around;
+        faces.push((last..last + around).collect());
+        Self { points, faces }
+    }
+
+    /// A body of revolution about the second axis from (radius, height) pairs with ascending heights.
+    fn turned(profile: &[(f64, f64)], sides: usize) -> Self {
+        let point = |radius: f64, height: f64, side: usize| {
+            let (sine, cosine) = (TAU * side as f64 / sides as f64).sin_cos();
+            Vector3::new(radius * sine, height, radius * cosine)
+        };
+        let rings: Vec<Vec<Vector3>> =
+            profile.iter().map(|&(r, h)| (0..sides).map(|side| point(r, h, side)).collect()).collect();
+        Self::of_rings(&rings)
+    }
+
+    /// A cylinder about the second axis, its centre at the origin.
+    pub fn cylinder(radius: f64, length: f64) -> Self {
+        Self::turned(&[(radius, -0.5 * length), (radius, 0.5 * length)], ROUND)
+    }
+
+    /// A cone about the second axis with its tip upward.
+    pub fn cone(radius: f64, length: f64) -> Self {
+        Self::turned(&[(radius, -0.5 * length), (1e-3 * radius, 0.5 * length)], ROUND)
+    }
+
+    /// A frustum of four sides about the second axis, which stands under what the ground holds.
+    pub fn plinth(top: f64, bottom: f64, height: f64) -> Self {
+        let (top, bottom) = (top * 0.5_f64.sqrt(), bottom * 0.5_f64.sqrt());
+        let ring = |half: f64, at: f64| {
+            [(1.0, 1.0), (1.0, -1.0), (-1.0, -1.0), (-1.0, 1.0)]
+                .map(|(x, z)| Vector3::new(half * x, at, half * z))
+                .to_vec()
+        };
+        Self::of_rings(&[
+            ring(bottom, -0.5 * height).into_iter().rev().collect(),
+            ring(top, 0.5 * height).into_iter().rev().collect(),
+        ])
+        .outward()
+    }
+
+    /// A ball about the origin.
+    pub fn ball(radius: f64) -> Self {
+        let rows = 10;
+        let profile: Vec<(f64, f64)> = (0..=rows)
+            .map(|row| {
+                let (sine, cosine) = (PI * f64::from(row) / f64::from(rows) - FRAC_PI_2).sin_cos();
+                (radius * cosine.max(1e-3), radius * sine)
+            })
+            .collect();
+        Self::turned(&profile, ROUND)
+    }
+
+    /// A box about the origin with these sides.
+    pub fn block(sides: [f64; 3]) -> Self {
+        let [a, b, c] = sides.map(|side| 0.5 * side);
+        let ring = |y: f64| [(a, c), (a, -c), (-a, -c), (-a, c)].map(|(x, z)| Vector3::new(x, y, z)).to_vec();
+        Self::of_rings(&[ring(-b), ring(b)]).outward()
+    }
+
+    /// A ring about the second axis.
+    pub fn ring(radius: f64, tube: f64) -> Self {
+        let (around, across) = (28, 8);
+        let mut mesh = Self::default();
+        for k in 0..around {
+            let (s, c) = (TAU * k as f64 / around as f64).sin_cos();
+            for j in 0..across {
+                let (up, out) = (TAU * j as f64 / across as f64).sin_cos();
+                let reach = radius + tube * out;
+                mesh.points.push(Vector3::new(reach * s, tube * up, reach * c));
+                let at = |k: usize, j: usize| ((k % around) * across + j % across) as u32;
+                mesh.faces.push(vec![at(k, j), at(k + 1, j), at(k + 1, j + 1), at(k, j + 1)]);
+            }
+        }
+        mesh
+    }
+
+    /// An octahedron about the origin.
+    pub fn octahedron(radius: f64) -> Self {
+        let points: Vec<Vector3> =
+            (0..6).map(|k| Vector3::ith(k / 2, if k % 2 == 0 { radius } else { -radius })).collect();
+        let mut faces = Vec::new();
+        for [x, y, z] in
+            [[0, 2, 4], [1, 2, 4], [0, 3, 4], [1, 3, 4], [0, 2, 5], [1, 2, 5], [0, 3, 5], [1, 3, 5]]
+        {
+            faces.push(vec![x, y, z]);
+        }
+        Self { points, faces }.outward()
+    }
+
+    /// A coil of length one about the second axis from -0.5 to 0.5: `turns` turns of a wire. `length` is the length at
+    /// which the wire will be as thick along as across.
+    pub fn coil(radius: f64, wire: f64, turns: f64, length: f64) -> Self {
+        let (along, across) = (160, 6);
+        let ring = |k: usize| -> Vec<Vector3> {
+            let t = k as f64 / along as f64;
+            let body = ((t - 0.08) / 0.84).clamp(0.0, 1.0);
+            let reach = radius * (14.0 * body.min(1.0 - body)).min(1.0);
+            let angle = TAU * turns * body;
+            let (sine, cosine) = angle.sin_cos();
+            let out = Vector3::new(cosine, 0.0, sine);
+            let tangent = Vector3::new(-TAU * turns * reach * sine, length, TAU * turns * reach * cosine);
+            let tangent = tangent.normalize();
+            let other = tangent.cross(&out);
+            let centre = reach * out;
+            let place = |j: usize| {
+                let (s, c) = (TAU * j as f64 / across as f64).sin_cos();
+                let at = centre + wire * (c * out + s * other);
+                // The wire's own extent along the coil is of the length that the coil will have.
+                Vector3::new(at[0], t - 0.5 + at[1] / length, at[2])
+            };
+            (0..across).map(place).collect()
+        };
+        Self::of_rings(&(0..=along).map(ring).collect::<Vec<_>>())
+    }
+
+    /// A solid of a symbol that is drawn at a radius.
+    pub fn of_solid(solid: &Solid, radius: f64) -> Self {
+        let [a, b, c] = solid.size.map(|size| radius * size);
+        let mesh = match solid.form {
+            Form::Cylinder => Self::cylinder(a, b),
+            Form::Cone => Self::cone(a, b),
+            Form::Ball => Self::ball(a),
+            Form::Block => Self::block([a, b, c]),
+            Form::Ring => Self::ring(a, b),
+            Form::Octahedron => Self::octahedron(a),
+        };
+        let place = radius * Vector3::from(solid.place);
+        mesh.moved(&Pose::new(turn_to(&Vector3::from(solid.axis)), place))
+    }
+
+    /// Faces turned so that they look away from the origin; of a convex solid about it.
+    fn outward(mut self) -> Self {
+        for face in &mut self.faces {
+            let [a, b, c] = [0, 1, 2].map(|k| self.points[face[k] as usize]);
+            if (b - a).cross(&(c - a)).dot(&(a + b + c)) < 0.0 {
+                face.reverse();
+            }
+        }
+        self
+    }
+
+    /// The same, moved.
+    #[must_use]
+    pub fn moved(mut self, pose: &Pose) -> Self {
+        for point in &mut self.points {
+            *point = pose.transform_point(point);
+        }
+        self
+    }
+
+    /// The same with lengths along the axes multiplied.
+    #[must_use]
+    pub fn stretched(mut self, by: &Vector3) -> Self {
+        for point in &mut self.points {
+            *point = point.component_mul(by);
+        }
+        self
+    }
+
+    /// Takes up the faces of another mesh.
+    pub fn append(&mut self, other: Self) {
+        let first = self.points.len() as u32;
+        self.points.extend(other.points);
+        self.faces.extend(other.faces.into_iter().map(|face| face.into_iter().map(|k| k + first).collect()));
+    }
+
+    /// Its triangles: faces are cut from their first points.
+    pub fn triangles(&self) -> Vec<[u32; 3]> {
+        let fan = |face: &Vec<u32>| {
+            let first = face[0];
+            face[1..].windows(2).map(|pair| [first, pair[0], pair[1]]).collect::<Vec<_>>()
+        };
+        self.faces.iter().flat_map(fan).collect()
+    }
+}
+
+/// The shortest turn that leads the second axis to `direction`, which has the length one.
+pub fn turn_to(direction: &Vector3) -> Rotation {
+    let from = Vector3::y();
+    let axis = from.cross(direction);
+    let sine = axis.norm();
+    let cosine = from.dot(direction);
+    if sine < 1e-12 {
+        return if cosine > 0.0 { Rotation::identity() } else { Rotation::about_axis(&Vector3::x(), PI) };
+    }
+    Rotation::about_axis(&(axis / sine), sine.atan2(cosine))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Six times the volume: faces that look inward would count against it.
+    fn volume(mesh: &Mesh) -> f64 {
+        let tetrahedron = |[a, b, c]: [u32; 3]| {
+            let [a, b, c] = [a, b, c].map(|k| mesh.points[k as usize]);
+            a.dot(&b.cross(&c)) / 6.0
+        };
+        mesh.triangles().into_iter().map(tetrahedron).sum()
+    }
+
+    #[test]
+    fn faces_look_outward_and_enclose_their_volume() {
+        let round = ROUND as f64 / TAU * (TAU / ROUND as f64).sin();
+        let cases = [
+            (Mesh::cylinder(0.5, 3.0), PI * 0.25 * 3.0 * round, 1e-12),
+            (Mesh::cone(0.5, 3.0), PI * 0.25 * round, 2e-3),
+            (Mesh::ball(2.0), PI * 4.0 / 3.0 * 8.0, 0.05),
+            (Mesh::block([1.0, 2.0, 3.0]), 6.0, 1e-12),
+            (Mesh::octahedron(1.0), 4.0 / 3.0, 1e-12),
+            (Mesh::ring(3.0, 0.5), 2.0 * PI * PI * 3.0 * 0.25, 0.15),
+            (Mesh::plinth(1.0, 2.0, 3.0), 3.0 / 3.0 * (2.0 + 8.0 + 4.0), 1e-12),
+        ];
+        for (mesh, expected, tolerance) in cases {
+            let found = volume(&mesh);
+            assert!((found - expected).abs() <= tolerance * expected, "{found} {expected}");
+        }
+        assert!(volume(&Mesh::coil(1.0, 0.1, 5.0, 10.0)) > 0.0);
+    }
+
+    #[test]
+    fn the_shortest_turn_leads_there() {
+        for direction in [[0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.6, 0.0, 0.8], [0.0, 0.8, -0.6]] {
+            let direction = Vector3::from(direction);
+            assert!((turn_to(&direction).apply(&Vector3::y()) - direction).norm() < 1e-12);
+        }
+    }
+}

@@ -1,0 +1,392 @@
+//! A whole model in space: its parts, symbols and loads as pieces that nodes carry.
+
+use lissom_model::scene::{Anchor, Body, Load, Scene, Tone};
+use lissom_motion::{Motion as Pose, Rotation, Vector3};
+
+use super::mesh::{Mesh, turn_to};
+use super::sweep::{Sweep, between};
+use crate::motion::Motion;
+
+/// Thinnest half of a section in a picture, relative to the model.
+const LEAST: f64 = 0.0045;
+/// Turns of the coil of a spring.
+const TURNS: f64 = 9.0;
+
+/// What a piece belongs to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// A beam.
+    Beam,
+    /// A rigid body.
+    Body,
+    /// A point mass.
+    PointMass,
+    /// A joint, a drive or a relation.
+    Joint,
+    /// A spring.
+    Spring,
+    /// A force or moment.
+    Load,
+}
+
+/// What a piece is coloured as.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Colour {
+    /// The part of this number: beams, bodies and point masses are counted on.
+    Part(usize),
+    /// What symbols tell.
+    Tone(Tone),
+    /// The ground.
+    Ground,
+}
+
+/// What moves a piece.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Carrier {
+    /// A node, whose frame the mesh is in.
+    Node(usize),
+    /// A beam: the mesh is that of the model as it is described.
+    Sections(Sweep),
+    /// Two places; the mesh has the length one along its second axis.
+    Span([Anchor; 2]),
+    /// A load: the mesh has the length one along its second axis and begins at the origin.
+    Arrow(Arrow),
+}
+
+/// An arrow whose length tells the size of a load.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Arrow {
+    anchor: Anchor,
+    follower: bool,
+    /// Vectors at equal distances from the start to the end of the analysis.
+    vectors: Vec<Vector3>,
+    span: [f64; 2],
+    /// The largest vector of the load.
+    most: f64,
+    /// Length at the largest vector [m].
+    length: f64,
+    /// Whether it ends at its place.
+    ends_there: bool,
+}
+
+/// A surface, what it belongs to and what moves it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Piece {
+    /// Name of the part, joint, spring or load.
+    pub name: String,
+    /// What it belongs to.
+    pub role: Role,
+    /// What it is coloured as.
+    pub colour: Colour,
+    /// Its surface, before it is moved.
+    pub mesh: Mesh,
+    /// What moves it.
+    pub carrier: Carrier,
+}
+
+impl Piece {
+    /// The surface at poses of the nodes and a time [s]; none for a load that is zero then.
+    pub fn at(&self, poses: &[Pose], time: f64) -> Option<Mesh> {
+        match &self.carrier {
+            Carrier::Node(node) => Some(self.mesh.clone().moved(&poses[*node])),
+            Carrier::Sections(sweep) => Some(sweep.mesh(poses)),
+            Carrier::Span(anchors) => {
+                let (pose, length) = span(anchors, poses);
+                Some(self.mesh.clone().stretched(&Vector3::new(1.0, length, 1.0)).moved(&pose))
+            }
+            Carrier::Arrow(arrow) => {
+                let (pose, length) = arrow.at(poses, time)?;
+                Some(self.mesh.clone().stretched(&Vector3::new(1.0, length, 1.0)).moved(&pose))
+            }
+        }
+    }
+}
+
+/// Middle and direction of what lies between two places, and its length [m].
+pub(crate) fn span(anchors: &[Anchor; 2], poses: &[Pose]) -> (Pose, f64) {
+    let [a, b] = anchors.map(|anchor| place(&anchor, poses));
+    let length = (b - a).norm();
+    let direction = (b - a).try_normalize(0.0).unwrap_or_else(Vector3::y);
+    (Pose::new(turn_to(&direction), 0.5 * (a + b)), length)
+}
+
+fn place(anchor: &Anchor, poses: &[Pose]) -> Vector3 {
+    poses[anchor.node].transform_point(&Vector3::from(anchor.position))
+}
+
+impl Arrow {
+    /// Where the arrow begins, its direction, and its length [m]; none where the load is zero.
+    fn at(&self, poses: &[Pose], time: f64) -> Option<(Pose, f64)> {
+        let [start, end] = self.span;
+        let last = self.vectors.len() - 1;
+        let x =
+            if end > start { ((time - start) / (end - start)).clamp(0.0, 1.0) * last as f64 } else { 0.0 };
+        let k = (x.floor() as usize).min(last.saturating_sub(1));
+        let (a, b) = (self.vectors[k], self.vectors[(k + 1).min(last)]);
+        let vector = a + (b - a) * (x - k as f64);
+        let share = vector.norm() / self.most;
+        if share.is_nan() || share < 1e-3 {
+            return None;
+        }
+        let direction = vector.normalize();
+        let direction =
+            if self.follower { poses[self.anchor.node].rotation.apply(&direction) } else { direction };
+        let length = self.length * (0.25 + 0.75 * share);
+        let at = place(&self.anchor, poses);
+        let begin = if self.ends_there { at - direction * length } else { at };
+        Some((Pose::new(turn_to(&direction), begin), length))
+    }
+}
+
+/// A model as pieces, and how large it is over its motion.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Geometry {
+    /// The pieces, parts first.
+    pub pieces: Vec<Piece>,
+    /// Least places of nodes over the motion [m].
+    pub low: Vector3,
+    /// Greatest places of nodes over the motion [m].
+    pub high: Vector3,
+    /// Distance between them [m].
+    pub size: f64,
+    /// Which direction is upward.
+    pub up: Vector3,
+}
+
+impl Geometry {
+    /// The pieces of a scene that moves so. Sections too thin to be seen are drawn thicker if `is_picture`, and loads are
+    /// drawn then alone.
+    pub fn new(scene: &Scene, motion: &Motion, is_picture: bool) -> Self {
+        let (low, high) = bounds(scene, motion);
+        let size = (high - low).norm();
+        let mut geometry = Self { pieces: Vec::new(), low, high, size, up: scene.up() };
+        geometry.parts(scene, motion, if is_picture { LEAST * size } else { 0.0 });
+        geometry.symbols(scene);
+        geometry.springs(scene, motion);
+        if is_picture {
+            geometry.loads(scene);
+        }
+        geometry
+    }
+
+    fn add(&mut self, name: &str, (role, colour): (Role, Colour), mesh: Mesh, carrier: Carrier) {
+        self.pieces.push(Piece { name: name.to_owned(), role, colour, mesh, carrier });
+    }
+
+    fn parts(&mut self, scene: &Scene, motion: &Motion, least: f64) {
+        let mut number = 0;
+        let mut next = || {
+            number += 1;
+            Colour::Part(number - 1)
+        };
+        for beam in &scene.beams {
+            let sweep = Sweep::new(beam, motion.reference(), least);
+            let mesh = sweep.mesh(motion.reference());
+            self.add(&beam.name, (Role::Beam, next()), mesh, Carrier::Sections(sweep));
+        }
+        for body in &scene.bodies {
+            let mesh = self.body(body, &attached(scene, body.node));
+            self.add(&body.name, (Role::Body, next()), mesh, Carrier::Node(body.node));
+        }
+        let heaviest = scene.point_masses.iter().map(|mass| mass.mass).fold(0.0, f64::max);
+        for mass in &scene.point_masses {
+            let radius = self.size * (0.012 + 0.016 * (mass.mass / heaviest).cbrt());
+            self.add(&mass.name, (Role::PointMass, next()), Mesh::ball(radius), Carrier::Node(mass.node));
+        }
+    }
+
+    /// The box of a body, with arms to where something is attached.
+    fn body(&self, body: &Body, anchors: &[Vector3]) -> Mesh {
+        let center = Vector3::from(body.shape.center);
+        let reach = anchors.iter().map(|at| (at - center).norm()).fold(0.0, f64::max);
+        // Inertias far bulkier than what the body reaches, as of models in a plane, must not hide all else.
+        let most = if reach > 0.02 * self.size { 0.8 * reach } else { 0.3 * self.size };
+        let mut sides = body.shape.sides;
+        sides.sort_by(f64::total_cmp);
+        let share = if sides[1] > most { 0.35 * most / sides[1] } else { 1.0 };
+        let least = 0.012 * self.size;
+        let drawn = body.shape.sides.map(|side| (share * side).max(least));
+        let axes = Rotation::from_quaternion(body.shape.quaternion).unwrap_or_default();
+        let mut mesh = Mesh::block(drawn).moved(&Pose::new(axes, center));
+        for at in anchors {
+            let along = at - center;
+            if along.norm() > 0.5 * least {
+                let pose = Pose::new(turn_to(&along.normalize()), center + 0.5 * along);
+                mesh.append(Mesh::cylinder(0.0055 * self.size, along.norm()).moved(&pose));
+            }
+        }
+        mesh
+    }
+
+    fn symbols(&mut self, scene: &Scene) {
+        let role = |name: &str| {
+            if scene.joints.iter().any(|joint| joint.name == name) {
+                Role::Joint
+            } else if scene.springs.iter().any(|spring| spring.name == name) {
+                Role::Spring
+            } else {
+                Role::Load
+            }
+        };
+        for symbol in &scene.symbols {
+            let role = role(&symbol.name);
+            let radius = self.radius(symbol.around);
+            let at = Pose::translation(Vector3::from(symbol.anchor.position));
+            // Solids of one colour are one piece.
+            let mut tones: Vec<Tone> = Vec::new();
+            for solid in &symbol.solids {
+                if !tones.contains(&solid.tone) {
+                    tones.push(solid.tone);
+                }
+            }
+            for tone in tones {
+                let mut mesh = Mesh::default();
+                for solid in symbol.solids.iter().filter(|solid| solid.tone == tone) {
+                    mesh.append(Mesh::of_solid(solid, radius));
+                }
+                let carrier = Carrier::Node(symbol.anchor.node);
+                self.add(&symbol.name, (role, Colour::Tone(tone)), mesh.moved(&at), carrier);
+            }
+        }
+        // A plinth stands under every joint on the ground.
+        for joint in &scene.joints {
+            let Some([base, _]) = joint.anchors.filter(|[base, _]| base.node == 0) else { continue };
+            let around =
+                scene.symbols.iter().find(|symbol| symbol.name == joint.name).map_or(0.0, |s| s.around);
+            let radius = self.radius(around);
+            let pose = Pose::new(turn_to(&self.up), Vector3::from(base.position) - 1.15 * radius * self.up);
+            let mesh = Mesh::plinth(0.55 * radius, 1.75 * radius, 1.9 * radius).moved(&pose);
+            self.add(&joint.name, (Role::Joint, Colour::Ground), mesh, Carrier::Node(0));
+        }
+        for rod in &scene.rods {
+            let mesh = Mesh::cylinder(0.35 * self.radius(0.0), 1.0);
+            let paint = (Role::Joint, Colour::Tone(Tone::Dark));
+            self.add(&rod.name, paint, mesh, Carrier::Span(rod.anchors));
+        }
+    }
+
+    /// Radius of a symbol that sections of this half thickness do not hide.
+    fn radius(&self, around: f64) -> f64 {
+        (1.45 * around).min(0.04 * self.size).max(0.0135 * self.size)
+    }
+
+    fn springs(&mut self, scene: &Scene, motion: &Motion) {
+        let has_symbol = |name: &str| scene.symbols.iter().any(|symbol| symbol.name == name);
+        for spring in scene.springs.iter().filter(|spring| !has_symbol(&spring.name)) {
+            let Some(anchors) = spring.anchors else { continue };
+            let (_, length) = span(&anchors, motion.reference());
+            let length = if length > 0.0 { length } else { self.size };
+            let mesh = Mesh::coil(0.016 * self.size, 0.0035 * self.size, TURNS, length);
+            self.add(&spring.name, (Role::Spring, Colour::Tone(Tone::Spring)), mesh, Carrier::Span(anchors));
+        }
+    }
+
+    fn loads(&mut self, scene: &Scene) {
+        let span = [scene.start, scene.end];
+        for load in &scene.loads {
+            let Some(vectors) = vectors(load) else { continue };
+            let most = vectors.iter().fold(0.0, |most: f64, vector| most.max(vector.norm()));
+            let is_moment = load.kind == "moment";
+            let (anchor, follower, length) = (load.anchor, load.follower, 0.16 * self.size);
+            let arrow = Arrow { anchor, follower, vectors, span, most, length, ends_there: !is_moment };
+            let tone = if is_moment { Tone::Moment } else { Tone::Load };
+            let mesh = arrow_mesh(0.0045 * self.size, length, if is_moment { 2 } else { 1 });
+            self.add(&load.name, (Role::Load, Colour::Tone(tone)), mesh, Carrier::Arrow(arrow));
+        }
+        for load in &scene.beam_loads {
+            let all = || load.vectors.iter().flatten().map(|vector| Vector3::from(*vector));
+            let most = all().fold(0.0, |most: f64, vector| most.max(vector.norm()));
+            for (k, anchor) in load.anchors.iter().enumerate() {
+                let vectors = load.vectors.iter().map(|vectors| Vector3::from(vectors[k])).collect();
+                let (length, follower) = (0.08 * self.size, load.follower);
+                let arrow =
+                    Arrow { anchor: *anchor, follower, vectors, span, most, length, ends_there: true };
+                let mesh = arrow_mesh(0.0025 * self.size, length, 1);
+                let paint = (Role::Load, Colour::Tone(Tone::Load));
+                self.add(&load.beam, paint, mesh, Carrier::Arrow(arrow));
+            }
+        }
+    }
+}
+
+/// Vectors of a load at all instants that are told.
+fn vectors(load: &Load) -> Option<Vec<Vector3>> {
+    let vector = Vector3::from(load.vector?);
+    Some(if load.scale.is_empty() {
+        vec![vector]
+    } else {
+        load.scale.iter().map(|scale| vector * *scale).collect()
+    })
+}
+
+/// An arrow of length one along the second axis with heads that are in proportion where it is `length` long.
+fn arrow_mesh(radius: f64, length: f64, heads: u32) -> Mesh {
+    let head = 8.0 * radius / length;
+    let shaft = 1.0 - head;
+    let at = |y: f64| Pose::translation(Vector3::new(0.0, y, 0.0));
+    let mut mesh = Mesh::cylinder(radius, shaft).moved(&at(0.5 * shaft));
+    for k in 0..heads {
+        mesh.append(Mesh::cone(2.9 * radius, head).moved(&at(1.0 - head * (0.5 + 0.8 * f64::from(k)))));
+    }
+    mesh
+}
+
+/// Points of a node where joints, springs and loads are, in its frame.
+fn attached(scene: &Scene, node: usize) -> Vec<Vector3> {
+    let joints = scene.joints.iter().filter_map(|joint| joint.anchors);
+    let springs = scene.springs.iter().filter_map(|spring| spring.anchors);
+    let loads = scene.loads.iter().map(|load| load.anchor);
+    let all = joints.chain(springs).flatten().chain(loads);
+    all.filter(|anchor| anchor.node == node).map(|anchor| Vector3::from(anchor.position)).collect()
+}
+
+/// Least and greatest places of all nodes but the ground over all frames, with what is on the ground.
+fn bounds(scene: &Scene, motion: &Motion) -> (Vector3, Vector3) {
+    let count = motion.reference().len();
+    let frames = motion.times().len();
+    let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
+    let mut take = |place: &Vector3| {
+        low = low.inf(place);
+        high = high.sup(place);
+    };
+    let stride = (frames * count / 400_000).max(1);
+    for frame in (0..frames).step_by(stride) {
+        let numbers = motion.frame(frame);
+        for node in usize::from(count > 1)..count {
+            let shift = Vector3::from_fn(|k, _| f64::from(numbers[3 * node + k]));
+            take(&(motion.reference()[node].position + shift));
+        }
+    }
+    let joints = scene.joints.iter().filter_map(|joint| joint.anchors);
+    let springs = scene.springs.iter().filter_map(|spring| spring.anchors);
+    for anchor in joints.chain(springs).flatten().filter(|anchor| anchor.node == 0) {
+        take(&Vector3::from(anchor.position));
+    }
+    if (high - low).norm() > 0.0 {
+        return (low, high);
+    }
+    // A single point has room about it.
+    let sides = scene.bodies.iter().flat_map(|body| body.shape.sides).fold(0.0, f64::max);
+    let room = Vector3::repeat(if sides > 0.0 { 0.5 * sides } else { 0.5 });
+    if low.x.is_finite() { (low - room, high + room) } else { (-room, room) }
+}
+
+/// Poses of all nodes at a time [s] within the motion: between two frames displacements are straight and rotations
+/// uniform. None outside.
+pub fn poses_at(motion: &Motion, time: f64) -> Option<Vec<Pose>> {
+    let times = motion.times();
+    let (first, last) = (*times.first()?, *times.last()?);
+    let slack = 1e-9 * (last - first).abs();
+    if !(first - slack..=last + slack).contains(&time) {
+        return None;
+    }
+    let after = times.partition_point(|frame| *frame <= time).min(times.len() - 1);
+    let before = after.saturating_sub(1);
+    let duration = times[after] - times[before];
+    let x = if duration > 0.0 { ((time - times[before]) / duration).clamp(0.0, 1.0) } else { 1.0 };
+    let pose = |node: usize| {
+        let (a, b) = (motion.pose(before, node), motion.pose(after, node));
+        Pose::new(between(&a.rotation, &b.rotation, x), a.position + x * (b.position - a.position))
+    };
+    Some((0..motion.reference().len()).map(pose).collect())
+}

@@ -1,0 +1,270 @@
+//! The sheet of a picture: panels at several instants, their times, the axes and a scale.
+
+use lissom_model::output::{Align, Drawing, FigureError, Shade};
+use lissom_model::scene::Scene;
+use lissom_motion::Vector3;
+
+use super::painter::{Seen, painted};
+use super::view::{Projection, View};
+use crate::geometry::{Geometry, poses_at};
+use crate::motion::Motion;
+
+const WORDS: Shade = [0x1d, 0x24, 0x30];
+const FAINT: Shade = [0x6b, 0x76, 0x86];
+const TRACE: Shade = [0xd5, 0x5e, 0x00];
+/// The global axes.
+const AXES: [(&str, Shade); 3] =
+    [("x", [0xd1, 0x49, 0x5b]), ("y", [0x2f, 0x9e, 0x63]), ("z", [0x3b, 0x74, 0xd9])];
+/// Room about what is drawn, and below it for words.
+const MARGIN: f64 = 14.0;
+const LINE: f64 = 22.0;
+const FOOT: f64 = 64.0;
+/// Widest and highest part of the sheet that panels share.
+const MOST: [f64; 2] = [1200.0, 900.0];
+/// Most panels.
+const MOST_PANELS: usize = 100;
+
+/// A picture that cannot be drawn.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PictureError {
+    /// An instant lies outside of the motion.
+    #[error("there is no motion at t = {time} s: it was recorded from {first} s to {last} s")]
+    Outside {
+        /// The instant [s].
+        time: f64,
+        /// The first that was recorded [s].
+        first: f64,
+        /// The last that was recorded [s].
+        last: f64,
+    },
+    /// The motion has no frames.
+    #[error("the motion holds no frame: run the model again")]
+    Empty,
+    /// There are more panels than a sheet takes.
+    #[error("{0} pictures were asked for, and a sheet takes {MOST_PANELS}")]
+    TooMany(usize),
+    /// It cannot be put on the sheet.
+    #[error(transparent)]
+    Figure(#[from] FigureError),
+}
+
+/// What a picture shows, and how.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Picture {
+    /// Instants, one for each panel [s].
+    pub times: Vec<f64>,
+    /// Where it is seen from.
+    pub view: View,
+    /// Whether the paths of observed points are drawn.
+    pub paths: bool,
+}
+
+/// So many instants at equal distances over a motion, its ends among them; the last for one.
+///
+/// # Errors
+/// If there is no motion, or they are too many for a sheet.
+pub fn instants(motion: &Motion, count: usize) -> Result<Vec<f64>, PictureError> {
+    let (Some(first), Some(last)) = (motion.times().first(), motion.times().last()) else {
+        return Err(PictureError::Empty);
+    };
+    if count > MOST_PANELS {
+        return Err(PictureError::TooMany(count));
+    }
+    let at = |k: usize| {
+        if count < 2 || k + 1 == count {
+            *last
+        } else {
+            first + (last - first) * k as f64 / (count - 1) as f64
+        }
+    };
+    Ok((0..count).map(at).collect())
+}
+
+/// A rectangle that grows [m].
+#[derive(Clone, Copy)]
+struct Frame {
+    low: [f64; 2],
+    high: [f64; 2],
+}
+
+impl Frame {
+    fn take(&mut self, point: &[f64; 2]) {
+        for k in 0..2 {
+            self.low[k] = self.low[k].min(point[k]);
+            self.high[k] = self.high[k].max(point[k]);
+        }
+    }
+
+    fn extent(&self) -> [f64; 2] {
+        [0, 1].map(|k| (self.high[k] - self.low[k]).max(1e-12))
+    }
+}
+
+impl Picture {
+    /// Draws a model that moves so.
+    ///
+    /// # Errors
+    /// If an instant lies outside of the motion, or there are none or too many.
+    pub fn draw(&self, scene: &Scene, motion: &Motion, title: &str) -> Result<Drawing, PictureError> {
+        let (Some(&first), Some(&last)) = (motion.times().first(), motion.times().last()) else {
+            return Err(PictureError::Empty);
+        };
+        if self.times.is_empty() || self.times.len() > MOST_PANELS {
+            return Err(PictureError::TooMany(self.times.len()));
+        }
+        let geometry = Geometry::new(scene, motion, true);
+        let projection = Projection::of(&geometry, self.view);
+        let mut panels: Vec<(f64, Vec<Seen>)> = Vec::new();
+        let mut frame = Frame { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
+        for &time in &self.times {
+            let poses = poses_at(motion, time).ok_or(PictureError::Outside { time, first, last })?;
+            let seen = painted(&geometry, &projection, &poses, time);
+            seen.iter().flat_map(|face| &face.points).for_each(|point| frame.take(point));
+            panels.push((time, seen));
+        }
+        let paths = if self.paths { paths(scene, motion, &projection) } else { Vec::new() };
+        paths.iter().flatten().for_each(|point| frame.take(point));
+        let sheet = Sheet::of(frame, panels.len());
+        Ok(sheet.drawn(&panels, &paths, &projection, (title, scene.is_static)))
+    }
+}
+
+/// Paths of the points that are observed, as they are seen [m].
+fn paths(scene: &Scene, motion: &Motion, projection: &Projection) -> Vec<Vec<[f64; 2]>> {
+    let points = scene.outputs.iter().filter_map(|output| output.point).filter(|point| point.node != 0);
+    let path = |anchor: lissom_model::scene::Anchor| {
+        let at = |frame| motion.pose(frame, anchor.node).transform_point(&Vector3::from(anchor.position));
+        (0..motion.times().len()).map(|frame| projection.flat(&at(frame))).collect()
+    };
+    let mut anchors: Vec<lissom_model::scene::Anchor> = Vec::new();
+    for anchor in points {
+        if !anchors.contains(&anchor) {
+            anchors.push(anchor);
+        }
+    }
+    anchors.into_iter().map(path).collect()
+}
+
+/// How panels lie on a sheet.
+struct Sheet {
+    frame: Frame,
+    columns: usize,
+    rows: usize,
+    /// Pixels per metre.
+    scale: f64,
+}
+
+impl Sheet {
+    /// As many columns as give the largest panels.
+    fn of(frame: Frame, count: usize) -> Self {
+        let [width, height] = frame.extent();
+        let of_columns = |columns: usize| {
+            let rows = count.div_ceil(columns);
+            let across = (MOST[0] / columns as f64 - 2.0 * MARGIN) / width;
+            let down = (MOST[1] / rows as f64 - 2.0 * MARGIN - LINE) / height;
+            Self { frame, columns, rows, scale: across.min(down).max(1e-300) }
+        };
+        let better = |best: Self, other: Self| if other.scale > best.scale { other } else { best };
+        (2..=count).map(of_columns).fold(of_columns(1), better)
+    }
+
+    fn drawn(
+        &self,
+        panels: &[(f64, Vec<Seen>)],
+        paths: &[Vec<[f64; 2]>],
+        projection: &Projection,
+        (title, is_static): (&str, bool),
+    ) -> Drawing {
+        let [width, height] = self.frame.extent().map(|extent| extent * self.scale + 2.0 * MARGIN);
+        let head = if title.is_empty() { 0.0 } else { 2.0 * LINE };
+        let sheet_width = (self.columns as f64 * width).max(240.0);
+        let left = 0.5 * (sheet_width - self.columns as f64 * width);
+        let size = [sheet_width, head + self.rows as f64 * (height + LINE) + FOOT];
+        let mut drawing = Drawing::new("snapshot", size);
+        if !title.is_empty() {
+            drawing.words([0.5 * size[0], 1.3 * LINE], title, 17, Align::Middle, WORDS);
+        }
+        for (index, (time, faces)) in panels.iter().enumerate() {
+            let x = left + (index % self.columns) as f64 * width + MARGIN;
+            let y = head + (index / self.columns) as f64 * (height + LINE) + MARGIN;
+            let place = |point: &[f64; 2]| {
+                let [low, high] = [self.frame.low[0], self.frame.high[1]];
+                [x + (point[0] - low) * self.scale, y + (high - point[1]) * self.scale]
+            };
+            for path in paths {
+                drawing.line(path.iter().map(place).collect(), TRACE, 1.0);
+            }
+            for face in faces {
+                drawing.polygon(face.points.iter().map(place).collect(), face.shade);
+            }
+            let words =
+                if is_static { format!("load {}", short(*time)) } else { format!("t = {} s", short(*time)) };
+            let middle = [x + 0.5 * width - MARGIN, y + height - MARGIN + 0.6 * LINE];
+            drawing.words(middle, &words, 13, Align::Middle, FAINT);
+        }
+        let foot = size[1] - 0.45 * FOOT;
+        axes(&mut drawing, projection, [34.0, foot]);
+        self.ruler(&mut drawing, [size[0] - 20.0, foot + 12.0]);
+        drawing
+    }
+
+    /// A scale that ends at a place.
+    fn ruler(&self, drawing: &mut Drawing, [x, y]: [f64; 2]) {
+        let longest = 120.0 / self.scale;
+        let power = 10_f64.powf(longest.log10().floor());
+        let length = [5.0, 2.0, 1.0].map(|k| k * power).into_iter().find(|length| *length <= longest);
+        let length = length.unwrap_or(power);
+        let start = x - length * self.scale;
+        drawing.line(vec![[start, y - 4.0], [start, y], [x, y], [x, y - 4.0]], FAINT, 1.2);
+        let words =
+            if length < 1.0 { format!("{} mm", short(1e3 * length)) } else { format!("{} m", short(length)) };
+        drawing.words([0.5 * (start + x), y - 6.0], &words, 12, Align::Middle, FAINT);
+    }
+}
+
+/// The global axes about a place; the farthest first.
+fn axes(drawing: &mut Drawing, projection: &Projection, [x, y]: [f64; 2]) {
+    let mut order = [0, 1, 2];
+    order.sort_by(|a, b| {
+        let near = |k: &usize| projection.near(&Vector3::ith(*k, 1.0));
+        near(a).total_cmp(&near(b))
+    });
+    for k in order {
+        let (name, shade) = AXES[k];
+        let [right, above] = projection.flat(&Vector3::ith(k, 1.0));
+        if right.hypot(above) < 0.1 {
+            continue;
+        }
+        drawing.line(vec![[x, y], [x + 20.0 * right, y - 20.0 * above]], shade, 2.0);
+        drawing.words([x + 28.0 * right, y - 28.0 * above + 4.0], name, 12, Align::Middle, shade);
+    }
+}
+
+/// A number in few digits.
+fn short(number: f64) -> String {
+    let rounded = format!("{number:.3e}").parse::<f64>().unwrap_or(number);
+    format!("{}", if rounded.abs() < 1e-12 { 0.0 } else { rounded })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sheets_have_the_columns_that_give_the_largest_panels() {
+        let frame = |width, height| Frame { low: [0.0; 2], high: [width, height] };
+        let wide = Sheet::of(frame(4.0, 1.0), 6);
+        assert_eq!((wide.columns, wide.rows), (2, 3));
+        let high = Sheet::of(frame(1.0, 4.0), 6);
+        assert_eq!((high.columns, high.rows), (6, 1));
+        assert_eq!(Sheet::of(frame(1.0, 1.0), 1).columns, 1);
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(short(0.123_456), "0.1235");
+        assert_eq!(short(200.0), "200");
+        assert_eq!(short(1e-17), "0");
+    }
+}

@@ -1,0 +1,172 @@
+//! Which faces are seen: an item buffer. Faces are laid over a grid of points, and at every point the nearest is kept.
+
+/// Points of the grid across a model.
+const ACROSS: f64 = 1100.0;
+
+/// A face as it lies before the one who looks: points to the right, upward and towards him [m].
+pub(super) type Laid = Vec<[f64; 3]>;
+
+/// How much of a face is seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Seen {
+    /// All of it.
+    Wholly,
+    /// Some of it.
+    Partly,
+    /// Nothing.
+    Hidden,
+}
+
+/// The nearest face at every point of a grid.
+pub(super) struct ItemBuffer {
+    low: [f64; 2],
+    /// Distance of neighbouring points [m].
+    spacing: f64,
+    columns: usize,
+    /// How near the nearest face is [m], and its number.
+    nearest: Vec<(f64, u32)>,
+}
+
+/// No face.
+const NONE: u32 = u32::MAX;
+
+impl ItemBuffer {
+    /// Of the faces of a model of this size [m].
+    pub(super) fn of(faces: &[Laid], size: f64) -> Self {
+        let points = || faces.iter().flatten();
+        let bound = |k: usize, least: f64, pick: fn(f64, f64) -> f64| {
+            points().map(|point| point[k]).fold(least, pick)
+        };
+        let low = [0, 1].map(|k| bound(k, f64::INFINITY, f64::min));
+        let high = [0, 1].map(|k| bound(k, f64::NEG_INFINITY, f64::max));
+        let widest = (high[0] - low[0]).max(high[1] - low[1]);
+        // A part that reaches far beyond the nodes makes the grid coarser, not larger.
+        let spacing = (size / ACROSS).max(widest / (3.0 * ACROSS)).max(f64::MIN_POSITIVE);
+        let count =
+            |k: usize| if high[k] > low[k] { ((high[k] - low[k]) / spacing).ceil() as usize + 1 } else { 1 };
+        let (columns, rows) = (count(0), count(1));
+        let mut buffer =
+            Self { low, spacing, columns, nearest: vec![(f64::NEG_INFINITY, NONE); columns * rows] };
+        for (number, face) in faces.iter().enumerate() {
+            let mut found = Vec::new();
+            buffer.covered(face, |point, near| found.push((point, near)));
+            for (point, near) in found {
+                if near > buffer.nearest[point].0 {
+                    buffer.nearest[point] = (near, number as u32);
+                }
+            }
+        }
+        buffer
+    }
+
+    /// How much of `face`, which is the face of this number or a part of it, is seen.
+    pub(super) fn seen(&self, face: &Laid, number: usize) -> Seen {
+        let (mut all, mut own) = (0_u32, 0_u32);
+        self.covered(face, |point, _| {
+            all += 1;
+            own += u32::from(self.nearest[point].1 == number as u32);
+        });
+        match own {
+            0 => Seen::Hidden,
+            own if own == all => Seen::Wholly,
+            _ => Seen::Partly,
+        }
+    }
+
+    /// The points of the grid within a convex face, and how near it is there.
+    fn covered(&self, face: &Laid, mut told: impl FnMut(usize, f64)) {
+        let Some(plane) = Plane::of(face) else { return };
+        let range = |k: usize| {
+            let of = |pick: fn(f64, f64) -> f64, least| face.iter().map(|point| point[k]).fold(least, pick);
+            let (low, high) = (of(f64::min, f64::INFINITY), of(f64::max, f64::NEG_INFINITY));
+            let at = |x: f64| (x - self.low[k]) / self.spacing;
+            (at(low).ceil().max(0.0) as usize, at(high).floor())
+        };
+        let ((left, right), (bottom, top)) = (range(0), range(1));
+        if right < 0.0 || top < 0.0 {
+            return;
+        }
+        let rows = self.nearest.len() / self.columns;
+        for row in bottom..=(top as usize).min(rows - 1) {
+            let y = self.low[1] + row as f64 * self.spacing;
+            for column in left..=(right as usize).min(self.columns - 1) {
+                let x = self.low[0] + column as f64 * self.spacing;
+                let is_inside = (0..face.len()).all(|k| {
+                    let ([ax, ay, _], [bx, by, _]) = (face[k], face[(k + 1) % face.len()]);
+                    (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0.0
+                });
+                if is_inside {
+                    told(row * self.columns + column, plane.near(x, y));
+                }
+            }
+        }
+    }
+}
+
+/// The plane of a face: how near it is at a place.
+struct Plane {
+    at: [f64; 3],
+    slope: [f64; 2],
+}
+
+impl Plane {
+    /// By Newell's formula; none where it is seen from its edge.
+    fn of(face: &Laid) -> Option<Self> {
+        let first = face[0];
+        let from_first = |k: usize| {
+            let point = face[k % face.len()];
+            [point[0] - first[0], point[1] - first[1], point[2] - first[2]]
+        };
+        let mut normal = [0.0; 3];
+        for k in 1..face.len() {
+            let (a, b) = (from_first(k), from_first(k + 1));
+            for i in 0..3 {
+                let (j, l) = ((i + 1) % 3, (i + 2) % 3);
+                normal[i] += a[j] * b[l] - a[l] * b[j];
+            }
+        }
+        (normal[2] > 0.0).then(|| Self { at: first, slope: [-normal[0] / normal[2], -normal[1] / normal[2]] })
+    }
+
+    fn near(&self, x: f64, y: f64) -> f64 {
+        self.at[2] + self.slope[0] * (x - self.at[0]) + self.slope[1] * (y - self.at[1])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(low: f64, high: f64, near: f64) -> Laid {
+        vec![[low, low, near], [high, low, near], [high, high, near], [low, high, near]]
+    }
+
+    #[test]
+    fn nearer_faces_hide_others() {
+        let faces =
+            [square(0.0, 1.0, 0.0), square(0.2, 0.6, 1.0), square(0.3, 0.5, 0.5), square(0.7, 0.9, -1.0)];
+        let buffer = ItemBuffer::of(&faces, 1.0);
+        let seen: Vec<Seen> = (0..4).map(|k| buffer.seen(&faces[k], k)).collect();
+        assert_eq!(seen, [Seen::Partly, Seen::Wholly, Seen::Hidden, Seen::Hidden]);
+        // A part of the first that nothing covers, and one that is covered.
+        assert_eq!(buffer.seen(&square(0.65, 0.95, 0.0), 0), Seen::Wholly);
+        assert_eq!(buffer.seen(&square(0.25, 0.55, 0.0), 0), Seen::Hidden);
+    }
+
+    #[test]
+    fn faces_that_pass_through_each_other_are_both_seen() {
+        let slope =
+            |rise: f64| vec![[0.0, 0.0, -rise], [1.0, 0.0, rise], [1.0, 1.0, rise], [0.0, 1.0, -rise]];
+        let faces = [slope(0.5), slope(-0.5)];
+        let buffer = ItemBuffer::of(&faces, 1.0);
+        assert_eq!([0, 1].map(|k| buffer.seen(&faces[k], k)), [Seen::Partly, Seen::Partly]);
+    }
+
+    #[test]
+    fn nothing_and_points_are_no_trouble() {
+        assert_eq!(ItemBuffer::of(&[], 1.0).nearest.len(), 1);
+        let point = vec![[0.0; 3]; 4];
+        let buffer = ItemBuffer::of(std::slice::from_ref(&point), 0.0);
+        assert_eq!(buffer.seen(&point, 0), Seen::Hidden);
+    }
+}

@@ -1,0 +1,133 @@
+//! `lissom snapshot` as its users see it: pictures that show what the table says, and refusals.
+
+use std::fs;
+
+use lissom::geometry::{Geometry, Role, poses_at};
+use lissom::picture::{Projection, View, painted};
+use lissom::{Record, ResultFolder};
+use lissom_motion::Vector3;
+
+use crate::support::{CANTILEVER, Folder, example, lissom};
+
+#[test]
+fn a_strip_shows_instants_and_is_gone_after_another_run() {
+    let folder = Folder::new("snapshot-strip");
+    let model = example("tip-crank");
+    let short = ["--set", "analysis.end=0.2", "-q"];
+    let snapshot = lissom(&[&["snapshot", &model, "--strip", "3"][..], &short].concat(), folder.path());
+    assert_eq!(snapshot.code, 0, "{}", snapshot.errors);
+    let picture = folder.path().join("out/tip-crank/snapshot.svg");
+    let svg = fs::read_to_string(&picture).unwrap();
+    for words in ["Beam actuated by a tip crank", "t = 0 s", "t = 0.1 s", "t = 0.2 s", " mm<"] {
+        assert!(svg.contains(words), "{words}");
+    }
+    assert!(svg.matches("<path").count() > 500 && svg.len() < 2_000_000, "{}", svg.len());
+    assert!(!svg.contains("NaN") && !svg.contains("inf"));
+    let png =
+        lissom(&["snapshot", "out/tip-crank", "--at", "0.05,0.15", "--out", "crank.PNG"], folder.path());
+    assert_eq!((png.code, png.output.trim()), (0, "crank.PNG"), "{}", png.errors);
+    assert!(fs::read(folder.path().join("crank.PNG")).unwrap().starts_with(b"\x89PNG"));
+    let run = lissom(&[&["run", &model][..], &short].concat(), folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(!picture.exists(), "a picture of a former run would lie");
+}
+
+#[test]
+fn what_is_drawn_lies_where_the_table_says() {
+    let folder = Folder::new("snapshot-places");
+    let model = example("pendulum");
+    let run = lissom(&["run", &model, "--out", "out", "-q"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let out = folder.path().join("out");
+    let run = ResultFolder::recorded(&out).unwrap();
+    let table = Record::from_csv(&fs::read_to_string(out.join("history.csv")).unwrap()).unwrap();
+    let mut geometry = Geometry::new(&run.scene, &run.motion, true);
+    geometry.pieces.retain(|piece| piece.role == Role::PointMass);
+    assert_eq!(geometry.pieces.len(), 1);
+    for view in [View::Chosen, View::Oblique, View::Front, View::Side, View::Top] {
+        let projection = Projection::of(&geometry, view);
+        for row in [0, table.times.len() / 3, table.times.len() - 1] {
+            let time = table.times[row];
+            let place = Vector3::from(["x", "y", "z"].map(|name| table.column("bob", name).unwrap()[row]));
+            let poses = poses_at(&run.motion, time).unwrap();
+            let seen = painted(&geometry, &projection, &poses, time);
+            let expected = projection.flat(&place);
+            // The middle of the disc that a ball is seen as.
+            for k in 0..2 {
+                let all = || seen.iter().flat_map(|face| &face.points).map(|point| point[k]);
+                let middle =
+                    0.5 * (all().fold(f64::INFINITY, f64::min) + all().fold(f64::NEG_INFINITY, f64::max));
+                assert!(
+                    (middle - expected[k]).abs() < 0.002 * geometry.size,
+                    "{view:?} {time}: {middle} {expected:?}"
+                );
+            }
+        }
+        // To the right, above and towards the one who looks are a right-handed system.
+        let [x, y, z] = [0, 1, 2].map(|k| Vector3::ith(k, 1.0));
+        let column = |v: &Vector3| {
+            let [right, above] = projection.flat(v);
+            Vector3::new(right, above, projection.near(v))
+        };
+        assert!((column(&x).cross(&column(&y)) - column(&z)).norm() < 1e-12);
+    }
+    assert!(poses_at(&run.motion, 1.1).is_none() && poses_at(&run.motion, -0.1).is_none());
+}
+
+#[test]
+fn a_failed_run_is_drawn_up_to_there_and_still_fails() {
+    let folder = Folder::new("snapshot-failed");
+    folder.write("bar.toml", CANTILEVER);
+    let args = [
+        "snapshot",
+        "bar.toml",
+        "--set",
+        "loads.tip.scale=1e9*t",
+        "--set",
+        "analysis.max_iterations=3",
+        "-q",
+    ];
+    let snapshot = lissom(&args, folder.path());
+    assert_eq!(snapshot.code, 3, "{}", snapshot.errors);
+    let svg = fs::read_to_string(folder.path().join("out/bar/snapshot.svg")).unwrap();
+    assert!(svg.contains(">load 0<"), "statics know loads, no times");
+}
+
+#[test]
+fn what_cannot_be_drawn_is_refused() {
+    let folder = Folder::new("snapshot-refused");
+    folder.write("bar.toml", CANTILEVER);
+    let initial = lissom(&["snapshot", "bar.toml", "--initial", "--view", "front"], folder.path());
+    assert_eq!((initial.code, initial.output.trim()), (0, "out/bar/snapshot.svg"), "{}", initial.errors);
+    let modes = lissom(&["modes", "bar.toml", "--out", "modes", "-q"], folder.path());
+    assert_eq!(modes.code, 0, "{}", modes.errors);
+    assert_eq!(lissom(&["run", "bar.toml", "--no-plots", "-q", "--out", "plain"], folder.path()).code, 0);
+    assert_eq!(lissom(&["run", "bar.toml", "-q", "--out", "out"], folder.path()).code, 0);
+    for (args, words) in [
+        (vec!["snapshot", "bar.toml", "--out", "bar.jpg"], ".svg or .png"),
+        (vec!["snapshot", "out", "--at", "0.5,1.5"], "recorded from 0 s to 1 s"),
+        (vec!["snapshot", "out", "--at", "nan"], "is no instant"),
+        (vec!["snapshot", "out", "--strip", "0"], "0 is not in 1..=100"),
+        (vec!["snapshot", "out", "--strip", "2", "--at", "1"], "cannot be used with"),
+        (vec!["snapshot", "out", "--initial"], "folder of results"),
+        (vec!["snapshot", "modes"], "natural modes"),
+        (vec!["snapshot", "plain"], "--no-plots"),
+        (vec!["snapshot", "nowhere"], "there is no such file"),
+    ] {
+        let snapshot = lissom(&args, folder.path());
+        assert_eq!(snapshot.code, 2, "{args:?} {}", snapshot.errors);
+        assert!(snapshot.errors.contains(words), "{args:?} {}", snapshot.errors);
+    }
+    let scene = folder.path().join("out/scene.json");
+    let text = fs::read_to_string(&scene).unwrap();
+    for (damaged, words) in [
+        (text.replace("\"lissom_scene\":2", "\"lissom_scene\":1"), "version 1"),
+        (text[..text.len() / 2].to_owned(), "does not describe a model"),
+        (text.replace("\"node\":9", "\"node\":90"), "damaged"),
+    ] {
+        assert_ne!(damaged, text);
+        fs::write(&scene, damaged).unwrap();
+        let snapshot = lissom(&["snapshot", "out"], folder.path());
+        assert!(snapshot.code == 2 && snapshot.errors.contains(words), "{}", snapshot.errors);
+    }
+}
