@@ -12,8 +12,10 @@ const SAME_PLACE: f64 = 1e-6;
 
 /// How far beside a kink functions are looked at, relative to the whole run.
 const ASIDE: f64 = 1e-9;
-/// Speeds that differ by less than this part are the same.
+/// Speeds that differ by less than this part of the largest speed are the same.
 const SAME_SPEED: f64 = 1e-3;
+/// Instants at which the largest speed is looked for.
+const INSTANTS: u32 = 64;
 
 /// Refuses prescribed motions that begin elsewhere; warns of those whose speed jumps.
 pub(super) fn drives(
@@ -68,11 +70,18 @@ fn begins_elsewhere(component: &Component, system: &System, drive: &Drive, state
 fn jumps(component: &Component, drive: &Drive, (start, end): (f64, f64)) -> Option<Warning> {
     let function = &drive.prescribed.value;
     let aside = ASIDE * (end - start);
+    // A speed that begins or ends at zero has no size of its own: its change is measured against the largest one.
+    let speeds = (0..=INSTANTS)
+        .map(|index| start + (end - start) * f64::from(index) / f64::from(INSTANTS))
+        .chain(function.kinks().into_iter().flat_map(|kink| [kink - aside, kink + aside]))
+        .filter(|time| (start..=end).contains(time))
+        .map(|time| function.first_derivative(time).abs());
+    let fastest = speeds.filter(|speed| speed.is_finite()).fold(0.0, f64::max);
     let is_jump = |&time: &f64| {
         let [before, after] = [time - aside, time + aside].map(|time| function.first_derivative(time));
         let way = function.value(time + aside) - function.value(time - aside);
         let smooth = aside * (before.abs() + after.abs());
-        (after - before).abs() > SAME_SPEED * before.abs().max(after.abs())
+        (after - before).abs() > SAME_SPEED * fastest
             || (way - aside * (before + after)).abs() > smooth + SAME_PLACE
     };
     let inside = |time: &f64| (start + aside..end - aside).contains(time);
