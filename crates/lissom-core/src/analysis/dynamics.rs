@@ -376,9 +376,16 @@ impl Simulation {
             {
                 return StepError::Signal(error);
             }
+            // With a pivoting solver a smaller step may do what this one could not.
+            let pivoted = !matches!(failure, Failure::Factor(_));
             let failure = equations.unforgiven(failure);
             let time = self.state.kinematics.time + self.scaled.step_size();
-            describe(&failure, self.system.layout(), time, &self.settings, &equations.worst_unknown())
+            let mut error =
+                describe(&failure, self.system.layout(), time, &self.settings, &equations.worst_unknown());
+            if let StepError::ZeroPivot { after_pivoting, .. } = &mut error {
+                *after_pivoting = pivoted;
+            }
+            error
         })?;
         equations.final_violations(&mut self.next.violations);
         self.finish_attempt()?;
@@ -592,6 +599,7 @@ fn describe(failure: &Failure, layout: &Layout, time: f64, settings: &Settings, 
             pivot: *pivot,
             unknown: layout.name_of(*unknown),
             hint: pivot_hint(*unknown >= layout.coordinate_count(), settings.scaling.augmented),
+            after_pivoting: false,
         },
         Failure::Factor(FactorError::NotFinite { unknown }) => {
             StepError::NotFinite { time, iterations: 0, worst: layout.name_of(*unknown) }

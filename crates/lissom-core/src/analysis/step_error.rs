@@ -140,6 +140,8 @@ pub enum StepError {
         unknown: String,
         /// What to try.
         hint: &'static str,
+        /// Whether a pivoting solver went on from there, and Newton's iteration failed with it.
+        after_pivoting: bool,
     },
 }
 
@@ -154,6 +156,7 @@ impl StepError {
                 | Self::TurnsTooFar { .. }
                 | Self::ElementTurns { .. }
                 | Self::EnergyFromNowhere { in_this_step: true, .. }
+                | Self::ZeroPivot { after_pivoting: true, .. }
         )
     }
 }

@@ -359,6 +359,7 @@ impl PathEquations<'_> {
                 pivot,
                 unknown: layout.name_of(unknown),
                 hint: pivot_hint(unknown >= layout.coordinate_count(), self.settings.scaling.augmented),
+                after_pivoting: false,
             },
             Failure::Factor(FactorError::NotFinite { unknown }) => {
                 StepError::NotFinite { time, iterations: 0, worst: layout.name_of(unknown) }
