@@ -73,6 +73,19 @@ pub(crate) struct Case {
     /// Checks over the project's examples.
     #[serde(default)]
     pub(crate) invariant: Vec<Invariant>,
+    /// Warnings that its runs are to tell; any other fails the case.
+    #[serde(default)]
+    pub(crate) warns: Vec<Expected>,
+}
+
+/// A warning that is right.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Expected {
+    /// A part of its words.
+    pub(crate) says: String,
+    /// Why it is right.
+    pub(crate) because: String,
 }
 
 /// A model and what is changed in it.

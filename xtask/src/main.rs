@@ -7,6 +7,7 @@ mod case;
 mod compare;
 mod count;
 mod curves;
+mod digits;
 mod formula;
 mod invariants;
 mod outcome;
@@ -18,6 +19,7 @@ mod runs;
 mod scenes;
 mod transform;
 mod verify;
+mod warnings;
 
 use std::path::PathBuf;
 use std::process::ExitCode;

@@ -24,6 +24,8 @@ pub(crate) struct Finished {
     pub(crate) violation: f64,
     /// Mesh and step, in words.
     pub(crate) grid: String,
+    /// Reasons that it told to doubt its results.
+    pub(crate) warnings: Vec<String>,
 }
 
 /// Model and overrides.
@@ -50,7 +52,8 @@ impl Runs {
         further: &BTreeMap<String, toml::Value>,
     ) -> Result<Rc<Finished>, String> {
         let overrides = run.overrides(further);
-        let key = (format!("{:?} {:?}", run.model, run.blade), overrides);
+        let blade = run.blade.map_or(String::new(), |elements| format!(" with {elements} elements"));
+        let key = (format!("{}{blade}", run.model.as_deref().unwrap_or("model.toml")), overrides);
         if let Some(known) = self.finished.borrow().get(&key) {
             return Ok(Rc::clone(known));
         }
@@ -75,6 +78,18 @@ impl Runs {
         Ok(Model::from_text(&path.display().to_string(), &format!("lissom = 1\n\n{tables}{own}")))
     }
 
+    /// What the runs warned of: each run in words, and the warning.
+    pub(crate) fn warnings(&self) -> Vec<(String, String)> {
+        let finished = self.finished.borrow();
+        let of = |((model, changes), run): (&Key, &Rc<Finished>)| {
+            let changed: Vec<String> =
+                changes.iter().map(|(path, value)| format!("{path} = {value}")).collect();
+            let name = format!("`{model}` {}", changed.join(", "));
+            run.warnings.iter().map(|words| (name.clone(), words.clone())).collect::<Vec<_>>()
+        };
+        finished.iter().flat_map(of).collect()
+    }
+
     /// Time taken by all runs together.
     pub(crate) fn wall(&self) -> Duration {
         self.finished.borrow().values().map(|run| run.wall).sum()
@@ -86,7 +101,10 @@ pub(crate) fn finish(document: &Document) -> Result<Finished, String> {
     let began = Instant::now();
     let mut session = lissom::Session::new(document).map_err(|error| error.to_string())?;
     let (record, report) = session.record();
+    let of_document = document.warnings.problems().map(|problem| problem.message.clone());
+    let warnings = of_document.chain(session.warnings().map(ToString::to_string)).collect();
     Ok(Finished {
+        warnings,
         failure: report.error().map(|error| format!("at {}: {error}", report.time)),
         violation: report.violation,
         record,

@@ -11,7 +11,7 @@ use crate::VerifyArguments;
 use crate::case::{Case, CaseError};
 use crate::outcome::{Outcome, Row, Verdict};
 use crate::runs::Runs;
-use crate::{book, compare, curves, invariants, refine, report};
+use crate::{book, compare, curves, digits, invariants, refine, report, warnings};
 
 /// A verification that cannot be carried out.
 #[derive(Debug, thiserror::Error)]
@@ -54,7 +54,12 @@ pub(crate) fn root() -> PathBuf {
 pub(crate) fn verify(arguments: &VerifyArguments) -> Result<bool, VerifyError> {
     let began = Instant::now();
     let root = root();
-    let cases = cases(&root.join("verification"), arguments)?;
+    let folder = root.join("verification");
+    let cases = cases(&folder, arguments)?;
+    let other_digits = digits::differences(&folder, &cases)?;
+    for words in &other_digits {
+        println!("DIFFERS from verification/references: {words}");
+    }
     let outcomes = run_all(&root, &cases, arguments);
     for outcome in &outcomes {
         tell(&cases[outcome.index], outcome, arguments.verbose);
@@ -70,7 +75,7 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<bool, VerifyError> {
     }
     let failed = outcomes.iter().filter(|outcome| outcome.has_failed()).count();
     println!("{} cases in {:.1} s, {failed} failed", outcomes.len(), elapsed.as_secs_f64());
-    Ok(failed == 0)
+    Ok(failed == 0 && other_digits.is_empty())
 }
 
 fn cases(folder: &Path, arguments: &VerifyArguments) -> Result<Vec<Case>, VerifyError> {
@@ -169,6 +174,10 @@ fn run(root: &Path, index: usize, case: &Case, references: Option<&Path>) -> Out
     for refinement in &case.refinement {
         outcome.rows.push(refine::refinement(case, refinement, &runs));
     }
+    outcome.rows.extend(warnings::row(case, &runs.warnings()));
+    outcome
+        .because
+        .extend(case.warns.iter().map(|warning| format!("warns that {}: {}", warning.says, warning.because)));
     let began = Instant::now();
     for invariant in &case.invariant {
         let row = invariants::invariant(root, invariant);
