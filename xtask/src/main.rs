@@ -55,7 +55,7 @@ enum Chore {
     },
     /// Run scenes without outputs and print where their time goes
     Bench(BenchArguments),
-    /// Write the reference of the model file to docs/reference.md
+    /// Write the reference of the model file, and the types of its entries for models built in code
     Reference {
         /// Write nothing; tell whether it is old
         #[arg(long)]

@@ -1,36 +1,46 @@
-//! `cargo xtask reference`: the reference of the model file in docs/, made of what the program itself reads.
+//! `cargo xtask reference`: the reference of the model file in docs/, and the types of its entries for models that are built
+//! in code, made of what the program itself reads.
 
 use std::path::{Path, PathBuf};
 
 use lissom::FileError;
 use lissom_model::lower::registry::registry;
-use lissom_model::{files, manual};
+use lissom_model::{files, manual, typed_entries};
 
 use crate::verify::root;
 
 /// What stands above the reference.
 const NOTE: &str = "<!-- Made by `cargo xtask reference` of the program's own tables: do not edit. -->\n\n";
+/// What stands above the types.
+const RUST_NOTE: &str = "// Made by `cargo xtask reference` of the program's own tables: do not edit.\n";
 
-fn path(root: &Path) -> PathBuf {
-    root.join("docs/reference.md")
+/// All files with what they would hold.
+fn files_made(root: &Path) -> Vec<(PathBuf, String)> {
+    let mut made = vec![(root.join("docs/reference.md"), reference_text())];
+    let folder = root.join("crates/lissom/src/builder/entries");
+    for (name, text) in typed_entries(&registry()) {
+        made.push((folder.join(format!("{name}.rs")), format!("{RUST_NOTE}{}\n", text.trim_end())));
+    }
+    made
 }
 
-fn text() -> String {
+fn reference_text() -> String {
     format!("{NOTE}{}", manual(&registry()))
 }
 
-/// Writes it; with `check` only tells whether it is what it would be.
+/// Writes them; with `check` only tells whether they are what they would be.
 ///
 /// # Errors
-/// If the file cannot be read or written.
+/// If a file cannot be read or written.
 pub(crate) fn reference(check: bool) -> Result<bool, FileError> {
-    let path = path(&root());
-    if !check {
-        return files::write(&path, text().as_bytes()).map(|()| true);
-    }
-    let is_fresh = files::read_text(&path)? == text();
-    if !is_fresh {
-        eprintln!("docs/reference.md is old: run `cargo xtask reference`");
+    let mut is_fresh = true;
+    for (path, text) in files_made(&root()) {
+        if !check {
+            files::write(&path, text.as_bytes())?;
+        } else if files::read_text(&path)? != text {
+            eprintln!("{} is old: run `cargo xtask reference`", path.display());
+            is_fresh = false;
+        }
     }
     Ok(is_fresh)
 }
@@ -46,7 +56,7 @@ mod tests {
 
     #[test]
     fn every_kind_is_in_the_reference() {
-        let (registry, text) = (registry(), text());
+        let (registry, text) = (registry(), reference_text());
         for kind in registry.joints.iter().chain(&registry.springs).chain(&registry.loads) {
             assert!(text.contains(&format!("### `kind = \"{}\"`", kind.name)), "{}", kind.name);
             for parameter in kind.parameters {

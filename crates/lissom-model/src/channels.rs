@@ -17,6 +17,7 @@ use crate::observers::{Observer, Seen};
 use crate::report::{Located, Problem};
 
 /// One output: a name, its components, and how they are found.
+#[derive(Clone)]
 pub struct Channel {
     /// Name in the model.
     pub name: String,
@@ -49,12 +50,14 @@ pub fn signal_value(system: &System, at: &Kinematics, argument: Argument) -> f64
 }
 
 /// A point that moves: carried by a node, or at a place in a beam element.
+#[derive(Clone)]
 pub(crate) enum Place {
     Carried { node: NodeId, offset: Vector3 },
     OnBeam { probe: Arc<dyn BeamProbe>, xi: f64, point: Vector3, nodes: Vec<NodeId> },
 }
 
 /// Where a channel's numbers come from.
+#[derive(Clone)]
 pub(crate) enum Source {
     Place(Place, Motion),
     Joint(usize, ReactionAxes),

@@ -36,7 +36,8 @@ pub mod sweep;
 pub mod table;
 mod table_values;
 mod text;
-mod toml_text;
+pub mod toml_text;
+mod typed_entries;
 mod values;
 
 pub use document::Document;
@@ -45,3 +46,4 @@ pub use manual::{manual, topic, topics};
 pub use model_text::ModelText;
 pub use report::{Located, Problem, Report, Severity, Sources, Span};
 pub use schema::schema;
+pub use typed_entries::typed_entries;

@@ -36,7 +36,7 @@ fn tables<'t>(table: &'t Table, path: &mut Vec<&'t str>, text: &mut String) {
 /// A value on one line.
 pub(crate) fn inline(node: &Node) -> String {
     match &node.value {
-        Value::Text(text) => toml::Value::String(text.clone()).to_string(),
+        Value::Text(text) => quoted(text),
         Value::Number(number) if number.is_nan() => "nan".to_owned(),
         Value::Number(number) => number_text(*number),
         Value::Flag(flag) => flag.to_string(),
@@ -51,11 +51,12 @@ pub(crate) fn inline(node: &Node) -> String {
 }
 
 /// A key, in quotes where it needs them.
-pub(crate) fn key(name: &str) -> String {
+pub fn key(name: &str) -> String {
     let bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
-    if !name.is_empty() && name.chars().all(bare) {
-        name.to_owned()
-    } else {
-        toml::Value::String(name.to_owned()).to_string()
-    }
+    if !name.is_empty() && name.chars().all(bare) { name.to_owned() } else { quoted(name) }
+}
+
+/// A text in the quotes of TOML.
+pub fn quoted(text: &str) -> String {
+    toml::Value::String(text.to_owned()).to_string()
 }

@@ -1,7 +1,5 @@
 //! States about which a model is linearised: the places of the file, static equilibrium, an instant of a run.
 
-use std::sync::Arc;
-
 use lissom_core::analysis::Settings;
 use lissom_core::analysis::equilibrium::at_rest;
 use lissom_core::linear::{LinearModel, steady};
@@ -133,7 +131,7 @@ fn in_equilibrium<T, E: From<ModesError>>(
     }
     drop(model);
     settings.limits.tolerance = settings.limits.tolerance.min(TOLERANCE);
-    let (system, mut state, _) = at_rest(Arc::new(system), state, &settings).map_err(ModesError::from)?;
+    let (system, mut state, _) = at_rest(system, state, &settings).map_err(ModesError::from)?;
     stop(&mut state);
     let model = linear(&system, &state, &settings)?;
     let hint =

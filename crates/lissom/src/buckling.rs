@@ -2,7 +2,6 @@
 //! beyond them is singular.
 
 use std::fmt::Write;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use lissom_core::analysis::path::{EquilibriumPath, PathError, PathSettings};
@@ -98,7 +97,7 @@ pub fn buckling(
         limits: settings.limits,
         solver: settings.solver,
     };
-    let mut path = EquilibriumPath::new(Arc::new(unloaded), Arc::new(system), state, path_settings)?;
+    let mut path = EquilibriumPath::new(unloaded, system, state, path_settings)?;
     let start = path.state().clone();
     while !path.is_finished() {
         let step = path.advance()?;

@@ -1,5 +1,9 @@
-//! Flexible multibody dynamics: the front door to the simulator. Models are read, simulated and recorded
+//! Flexible multibody dynamics: the front door to the simulator. Models are read or built, simulated and recorded
 //! here, in memory or to files; the command line is built on nothing else. No mechanics is done here.
+//!
+//! # A model from a file
+//!
+//! [`Model`] holds the text of a [model file](https://toml.io). Overrides change it without touching the text:
 //!
 //! ```
 //! use lissom::Model;
@@ -23,9 +27,93 @@
 //! }
 //! # Ok::<(), lissom::SessionError>(())
 //! ```
+//!
+//! # A model built in code
+//!
+//! [`ModelBuilder`](builder::ModelBuilder) takes typed entries and gives ids, which stand for names. It makes the same model as
+//! a file would, with the same checks. A cart on a spring, pushed from outside:
+//!
+//! ```
+//! use lissom::builder::analyses::Dynamics;
+//! use lissom::builder::joints::Prismatic;
+//! use lissom::builder::loads::JointForce;
+//! use lissom::builder::outputs::{Reaction, Relative};
+//! use lissom::builder::parts::Body;
+//! use lissom::builder::springs::Axial;
+//! use lissom::builder::{GROUND, Input, ModelBuilder, Signal};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let mut builder = ModelBuilder::new();
+//! builder.gravity([0.0, 0.0, -9.81]);
+//! let cart = builder.add(Body::new(2.0, [0.1, 0.1, 0.1]));
+//! let rail = builder.add(Prismatic::new(GROUND, cart, [1.0, 0.0, 0.0]));
+//! builder.add(Axial::new(rail).stiffness(50.0));
+//! let push = builder.add(Input::starting_at(0.0));
+//! builder.add(JointForce::new(rail, push));
+//! let place = builder.add(Relative::new(rail));
+//! let support = builder.add(Reaction::new(rail));
+//! let stored = builder.add(Signal::new(25.0 * rail.displacement() * rail.displacement()));
+//! builder.add(Dynamics::new(1.0).relative_tolerance(1e-8));
+//! let model = builder.build()?;
+//!
+//! // Steps end where they are wanted; inputs are held in between.
+//! let mut session = model.session(&[])?;
+//! session.set(push, 10.0)?;
+//! session.step_to(0.25)?;
+//! // x = F/k (1 - cos ωt) with ω² = k/m = 25/s².
+//! let expected = 0.2 * (1.0 - 1.25_f64.cos());
+//! assert!((session.output(place)?[0] - expected).abs() < 1e-7);
+//! assert!((session.quantity(stored)? - 25.0 * expected * expected).abs() < 1e-6);
+//! // The rail carries the cart.
+//! assert!((session.output(support)?[2] - 2.0 * 9.81).abs() < 1e-6);
+//!
+//! // A copy goes its own way.
+//! let mut other = session.try_clone()?;
+//! other.set(push, -10.0)?;
+//! session.step_to(0.5)?;
+//! other.step_to(0.5)?;
+//! assert!(session.output(place)?[0] > other.output(place)?[0]);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Many sessions of one model
+//!
+//! [`Model::prepare`] builds the system once; all sessions that start from a [`Prepared`] model share it, in as many threads as
+//! there are. Each may start from a [`State`](core::system::State) of its own:
+//!
+//! ```
+//! use lissom::builder::{ModelBuilder, analyses::Dynamics, outputs::Position, parts::PointMass};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let mut builder = ModelBuilder::new();
+//! builder.gravity([0.0, 0.0, -9.81]);
+//! let stone = builder.add(PointMass::new(1.0));
+//! let place = builder.add(Position::new(stone));
+//! builder.add(Dynamics::new(1.0).step(0.1));
+//! let prepared = builder.build()?.prepare(&[])?;
+//! for speed in [1.0, 2.0, 3.0] {
+//!     let mut state = prepared.state().clone();
+//!     prepared.set_velocity(&mut state, stone, [speed, 0.0, 0.0], [0.0; 3])?;
+//!     let mut session = prepared.session_from(state)?;
+//!     session.step_to(1.0)?;
+//!     assert!((session.output(place)?[0] - speed).abs() < 1e-12);
+//! }
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # More
+//!
+//! A session that stands between two steps is kept and restored by [`Session::snapshot`] and [`Session::restore`], to the last
+//! bit. Results go to files with a [`ResultFolder`]. [`modes`], [`buckling`], [`path`], [`response`], [`linearize`], [`campbell`]
+//! and [`gradient`] are analyses without steps in time, [`sweep`] and [`study`] run a model many times. The crate's `examples`
+//! folder has programs that check themselves: a pendulum, an arm that is driven from outside, a thousand copies on all cores.
 
 mod about;
 pub mod buckling;
+pub mod builder;
+
 pub mod campbell;
 mod checkpoint;
 mod folder;
@@ -39,6 +127,7 @@ pub mod motion;
 pub mod path;
 pub mod picture;
 mod ports;
+mod prepared;
 mod report;
 pub mod response;
 mod schedule;
@@ -59,8 +148,9 @@ pub use lissom_model::files::FileError;
 pub use lissom_model::output::{Column, Record, Summary, Writer};
 pub use lissom_model::{Document, Report};
 pub use model::{Model, Override};
+pub use prepared::{PartError, Prepared, StartError};
 pub use report::{EnergyChange, RunError, RunReport, Stopped};
-pub use session::{Checkpoints, Progress, Session, SessionError, SessionSnapshot, columns};
+pub use session::{Checkpoints, Progress, ReadError, Session, SessionError, SessionSnapshot, columns};
 pub use spent::Seconds;
 pub use state_writer::StateWriter;
 

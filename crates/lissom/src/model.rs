@@ -8,6 +8,8 @@ use lissom_model::files::{self, FileError};
 use lissom_model::lower::registry::registry;
 use lissom_model::{Document, Library, ModelText, Report};
 
+use crate::builder::IdNames;
+use crate::prepared::Prepared;
 use crate::session::{Session, SessionError};
 
 /// A path into the model file and the value to put there, as `("analysis.step", "1e-4")`.
@@ -20,6 +22,8 @@ pub struct Model {
     name: String,
     text: String,
     library: Arc<Library>,
+    /// What ids mean, where it was built in code.
+    ids: Option<Arc<IdNames>>,
 }
 
 impl Model {
@@ -32,6 +36,7 @@ impl Model {
             name: path.display().to_string(),
             text: files::read_text(path)?,
             library: Arc::new(Library::beside(path)),
+            ids: None,
         })
     }
 
@@ -39,7 +44,12 @@ impl Model {
     /// this name.
     pub fn from_text(name: &str, text: &str) -> Self {
         let library = Arc::new(Library::beside(Path::new(name)));
-        Self { name: name.to_owned(), text: text.to_owned(), library }
+        Self { name: name.to_owned(), text: text.to_owned(), library, ids: None }
+    }
+
+    /// The same with what ids mean that a builder has given out.
+    pub(crate) fn with_ids(self, ids: IdNames) -> Self {
+        Self { ids: Some(Arc::new(ids)), ..self }
     }
 
     /// The same with included files of which the texts are known, by their paths; no other file is read.
@@ -89,6 +99,14 @@ impl Model {
     /// # Errors
     /// If the model is wrong, or has no consistent initial values.
     pub fn session(&self, overrides: &[Override]) -> Result<Session, SessionError> {
-        Session::new(&self.document(overrides)?)
+        Ok(self.prepare(overrides)?.session()?)
+    }
+
+    /// The model with `overrides` put in place, ready for many sessions that share it.
+    ///
+    /// # Errors
+    /// If the model is wrong, or nothing in it is computed over time.
+    pub fn prepare(&self, overrides: &[Override]) -> Result<Prepared, SessionError> {
+        Prepared::new(&self.document(overrides)?, self.ids.clone())
     }
 }

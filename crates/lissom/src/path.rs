@@ -2,7 +2,6 @@
 
 use std::io;
 use std::ops::ControlFlow;
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use lissom_core::analysis::path::{CriticalPoint, EquilibriumPath, PathError, PathSettings};
@@ -119,7 +118,7 @@ impl PathSession {
             limits: settings.limits,
             solver: settings.solver,
         };
-        let path = EquilibriumPath::new(Arc::new(unloaded), Arc::new(system), state, settings)?;
+        let path = EquilibriumPath::new(unloaded, system, state, settings)?;
         let mut all = vec![
             Column::new("load_factor", "", "load factor", ""),
             Column::new("unstable", "", "unstable directions", ""),

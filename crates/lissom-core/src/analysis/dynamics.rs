@@ -153,7 +153,16 @@ impl Simulation {
         state: State,
         settings: Settings,
     ) -> Result<Self, InitialError> {
-        let system: Arc<System> = system.into();
+        Self::start(system.into(), state, settings, None)
+    }
+
+    /// As [`new`](Self::new); with `known` representative values, where they are not those of `state`.
+    pub(crate) fn start(
+        system: Arc<System>,
+        state: State,
+        settings: Settings,
+        known: Option<&Representative>,
+    ) -> Result<Self, InitialError> {
         let mut warnings = Vec::new();
         let (system, mut state) = if settings.from_equilibrium && settings.scheme.dynamic {
             let (system, state, doubts) = equilibrium::at_rest(system, state, &settings)?;
@@ -165,8 +174,10 @@ impl Simulation {
         if let Some((row, ..)) = system.layout().states().next().filter(|_| !settings.scheme.dynamic) {
             return Err(InitialError::StateInStatics(system.layout().name_of(row)));
         }
-        let at_start = Linearization::of_state(&system, &state.kinematics);
-        let representative = Representative::of(&system, &state.kinematics, &at_start);
+        let representative = known.copied().unwrap_or_else(|| {
+            let at_start = Linearization::of_state(&system, &state.kinematics);
+            Representative::of(&system, &state.kinematics, &at_start)
+        });
         let mut velocity_correction = 0.0;
         let mut held_values = None;
         if settings.scheme.dynamic {

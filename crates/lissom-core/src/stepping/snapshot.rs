@@ -3,13 +3,15 @@
 //!
 //! Factors are not kept: the tangent's values are, and they are factored again.
 
+use std::sync::Arc;
+
 use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
 use super::{Controller, MethodMemory, Parts, Watched};
 use crate::analysis::snapshot_parts::{Learned, TangentNumbers};
-use crate::analysis::{Simulation, Totals};
+use crate::analysis::{Settings, Simulation, Totals};
 use crate::judge::{Ledger, Warning};
 use crate::newton::Memory;
 use crate::scaling::Scaled;
@@ -205,6 +207,19 @@ impl Simulation {
         self.work.note_scales(self.system.layout(), &self.scaled);
         self.is_last_step_known = false;
         Ok(())
+    }
+
+    /// A second simulation that stands where this one does, and goes on from there to the same bits. Both share the system.
+    ///
+    /// # Errors
+    /// If the tangent in use cannot be factored again.
+    pub fn try_clone(&self) -> Result<Self, SnapshotError> {
+        let settings = Settings { from_equilibrium: false, ..self.settings.clone() };
+        let origin = State { kinematics: self.origin.clone(), ..self.state.clone() };
+        let mut copy = Self::start(Arc::clone(&self.system), origin, settings, Some(&self.representative))
+            .map_err(|_| SnapshotError::Damaged)?;
+        copy.restore(&self.snapshot())?;
+        Ok(copy)
     }
 
     fn belonging(&self) -> (String, usize, usize, usize) {

@@ -30,10 +30,11 @@ use crate::report::{Located, Problem, Report};
 
 pub use analysis::Plan;
 
-/// A model ready to run.
+/// A model ready to run. Copies share the system.
+#[derive(Clone)]
 pub struct Lowered {
     /// What is simulated.
-    pub system: System,
+    pub system: Arc<System>,
     /// Places and velocities at the start.
     pub state: State,
     /// Scheme, step size, scaling, limits, solver.
@@ -49,7 +50,7 @@ pub struct Lowered {
 }
 
 /// Nodes, coordinates and signals by the names of the model.
-#[derive(Default)]
+#[derive(Clone, Default)]
 pub struct Names {
     /// Node of each body and point mass.
     pub nodes: BTreeMap<String, NodeId>,
@@ -132,7 +133,7 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
     couplings::check(document, &system, &state, &mut problems);
     let channels = output_channels::of(document, &system, &state, &names.resolver(), &mut problems);
     stop_at(document, &mut problems)?;
-    Ok(Lowered { system, state, settings, plan, channels, names, warnings })
+    Ok(Lowered { system: Arc::new(system), state, settings, plan, channels, names, warnings })
 }
 
 impl Names {

@@ -1,6 +1,9 @@
 //! One model on its way from start to end: steps, and what is recorded on the way. The only loop over steps
 //! there is. Knows no files and no terminal.
 
+mod handles;
+mod snapshot;
+
 use std::collections::BTreeMap;
 use std::io;
 use std::ops::ControlFlow;
@@ -12,21 +15,23 @@ use lissom_core::analysis::{InitialError, InputError, Simulation, StepError, Ste
 use lissom_core::judge::Warning;
 use lissom_core::signals::Argument;
 use lissom_core::signals::event::Occurrence;
-use lissom_core::stepping::{Snapshot, SnapshotError};
 use lissom_model::channels::{Channel, signal_value};
-use lissom_model::document::AnalysisKind;
-use lissom_model::lower::{Lowered, Plan, lower};
+use lissom_model::lower::{Lowered, Plan};
 use lissom_model::output::{Column, Record, Writer};
 use lissom_model::sweep::Accumulator;
 use lissom_model::{Document, Report};
 
-use serde::{Deserialize, Serialize};
-
+use crate::builder::IdNames;
+use crate::prepared::Prepared;
 use crate::report::{EnergyChange, RunError, RunReport, Stopped};
 use crate::schedule::{Next, Schedule};
 use crate::spent::Spent;
 use crate::state_writer::StateWriter;
 use crate::telemetry::Telemetry;
+
+pub use handles::ReadError;
+use snapshot::NoCheckpoints;
+pub use snapshot::{Checkpoints, SessionSnapshot};
 
 /// Times this close to the end of a planned step, relative to the step, are its end.
 const WHOLE: f64 = 1e-9;
@@ -59,36 +64,6 @@ pub struct Progress {
     pub planned: usize,
 }
 
-/// Where a run leaves snapshots.
-pub trait Checkpoints {
-    /// Whether any are wanted.
-    fn are_wanted(&self) -> bool;
-
-    /// Whether one is due after so many steps.
-    fn is_due(&mut self, steps: usize) -> bool;
-
-    /// Keeps one. All rows that were recorded before it have been written.
-    ///
-    /// # Errors
-    /// If it cannot be kept.
-    fn keep(&mut self, snapshot: &SessionSnapshot) -> io::Result<()>;
-}
-
-/// None.
-struct NoCheckpoints;
-
-impl Checkpoints for NoCheckpoints {
-    fn are_wanted(&self) -> bool {
-        false
-    }
-    fn is_due(&mut self, _: usize) -> bool {
-        false
-    }
-    fn keep(&mut self, _: &SessionSnapshot) -> io::Result<()> {
-        Ok(())
-    }
-}
-
 /// A model on its way.
 pub struct Session {
     simulation: Simulation,
@@ -103,41 +78,13 @@ pub struct Session {
     state_writers: Vec<Box<dyn StateWriter>>,
     /// Of the model, before it ran.
     warnings: Vec<Warning>,
+    /// What ids mean, where the model was built in code.
+    ids: Option<Arc<IdNames>>,
     began: Instant,
 }
 
-/// A session between two steps. Serialises with serde.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SessionSnapshot {
-    simulation: Snapshot,
-    schedule: Schedule,
-    records: usize,
-    violation: f64,
-    energy: EnergyChange,
-    telemetry: Telemetry,
-    histories: Vec<Accumulator>,
-}
-
-impl SessionSnapshot {
-    /// As bytes, to be kept or sent.
-    ///
-    /// # Panics
-    /// Never: plain numbers can always be written to memory.
-    pub fn to_bytes(&self) -> Vec<u8> {
-        postcard::to_stdvec(self).expect("plain numbers can always be written to memory")
-    }
-
-    /// From what [`to_bytes`](Self::to_bytes) gave.
-    ///
-    /// # Errors
-    /// If the bytes are no snapshot of this version.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, SnapshotError> {
-        postcard::from_bytes(bytes).map_err(|_| SnapshotError::Damaged)
-    }
-}
-
 /// What is summed up over the records.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Tally {
     records: usize,
     violation: f64,
@@ -166,11 +113,7 @@ impl Session {
     /// # Errors
     /// If the model is wrong, or has no consistent initial values.
     pub fn new(document: &Document) -> Result<Self, SessionError> {
-        let kind = &document.analysis.kind;
-        if !matches!(kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
-            return Err(SessionError::NotInTime(kind.name()));
-        }
-        Ok(Self::start(lower(document)?)?)
+        Ok(Prepared::new(document, None)?.session()?)
     }
 
     /// A session at the start of a lowered model.
@@ -197,6 +140,7 @@ impl Session {
             signals: names.signals,
             schedule,
             warnings,
+            ids: None,
             began,
         })
     }
@@ -423,33 +367,6 @@ impl Session {
     /// Condition number of the tangent in use, estimated in the 1-norm from a few solves.
     fn condition_estimate(&mut self) -> Option<f64> {
         self.simulation.condition_estimate().map(|condition| condition.value)
-    }
-
-    /// Where the session stands, with all that is needed to go on from there to the last bit.
-    pub fn snapshot(&self) -> SessionSnapshot {
-        SessionSnapshot {
-            simulation: self.simulation.snapshot(),
-            schedule: self.schedule.clone(),
-            records: self.tally.records,
-            violation: self.tally.violation,
-            energy: self.tally.energy,
-            telemetry: self.telemetry.clone(),
-            histories: self.tally.histories.clone(),
-        }
-    }
-
-    /// Goes back, or on, to where a snapshot of this model was taken.
-    ///
-    /// # Errors
-    /// If it was taken of another model, or by another version of the program. The session is then as it was.
-    pub fn restore(&mut self, from: &SessionSnapshot) -> Result<(), SnapshotError> {
-        self.simulation.restore(&from.simulation)?;
-        self.schedule.clone_from(&from.schedule);
-        (self.tally.records, self.tally.violation) = (from.records, from.violation);
-        self.tally.energy = from.energy;
-        self.tally.histories.clone_from(&from.histories);
-        self.telemetry.clone_from(&from.telemetry);
-        Ok(())
     }
 
     /// Runs to the end. `writers` receive a row at the start, after every `output_every` planned steps, and

@@ -1,0 +1,299 @@
+//! The entries of a model as types of Rust, made of the same descriptions the decoder and the schema read: what stands in
+//! `crates/lissom/src/builder/entries/`.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use crate::document::part_tables::part_motion;
+use crate::document::tables::{Variant, variants};
+use crate::keys::{Key, Shape};
+use crate::registry::Registry;
+
+/// A table and the type of its ids.
+type TableAndId = (&'static str, &'static str);
+
+/// The files, by their names without ending, and the tables whose entries they hold with the type of their ids.
+const FILES: [(&str, &str, &[TableAndId]); 9] = [
+    ("sections", "Materials and cross sections.", &[("materials", "MaterialId"), ("sections", "SectionId")]),
+    (
+        "parts",
+        "Beams, rigid bodies and point masses.",
+        &[("beams", "BeamId"), ("bodies", "BodyId"), ("point_masses", "PointMassId")],
+    ),
+    ("joints", "What holds nodes together, one type per kind.", &[("joints", "JointId")]),
+    ("springs", "What pulls nodes or joints back, one type per kind.", &[("springs", "SpringId")]),
+    ("loads", "Forces and moments from outside, and of actuators.", &[("loads", "LoadId")]),
+    ("feedback", "First-order states and events.", &[("states", "StateId"), ("events", "EventId")]),
+    ("motions", "How the parts are and move at the start.", &[("initial", "InitialId")]),
+    ("outputs", "What is recorded, one type per kind.", &[("outputs", "OutputId")]),
+    ("analyses", "What is computed, and how.", &[("analysis", "AnalysisId")]),
+];
+
+/// Words that a key chooses among, by the name of their type.
+type Words = BTreeMap<String, Vec<&'static str>>;
+
+/// The types of all entries that `registry` knows: the texts of the files by their names without ending.
+pub fn typed_entries(registry: &Registry) -> BTreeMap<&'static str, String> {
+    let mut words = Words::new();
+    let mut files = BTreeMap::new();
+    for (file, summary, tables) in FILES {
+        let mut text = String::new();
+        for (table, id) in tables {
+            let found = variants(table, registry);
+            for variant in &found.all {
+                entry(&mut text, (table, id), found.tag, variant, &mut words);
+            }
+        }
+        if file == "joints" {
+            nested(&mut text, ("Friction", "Friction in a joint."), &Shape::friction_keys(), &mut words);
+        }
+        if file == "sections" {
+            let summary = "Mass of a section, by its parts.";
+            nested(&mut text, ("SliceMass", summary), &Shape::slice_mass_keys(), &mut words);
+        }
+        if file == "motions" {
+            let variant = Variant {
+                word: "part_motion",
+                summary: "A rigid motion of some parts at the start.",
+                keys: part_motion(),
+            };
+            entry(&mut text, ("initial", "MotionId"), None, &variant, &mut words);
+        }
+        files.insert(file, format!("//! {summary}\n\n{}{text}", imports(&text)));
+    }
+    files.insert("words", words_text(&words));
+    files
+}
+
+/// The types that `text` names.
+fn imports(text: &str) -> String {
+    const KNOWN: [(&str, &[&str]); 4] = [
+        ("ids", &["JointId", "MaterialId", "SectionId", "SpringId"]),
+        ("entry", &["entry", "nested"]),
+        (
+            "values",
+            &["Inertia", "Mass", "Matrix", "Node", "Part", "Place", "Quantity", "SectionMass", "Shear"],
+        ),
+        ("expression", &["Expression", "Function"]),
+    ];
+    let names = |word: &&&str| {
+        let letters = |c: char| c.is_alphanumeric() || c == '_';
+        text.lines()
+            .filter(|line| !line.trim_start().starts_with("///") && !line.contains("=>"))
+            .any(|line| line.split(|c| !letters(c)).any(|part| part == **word))
+    };
+    let mut lines: Vec<String> = Vec::new();
+    for (module, known) in KNOWN {
+        let used: Vec<&str> = known.iter().filter(names).copied().collect();
+        match used.as_slice() {
+            [] => {}
+            [one] => lines.push(format!("use crate::builder::{module}::{one};\n")),
+            several => lines.push(format!("use crate::builder::{module}::{{{}}};\n", several.join(", "))),
+        }
+    }
+    lines.sort();
+    let words = if text.contains("words::") { "use super::words;\n" } else { "" };
+    format!("{words}{}\n", lines.concat())
+}
+
+fn entry(
+    text: &mut String,
+    (table, id): (&str, &str),
+    tag: Option<&'static str>,
+    variant: &Variant,
+    words: &mut Words,
+) {
+    let word = if variant.word.is_empty() { single(table) } else { variant.word };
+    let summary = if variant.summary.is_empty() { summary_of(table) } else { variant.summary };
+    line(text, "entry! {");
+    line(text, &format!("    /// {}", sentence(summary)));
+    let name = if variant.word == "expression" { "ExpressionOutput".to_owned() } else { camel(word) };
+    line(text, &format!("    {name} => {id}, {word:?};"));
+    let tagged = tag.map_or(String::new(), |tag| format!("{tag:?} = {:?}", variant.word));
+    line(text, &format!("    [{tagged}]"));
+    fields(text, &variant.keys, tag, words);
+    line(text, "}\n");
+}
+
+fn nested(text: &mut String, (name, summary): (&str, &str), keys: &[Key], words: &mut Words) {
+    line(text, "nested! {");
+    line(text, &format!("    /// {}", sentence(summary)));
+    line(text, &format!("    {name};"));
+    fields(text, keys, None, words);
+    line(text, "}\n");
+}
+
+fn fields(text: &mut String, keys: &[Key], tag: Option<&str>, words: &mut Words) {
+    let typed: Vec<(&Key, String)> = keys
+        .iter()
+        .filter(|key| Some(key.name) != tag)
+        .filter_map(|key| Some((key, type_of(key, words)?)))
+        .collect();
+    let (required, optional): (Vec<_>, Vec<_>) = typed.into_iter().partition(|(key, _)| key.required);
+    line(text, "    /// With what must be given.");
+    if !required.is_empty() {
+        line(text, "    ///");
+    }
+    for (key, _) in &required {
+        line(text, &format!("    /// - `{}`: {}", identifier(key.name), about(key)));
+    }
+    let arguments: Vec<String> = required
+        .iter()
+        .map(|(key, holds)| format!("{}: {holds} = {:?}", identifier(key.name), key.name))
+        .collect();
+    line(text, &format!("    new({})", arguments.join(", ")));
+    for (key, holds) in &optional {
+        line(text, &format!("    /// {}", sentence(&about(key))));
+        line(text, &format!("    {}: {holds} = {:?};", identifier(key.name), key.name));
+    }
+}
+
+/// The type of Rust that a key holds; none for those that code has no use for.
+fn type_of(key: &Key, words: &mut Words) -> Option<String> {
+    let fixed = match &key.holds {
+        // Where parts are placed in each other, code has functions.
+        Shape::Text if key.name == "in" => return None,
+        // A signal, an input or a state.
+        Shape::Text if key.name == "of" => "Quantity",
+        Shape::Text => "String",
+        Shape::Version | Shape::Entries(_) | Shape::Rows | Shape::Words | Shape::Table => return None,
+        Shape::Number | Shape::Positive | Shape::NotNegative | Shape::Between(..) => "f64",
+        Shape::Count(..) => "usize",
+        Shape::Flag => "bool",
+        Shape::Vector | Shape::GlobalVector | Shape::Point | Shape::Place | Shape::Direction => "[f64; 3]",
+        Shape::Names => "Vec<Part>",
+        Shape::Choice(known) => return Some(format!("words::{}", word_type(key, known, words))),
+        Shape::Choices(known) => return Some(format!("Vec<words::{}>", word_type(key, known, words))),
+        Shape::FunctionOf(_) | Shape::Function | Shape::Size | Shape::Force(_) | Shape::Profile => "Function",
+        Shape::Equation | Shape::Formula | Shape::Signal => "Expression",
+        Shape::Name(table) => match *table {
+            "materials" => "MaterialId",
+            "sections" => "SectionId",
+            "springs" => "SpringId",
+            _ => "JointId",
+        },
+        Shape::PlaceOrNode => "Place",
+        Shape::Node => "Node",
+        Shape::Curve | Shape::Distribution => "[Expression; 3]",
+        Shape::Axes => "[[f64; 3]; 2]",
+        Shape::Mass => "Mass",
+        Shape::Inertia => "Inertia",
+        Shape::Friction => "Friction",
+        Shape::Stiffness => "Matrix",
+        Shape::SectionMass => "SectionMass",
+        Shape::Shear => "Shear",
+        Shape::Stations => "Vec<(f64, SectionId)>",
+        Shape::Pair | Shape::Range => "[f64; 2]",
+    };
+    Some(fixed.to_owned())
+}
+
+/// The name of the type that holds the words of a key.
+fn word_type(key: &Key, known: &[&'static str], words: &mut Words) -> String {
+    let mut name = camel(key.name);
+    if known.contains(&"positive") {
+        name.insert_str(0, "Signed");
+    }
+    while words.get(&name).is_some_and(|other| other != known) {
+        name.push_str("Of");
+        name.push_str(&camel(known[known.len() - 1]));
+    }
+    words.insert(name.clone(), known.to_vec());
+    name
+}
+
+fn words_text(words: &Words) -> String {
+    let mut text = String::from("//! Words that keys choose among.\n\nuse crate::builder::entry::words;\n\n");
+    for (name, known) in words {
+        line(&mut text, "words! {");
+        let quoted: Vec<String> = known.iter().map(|word| format!("`{word}`")).collect();
+        line(&mut text, &format!("    /// One of {}.", quoted.join(", ")));
+        line(&mut text, &format!("    {name};"));
+        for word in known {
+            line(&mut text, &format!("    {} = {word:?};", camel(word)));
+        }
+        line(&mut text, "}\n");
+    }
+    format!("{}\n", text.trim_end())
+}
+
+/// The word for one entry of a table that has a single form.
+fn single(table: &str) -> &'static str {
+    match table {
+        "materials" => "material",
+        "beams" => "beam",
+        "bodies" => "body",
+        "point_masses" => "point_mass",
+        "states" => "state",
+        "events" => "event",
+        "initial" => "initial_motion",
+        _ => "entry",
+    }
+}
+
+fn summary_of(table: &str) -> &'static str {
+    match table {
+        "materials" => "An isotropic elastic material.",
+        "beams" => "A flexible beam.",
+        "bodies" => "A rigid body.",
+        "point_masses" => "A mass without extension.",
+        "states" => "A first-order state: a number whose derivative by time is an expression.",
+        "events" => "What happens when an expression passes through zero.",
+        "initial" => "A rigid motion of all parts at the start, or static equilibrium.",
+        _ => "An entry.",
+    }
+}
+
+/// A key as a name of Rust.
+fn identifier(key: &str) -> &str {
+    match key {
+        "E" => "youngs_modulus",
+        "G" => "shear_modulus",
+        "nu" => "poisson_ratio",
+        "static" => "static_friction",
+        "in" => "seen_in",
+        "of" => "of",
+        name => name,
+    }
+}
+
+/// What a key means, with its unit.
+fn about(key: &Key) -> String {
+    let unit = if key.unit.is_empty() { String::new() } else { format!(" [{}]", key.unit) };
+    let summary = key.summary.trim_end_matches('.');
+    escaped(&format!("{summary}{unit}"))
+}
+
+/// With a capital and a full stop.
+fn sentence(words: &str) -> String {
+    let mut letters = words.chars();
+    let first = letters.next().map(|first| first.to_uppercase().to_string()).unwrap_or_default();
+    format!("{first}{}.", letters.as_str().trim_end_matches('.'))
+}
+
+/// Brackets are no links and no tags, outside of code.
+fn escaped(words: &str) -> String {
+    let mut inside = false;
+    let mut text = String::new();
+    for letter in words.chars() {
+        inside ^= letter == '`';
+        if !inside && matches!(letter, '[' | ']' | '<' | '>' | '*' | '_') {
+            text.push('\\');
+        }
+        text.push(letter);
+    }
+    text
+}
+
+fn camel(word: &str) -> String {
+    let capital = |part: &str| {
+        let mut letters = part.chars();
+        letters.next().map(|first| first.to_uppercase().to_string() + letters.as_str()).unwrap_or_default()
+    };
+    word.split(['_', '-', ' ']).map(capital).collect()
+}
+
+fn line(text: &mut String, words: &str) {
+    // Writing to a string cannot fail.
+    let _ = writeln!(text, "{words}");
+}

@@ -1,0 +1,414 @@
+// Made by `cargo xtask reference` of the program's own tables: do not edit.
+//! What holds nodes together, one type per kind.
+
+use super::words;
+use crate::builder::entry::{entry, nested};
+use crate::builder::expression::{Expression, Function};
+use crate::builder::ids::JointId;
+use crate::builder::values::Node;
+
+entry! {
+    /// A coordinate of `other`, the follower, is a function of that of `joint`: a cam, or any curve.
+    Cam => JointId, "cam";
+    ["kind" = "cam"]
+    /// With what must be given.
+    ///
+    /// - `joint`: the joint whose coordinate leads
+    /// - `other`: the joint whose coordinate follows
+    /// - `profile`: The other coordinate as a function of the first, `x` \[m or rad\]
+    new(joint: JointId = "joint", other: JointId = "other", profile: Function = "profile")
+    /// Which coordinate of `joint`, counted from 1; may be left out where it has one.
+    coordinate: f64 = "coordinate";
+    /// Which coordinate of `other`, counted from 1; may be left out where it has one.
+    other_coordinate: f64 = "other_coordinate";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// Holds all six relative freedoms.
+    Clamp => JointId, "clamp";
+    ["kind" = "clamp"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    new(base: Node = "base", tip: Node = "tip")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// Two shafts share a point, may bend against each other, and turn by the same angle.
+    ConstantVelocity => JointId, "constant_velocity";
+    ["kind" = "constant_velocity"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Direction of the tip's shaft at the start, global axes; default `axis`, which is that of the base's shaft.
+    tip_axis: [f64; 3] = "tip_axis";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// The tip slides along an axis and turns about it; rotation and displacement are coordinates.
+    Cylindrical => JointId, "cylindrical";
+    ["kind" = "cylindrical"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Value of the relative rotation at the start; default 0 \[rad\].
+    angle: f64 = "angle";
+    /// Value of the relative displacement at the start; default 0 \[m\].
+    displacement: f64 = "displacement";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// Keeps the distance of two points: a massless rod with a ball at each end.
+    Distance => JointId, "distance";
+    ["kind" = "distance"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    new(base: Node = "base", tip: Node = "tip")
+    /// Location on the base; default: the node's place \[m\].
+    at_base: [f64; 3] = "at_base";
+    /// Location on the tip; default: the node's place \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// An expression of coordinates of joints, and of the time, is zero: planetary gears, differentials, curves.
+    Equation => JointId, "equation";
+    ["kind" = "equation"]
+    /// With what must be given.
+    ///
+    /// - `equation`: What is zero: an expression of coordinates such as `arm.angle` and `slide.displacement`, and of `t`
+    new(equation: Expression = "equation")
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// A coordinate of `other` changes by `ratio` times the change of that of `joint`: gears, racks, belts.
+    Gear => JointId, "gear";
+    ["kind" = "gear"]
+    /// With what must be given.
+    ///
+    /// - `joint`: the joint whose coordinate leads
+    /// - `other`: the joint whose coordinate follows
+    /// - `ratio`: Change of the other coordinate per change of the first; negative for gears that mesh outside \[1, m/rad or rad/m\]
+    new(joint: JointId = "joint", other: JointId = "other", ratio: f64 = "ratio")
+    /// Which coordinate of `joint`, counted from 1; may be left out where it has one.
+    coordinate: f64 = "coordinate";
+    /// Which coordinate of `other`, counted from 1; may be left out where it has one.
+    other_coordinate: f64 = "other_coordinate";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// Locks chosen translations and rotations of the tip in the axes of the base.
+    Generic => JointId, "generic";
+    ["kind" = "generic"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `locked`: What cannot move: x along `axis`, y along `second_axis`, z across both; rx, ry, rz about them
+    new(base: Node = "base", tip: Node = "tip", locked: Vec<words::Locked> = "locked")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Direction of x at the start, global axes; default: global x.
+    axis: [f64; 3] = "axis";
+    /// Direction of y at the start, global axes; default: global y.
+    second_axis: [f64; 3] = "second_axis";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// The tip's point moves along a line of the base; as `point_on_line`, without a coordinate.
+    Inline => JointId, "inline";
+    ["kind" = "inline"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// The tip turns about `axis` alone and moves freely; the relative rotation is a coordinate.
+    ParallelAxes => JointId, "parallel_axes";
+    ["kind" = "parallel_axes"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Value of the relative rotation at the start; default 0 \[rad\].
+    angle: f64 = "angle";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// Keeps `axis`, carried by the base, perpendicular to `second_axis`, carried by the tip.
+    PerpendicularAxes => JointId, "perpendicular_axes";
+    ["kind" = "perpendicular_axes"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    /// - `second_axis`: second direction at the start, global axes
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", second_axis: [f64; 3] = "second_axis")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// The tip moves in the base's plane across `axis` and turns about it; the rotation is a coordinate.
+    Planar => JointId, "planar";
+    ["kind" = "planar"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Value of the relative rotation at the start; default 0 \[rad\].
+    angle: f64 = "angle";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// The tip's point moves in the base's plane across `axis`; the tip turns freely.
+    PointInPlane => JointId, "point_in_plane";
+    ["kind" = "point_in_plane"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// The tip's point slides along a line of the base and the tip turns freely; the displacement is a coordinate.
+    PointOnLine => JointId, "point_on_line";
+    ["kind" = "point_on_line"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Value of the relative displacement at the start; default 0 \[m\].
+    displacement: f64 = "displacement";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// Prescribes a joint's relative displacement as a function of time.
+    PrescribedDisplacement => JointId, "prescribed_displacement";
+    ["kind" = "prescribed_displacement"]
+    /// With what must be given.
+    ///
+    /// - `joint`: the joint whose relative displacement it acts on
+    /// - `displacement`: The relative displacement as a function of time \[m\]
+    new(joint: JointId = "joint", displacement: Function = "displacement")
+    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    coordinate: f64 = "coordinate";
+}
+
+entry! {
+    /// Prescribes a joint's relative rotation as a function of time.
+    PrescribedRotation => JointId, "prescribed_rotation";
+    ["kind" = "prescribed_rotation"]
+    /// With what must be given.
+    ///
+    /// - `joint`: the joint whose relative rotation it acts on
+    /// - `rotation`: The relative rotation as a function of time \[rad\]
+    new(joint: JointId = "joint", rotation: Function = "rotation")
+    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    coordinate: f64 = "coordinate";
+}
+
+entry! {
+    /// The tip slides along an axis without turning; the displacement is a coordinate.
+    Prismatic => JointId, "prismatic";
+    ["kind" = "prismatic"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Value of the relative displacement at the start; default 0 \[m\].
+    displacement: f64 = "displacement";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// Two nodes share a point and an axis; the relative rotation is a coordinate.
+    Revolute => JointId, "revolute";
+    ["kind" = "revolute"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Value of the relative rotation at the start; default 0 \[rad\].
+    angle: f64 = "angle";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// Joins two nodes at different places by a massless rigid link.
+    RigidLink => JointId, "rigid_link";
+    ["kind" = "rigid_link"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    new(base: Node = "base", tip: Node = "tip")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// The tip turns about an axis and moves along it in proportion; the rotation is a coordinate.
+    Screw => JointId, "screw";
+    ["kind" = "screw"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    /// - `lead`: Displacement along `axis` per turn; negative for a left-handed thread \[m\]
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", lead: f64 = "lead")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Value of the relative rotation at the start; default 0 \[rad\].
+    angle: f64 = "angle";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// Two nodes share a point and turn freely about it.
+    Spherical => JointId, "spherical";
+    ["kind" = "spherical"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    new(base: Node = "base", tip: Node = "tip")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// A massless arm, hinged to the base about an axis, carries the tip's point.
+    SwingArm => JointId, "swing_arm";
+    ["kind" = "swing_arm"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Value of the arm's angle at the start; default 0 \[rad\].
+    angle: f64 = "angle";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
+    /// Two nodes share a point and a cross of two axes; both rotations are coordinates.
+    Universal => JointId, "universal";
+    ["kind" = "universal"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    /// - `second_axis`: second direction at the start, global axes
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", second_axis: [f64; 3] = "second_axis")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+nested! {
+    /// Friction in a joint.
+    Friction;
+    /// With what must be given.
+    ///
+    /// - `coulomb`: sliding friction \[N, N m\]
+    new(coulomb: f64 = "coulomb")
+    /// Friction at rest, not below `coulomb`; default equal \[N, N m\].
+    static_friction: f64 = "static";
+    /// Rate at which the difference is 1/e; default 0.01 \[m/s, rad/s\].
+    stribeck: f64 = "stribeck";
+    /// Force per rate besides, default 0 \[N s/m, N m s/rad\].
+    viscous: f64 = "viscous";
+    /// Elastic motion before it slips, default 1e-4 \[m, rad\].
+    deflection: f64 = "deflection";
+    /// Of the elastic motion, default 0 \[N s/m, N m s/rad\].
+    damping: f64 = "damping";
+}

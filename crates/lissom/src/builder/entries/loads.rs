@@ -1,0 +1,82 @@
+// Made by `cargo xtask reference` of the program's own tables: do not edit.
+//! Forces and moments from outside, and of actuators.
+
+use crate::builder::entry::entry;
+use crate::builder::expression::Function;
+use crate::builder::ids::JointId;
+use crate::builder::values::Node;
+
+entry! {
+    /// Force on a point, dead or following the node's rotation, with a function of time.
+    Force => LoadId, "force";
+    ["kind" = "force"]
+    /// With what must be given.
+    ///
+    /// - `on`: the node it acts on
+    /// - `vector`: Force or moment at scale 1, in global axes at the start \[N or N m\]
+    new(on: Node = "on", vector: [f64; 3] = "vector")
+    /// Location; default: the node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Factor; default 1.
+    scale: Function = "scale";
+    /// Whether it turns with the node; default false: it keeps its direction.
+    follower: bool = "follower";
+}
+
+entry! {
+    /// Moment on a node, dead or following the node's rotation, with a function of time.
+    Moment => LoadId, "moment";
+    ["kind" = "moment"]
+    /// With what must be given.
+    ///
+    /// - `on`: the node it acts on
+    /// - `vector`: Force or moment at scale 1, in global axes at the start \[N or N m\]
+    new(on: Node = "on", vector: [f64; 3] = "vector")
+    /// Location; default: the node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Factor; default 1.
+    scale: Function = "scale";
+    /// Whether it turns with the node; default false: it keeps its direction.
+    follower: bool = "follower";
+}
+
+entry! {
+    /// Torque of an actuator on a joint's relative rotation, from the base on the tip.
+    JointTorque => LoadId, "joint_torque";
+    ["kind" = "joint_torque"]
+    /// With what must be given.
+    ///
+    /// - `joint`: the joint whose relative rotation it acts on
+    /// - `torque`: Torque about the joint's axis, positive where it increases the rotation \[N m\]
+    new(joint: JointId = "joint", torque: Function = "torque")
+    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    coordinate: f64 = "coordinate";
+}
+
+entry! {
+    /// Force of an actuator on a joint's relative displacement, from the base on the tip.
+    JointForce => LoadId, "joint_force";
+    ["kind" = "joint_force"]
+    /// With what must be given.
+    ///
+    /// - `joint`: the joint whose relative displacement it acts on
+    /// - `force`: Force along the joint's axis, positive where it increases the displacement \[N\]
+    new(joint: JointId = "joint", force: Function = "force")
+    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    coordinate: f64 = "coordinate";
+}
+
+entry! {
+    /// Rotor in a body, with a constant rate of spin relative to it.
+    Gyrostat => LoadId, "gyrostat";
+    ["kind" = "gyrostat"]
+    /// With what must be given.
+    ///
+    /// - `on`: the node it acts on
+    /// - `axis`: Axis of the rotor at the start, global axes; it turns with the node
+    /// - `inertia`: Inertia of the rotor about its axis \[kg m²\]
+    /// - `spin`: Rate of spin relative to the body \[rad/s\]
+    new(on: Node = "on", axis: [f64; 3] = "axis", inertia: f64 = "inertia", spin: f64 = "spin")
+    /// Location; default: the node's place \[m\].
+    at: [f64; 3] = "at";
+}

@@ -1,0 +1,14 @@
+//! The entries of a model, one type per kind. The files beside this one are made of the program's own tables.
+
+#![allow(clippy::doc_markdown, reason = "the words are those of the tables")]
+
+pub mod analyses;
+pub(crate) mod feedback;
+pub mod joints;
+pub mod loads;
+pub mod motions;
+pub mod outputs;
+pub mod parts;
+pub mod sections;
+pub mod springs;
+pub mod words;

@@ -1,0 +1,37 @@
+// Made by `cargo xtask reference` of the program's own tables: do not edit.
+//! How the parts are and move at the start.
+
+use crate::builder::entry::entry;
+use crate::builder::values::Part;
+
+entry! {
+    /// A rigid motion of all parts at the start, or static equilibrium.
+    InitialMotion => InitialId, "initial_motion";
+    []
+    /// With what must be given.
+    new()
+    /// Velocity of the point `about` \[m/s\].
+    velocity: [f64; 3] = "velocity";
+    /// Global axes \[rad/s\].
+    angular_velocity: [f64; 3] = "angular_velocity";
+    /// A point of the rigid motion; default the origin \[m\].
+    about: [f64; 3] = "about";
+    /// Start from static equilibrium under the loads of the first instant, default false.
+    equilibrium: bool = "equilibrium";
+}
+
+entry! {
+    /// A rigid motion of some parts at the start.
+    PartMotion => MotionId, "part_motion";
+    []
+    /// With what must be given.
+    ///
+    /// - `parts`: bodies, point masses, beams and entries of \[parts\] that move in this way
+    new(parts: Vec<Part> = "parts")
+    /// Velocity of the point `about` \[m/s\].
+    velocity: [f64; 3] = "velocity";
+    /// Global axes \[rad/s\].
+    angular_velocity: [f64; 3] = "angular_velocity";
+    /// A point of the rigid motion; default the origin \[m\].
+    about: [f64; 3] = "about";
+}

@@ -1,0 +1,230 @@
+// Made by `cargo xtask reference` of the program's own tables: do not edit.
+//! What is recorded, one type per kind.
+
+use super::words;
+use crate::builder::entry::entry;
+use crate::builder::expression::Expression;
+use crate::builder::ids::{JointId, SpringId};
+use crate::builder::values::{Node, Quantity};
+
+entry! {
+    /// Place of a node or of a point it carries.
+    Position => OutputId, "position";
+    ["kind" = "position"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node, as in "beam@0.5"
+    new(of: Node = "of")
+    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
+    relative_to: Node = "relative_to";
+    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
+    seen_in: Node = "in";
+    /// A place at the start, carried by the node \[m\].
+    point: [f64; 3] = "point";
+}
+
+entry! {
+    /// Change of place since the start.
+    Displacement => OutputId, "displacement";
+    ["kind" = "displacement"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node, as in "beam@0.5"
+    new(of: Node = "of")
+    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
+    relative_to: Node = "relative_to";
+    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
+    seen_in: Node = "in";
+    /// A place at the start, carried by the node \[m\].
+    point: [f64; 3] = "point";
+}
+
+entry! {
+    /// Rotation vector since the start.
+    Rotation => OutputId, "rotation";
+    ["kind" = "rotation"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node, as in "beam@0.5"
+    new(of: Node = "of")
+    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
+    relative_to: Node = "relative_to";
+    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
+    seen_in: Node = "in";
+}
+
+entry! {
+    /// Axes of a node as a unit quaternion, q0 not negative.
+    Quaternion => OutputId, "quaternion";
+    ["kind" = "quaternion"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node, as in "beam@0.5"
+    new(of: Node = "of")
+}
+
+entry! {
+    /// Axes of a node as angles about x, the turned y and the twice turned z.
+    CardanAngles => OutputId, "cardan_angles";
+    ["kind" = "cardan_angles"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node, as in "beam@0.5"
+    new(of: Node = "of")
+}
+
+entry! {
+    /// Velocity of a node or of a point it carries.
+    Velocity => OutputId, "velocity";
+    ["kind" = "velocity"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node, as in "beam@0.5"
+    new(of: Node = "of")
+    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
+    relative_to: Node = "relative_to";
+    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
+    seen_in: Node = "in";
+    /// A place at the start, carried by the node \[m\].
+    point: [f64; 3] = "point";
+}
+
+entry! {
+    /// Angular velocity of a node.
+    AngularVelocity => OutputId, "angular_velocity";
+    ["kind" = "angular_velocity"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node, as in "beam@0.5"
+    new(of: Node = "of")
+    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
+    relative_to: Node = "relative_to";
+    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
+    seen_in: Node = "in";
+}
+
+entry! {
+    /// Acceleration of a node or of a point it carries.
+    Acceleration => OutputId, "acceleration";
+    ["kind" = "acceleration"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node, as in "beam@0.5"
+    new(of: Node = "of")
+    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
+    relative_to: Node = "relative_to";
+    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
+    seen_in: Node = "in";
+    /// A place at the start, carried by the node \[m\].
+    point: [f64; 3] = "point";
+}
+
+entry! {
+    /// Axial and shear forces in a beam, local axes.
+    SectionForce => OutputId, "section_force";
+    ["kind" = "section_force"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node, as in "beam@0.5"
+    new(of: Node = "of")
+}
+
+entry! {
+    /// Torsion and bending moments in a beam, local axes.
+    SectionMoment => OutputId, "section_moment";
+    ["kind" = "section_moment"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node, as in "beam@0.5"
+    new(of: Node = "of")
+}
+
+entry! {
+    /// Force and moment of a joint on its tip.
+    Reaction => OutputId, "reaction";
+    ["kind" = "reaction"]
+    /// With what must be given.
+    ///
+    /// - `of`: the joint
+    new(of: JointId = "of")
+    /// Global axes, or those of the joint frame that base or tip carries; default ground.
+    axes: words::Axes = "axes";
+}
+
+entry! {
+    /// Relative coordinate of a joint.
+    Relative => OutputId, "relative";
+    ["kind" = "relative"]
+    /// With what must be given.
+    ///
+    /// - `of`: the joint
+    new(of: JointId = "of")
+}
+
+entry! {
+    /// Accelerations of a joint's relative coordinates.
+    RelativeAcceleration => OutputId, "relative_acceleration";
+    ["kind" = "relative_acceleration"]
+    /// With what must be given.
+    ///
+    /// - `of`: the joint
+    new(of: JointId = "of")
+}
+
+entry! {
+    /// Place and rotation vector of a joint's tip frame, in the axes of its base frame.
+    RelativeMotion => OutputId, "relative_motion";
+    ["kind" = "relative_motion"]
+    /// With what must be given.
+    ///
+    /// - `of`: the joint
+    new(of: JointId = "of")
+}
+
+entry! {
+    /// Elongation or rotation of a spring, its rate, and its force or moment.
+    Spring => OutputId, "spring";
+    ["kind" = "spring"]
+    /// With what must be given.
+    ///
+    /// - `of`: the spring
+    new(of: SpringId = "of")
+}
+
+entry! {
+    /// Kinetic, strain, gravity and total energy of the model.
+    Energy => OutputId, "energy";
+    ["kind" = "energy"]
+    /// With what must be given.
+    new()
+}
+
+entry! {
+    /// Momentum and angular momentum of the model about the origin, global axes.
+    Momentum => OutputId, "momentum";
+    ["kind" = "momentum"]
+    /// With what must be given.
+    new()
+    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
+    seen_in: Node = "in";
+}
+
+entry! {
+    /// Value of a signal, an input or a state.
+    Signal => OutputId, "signal";
+    ["kind" = "signal"]
+    /// With what must be given.
+    ///
+    /// - `of`: the name of a signal, an input or a state
+    new(of: Quantity = "of")
+}
+
+entry! {
+    /// Value of an expression of time, components of other outputs, coordinates of joints, signals, inputs and states.
+    ExpressionOutput => OutputId, "expression";
+    ["kind" = "expression"]
+    /// With what must be given.
+    ///
+    /// - `value`: as "hypot(a.x - b.x, a.y - b.y)", of components of outputs
+    new(value: Expression = "value")
+}

@@ -1,0 +1,79 @@
+// Made by `cargo xtask reference` of the program's own tables: do not edit.
+//! Beams, rigid bodies and point masses.
+
+use super::words;
+use crate::builder::entry::entry;
+use crate::builder::expression::{Expression, Function};
+use crate::builder::ids::SectionId;
+use crate::builder::values::{Inertia, Mass, Place};
+
+entry! {
+    /// A flexible beam.
+    Beam => BeamId, "beam";
+    []
+    /// With what must be given.
+    ///
+    /// - `elements`: number of elements
+    new(elements: usize = "elements")
+    /// Name of a section; give it or `stations`.
+    section: SectionId = "section";
+    /// \[{ at = 0, section = "a" }, …, { at = 1, … }\], linear between.
+    stations: Vec<(f64, SectionId)> = "stations";
+    /// Start: a point, or a node of another part, which is shared \[m\].
+    from: Place = "from";
+    /// End: a point, or a node of another part, which is shared \[m\].
+    to: Place = "to";
+    /// A point between: the beam is a circular arc \[m\].
+    through: [f64; 3] = "through";
+    /// Instead of from and to: three expressions of s in 0..1 \[m\].
+    curve: [Expression; 3] = "curve";
+    /// 1, 2 or 3 (default): elements of 2, 3 or 4 nodes.
+    order: usize = "order";
+    /// Direction that local axis 3 leans to.
+    up: [f64; 3] = "up";
+    /// Along global axes, which it keeps: three numbers or expressions of s and t \[N/m\].
+    force_per_length: [Expression; 3] = "force_per_length";
+    /// Along the section's axes 1, 2 and 3, with which it turns: three numbers or expressions of s and t \[N/m\].
+    section_force_per_length: [Expression; 3] = "section_force_per_length";
+    /// Turn about the tangent, a number or an expression of s \[rad\].
+    twist: Function = "twist";
+}
+
+entry! {
+    /// A rigid body.
+    Body => BodyId, "body";
+    []
+    /// With what must be given.
+    ///
+    /// - `mass`: mass, or { density } of the solid in `inertia` \[kg\]
+    /// - `inertia`: about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid as { box = \[a, b, c\] } \[kg m²\]
+    new(mass: Mass = "mass", inertia: Inertia = "inertia")
+    /// Place of the reference frame \[m\].
+    position: [f64; 3] = "position";
+    /// Rotation vector of the reference frame \[rad\].
+    rotation: [f64; 3] = "rotation";
+    /// Instead of rotation: first and second body axis.
+    axes: [[f64; 3]; 2] = "axes";
+    /// In body axes, from the reference point \[m\].
+    center_of_mass: [f64; 3] = "center_of_mass";
+    /// Of the reference point at the start, global axes \[m/s\].
+    velocity: [f64; 3] = "velocity";
+    /// At the start, body axes \[rad/s\].
+    angular_velocity: [f64; 3] = "angular_velocity";
+}
+
+entry! {
+    /// A mass without extension.
+    PointMass => PointMassId, "point_mass";
+    []
+    /// With what must be given.
+    ///
+    /// - `mass`: mass \[kg\]
+    new(mass: f64 = "mass")
+    /// Place at the start \[m\].
+    position: [f64; 3] = "position";
+    /// Move in this plane only.
+    plane: words::Plane = "plane";
+    /// At the start, global axes \[m/s\].
+    velocity: [f64; 3] = "velocity";
+}

@@ -1,0 +1,208 @@
+// Made by `cargo xtask reference` of the program's own tables: do not edit.
+//! What pulls nodes or joints back, one type per kind.
+
+use super::words;
+use crate::builder::entry::entry;
+use crate::builder::expression::Function;
+use crate::builder::ids::JointId;
+use crate::builder::values::{Matrix, Node};
+
+entry! {
+    /// Spring and damper on a joint's relative displacement.
+    Axial => SpringId, "axial";
+    ["kind" = "axial"]
+    /// With what must be given.
+    ///
+    /// - `joint`: the joint whose relative displacement it acts on
+    new(joint: JointId = "joint")
+    /// Stiffness; default 0 \[N/m\].
+    stiffness: f64 = "stiffness";
+    /// Damping; default 0 \[N s/m\].
+    damping: f64 = "damping";
+    /// Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` \[N\].
+    force: Function = "force";
+    /// Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate` \[N\].
+    damper_force: Function = "damper_force";
+    /// Where it acts: where it is longer than its free length, where it is shorter, or both; default both.
+    side: words::Side = "side";
+    /// Least and greatest force; default none \[N\].
+    limits: [f64; 2] = "limits";
+    /// Width of the free play about the free length, without force; default 0 \[m\].
+    backlash: f64 = "backlash";
+    /// Relative displacement at which it is free of force; default 0 \[m\].
+    displacement: f64 = "displacement";
+    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    coordinate: f64 = "coordinate";
+}
+
+entry! {
+    /// Spring and damper between two points, along the line that joins them.
+    Point => SpringId, "point";
+    ["kind" = "point"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    new(base: Node = "base", tip: Node = "tip")
+    /// Location on the base; default: the node's place \[m\].
+    at_base: [f64; 3] = "at_base";
+    /// Location on the tip; default: the node's place \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Stiffness; default 0 \[N/m\].
+    stiffness: f64 = "stiffness";
+    /// Damping; default 0 \[N s/m\].
+    damping: f64 = "damping";
+    /// Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` \[N\].
+    force: Function = "force";
+    /// Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate` \[N\].
+    damper_force: Function = "damper_force";
+    /// Where it acts: where it is longer than its free length, where it is shorter, or both; default both.
+    side: words::Side = "side";
+    /// Least and greatest force; default none \[N\].
+    limits: [f64; 2] = "limits";
+    /// Width of the free play about the free length, without force; default 0 \[m\].
+    backlash: f64 = "backlash";
+    /// Length at which it is free of force; default: the length at the start \[m\].
+    length: f64 = "length";
+}
+
+entry! {
+    /// Spring and damper on a joint's relative rotation.
+    Torsional => SpringId, "torsional";
+    ["kind" = "torsional"]
+    /// With what must be given.
+    ///
+    /// - `joint`: the joint whose relative rotation it acts on
+    new(joint: JointId = "joint")
+    /// Stiffness; default 0 \[N m/rad\].
+    stiffness: f64 = "stiffness";
+    /// Damping; default 0 \[N m s/rad\].
+    damping: f64 = "damping";
+    /// Moment over `rotation` and `rate`, in addition to `stiffness`; a table is over `rotation` \[N m\].
+    moment: Function = "moment";
+    /// Moment over `rate` and `rotation`, in addition to `damping`; a table is over `rate` \[N m\].
+    damper_moment: Function = "damper_moment";
+    /// Where it acts: on rotations above the free one, below it, or both; default both.
+    side: words::SignedSide = "side";
+    /// Least and greatest moment; default none \[N m\].
+    limits: [f64; 2] = "limits";
+    /// Width of the free play about the free rotation, without moment; default 0 \[rad\].
+    backlash: f64 = "backlash";
+    /// Relative rotation at which it is free of moment; default 0 \[rad\].
+    angle: f64 = "angle";
+    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    coordinate: f64 = "coordinate";
+}
+
+entry! {
+    /// Dry and viscous friction on a joint's relative displacement; it sticks without creeping.
+    AxialFriction => SpringId, "axial_friction";
+    ["kind" = "axial_friction"]
+    /// With what must be given.
+    ///
+    /// - `joint`: the joint whose relative displacement it acts on
+    /// - `coulomb`: Force of sliding friction \[N\]
+    new(joint: JointId = "joint", coulomb: f64 = "coulomb")
+    /// Additional force of friction at rest; default none \[N\].
+    breakaway: f64 = "breakaway";
+    /// Velocity at which the additional force has fallen to 1/e; default 0.01 \[m/s\].
+    stribeck: f64 = "stribeck";
+    /// Force per velocity besides; default 0 \[N s/m\].
+    viscous: f64 = "viscous";
+    /// Elastic displacement before it slips; default 1e-4 \[m\].
+    deflection: f64 = "deflection";
+    /// Damping of the elastic displacement; default 0 \[N s/m\].
+    damping: f64 = "damping";
+    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    coordinate: f64 = "coordinate";
+}
+
+entry! {
+    /// Dry and viscous friction on a joint's relative rotation; it sticks without creeping.
+    TorsionalFriction => SpringId, "torsional_friction";
+    ["kind" = "torsional_friction"]
+    /// With what must be given.
+    ///
+    /// - `joint`: the joint whose relative rotation it acts on
+    /// - `coulomb`: Moment of sliding friction \[N m\]
+    new(joint: JointId = "joint", coulomb: f64 = "coulomb")
+    /// Additional moment of friction at rest; default none \[N m\].
+    breakaway: f64 = "breakaway";
+    /// Rate at which the additional moment has fallen to 1/e; default 0.01 \[rad/s\].
+    stribeck: f64 = "stribeck";
+    /// Moment per rate besides; default 0 \[N m s/rad\].
+    viscous: f64 = "viscous";
+    /// Elastic rotation before it slips; default 1e-4 \[rad\].
+    deflection: f64 = "deflection";
+    /// Damping of the elastic rotation; default 0 \[N m s/rad\].
+    damping: f64 = "damping";
+    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    coordinate: f64 = "coordinate";
+}
+
+entry! {
+    /// Springs and dampers along and about three axes, with full matrices; its length may be zero.
+    Bushing => SpringId, "bushing";
+    ["kind" = "bushing"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    new(base: Node = "base", tip: Node = "tip")
+    /// Location on the base; default: the node's place \[m\].
+    at_base: [f64; 3] = "at_base";
+    /// Location on the tip; default: the node's place \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// 6 x 6 or its diagonal: displacements along the axes, rotations about them; default 0 \[N/m, N, N m/rad\].
+    stiffness: Matrix = "stiffness";
+    /// 6 x 6 or its diagonal, likewise; default 0 \[N s/m, N s, N m s/rad\].
+    damping: Matrix = "damping";
+    /// First axis at the start, global axes; default global x. The axes turn with the base.
+    axis: [f64; 3] = "axis";
+    /// Second axis at the start, made perpendicular to the first; default global y.
+    second_axis: [f64; 3] = "second_axis";
+}
+
+entry! {
+    /// Stops at the ends of the range of a joint's relative displacement.
+    AxialStop => SpringId, "axial_stop";
+    ["kind" = "axial_stop"]
+    /// With what must be given.
+    ///
+    /// - `joint`: the joint whose relative displacement it acts on
+    /// - `range`: Displacements between the stops; an end that is infinite has none \[m\]
+    /// - `stiffness`: Force at a penetration of 1 m \[N/m^n\]
+    new(joint: JointId = "joint", range: [f64; 2] = "range", stiffness: f64 = "stiffness")
+    /// N, from 1 on; default 1.
+    exponent: f64 = "exponent";
+    /// Factor a of the penetration rate; default 0 \[s/m\].
+    dissipation: f64 = "dissipation";
+    /// Instead of `dissipation`: velocity after an impact over that before, 0.01 to 1, at `impact_velocity`.
+    restitution: f64 = "restitution";
+    /// Velocity of that impact \[m/s\].
+    impact_velocity: f64 = "impact_velocity";
+    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    coordinate: f64 = "coordinate";
+}
+
+entry! {
+    /// Stops at the ends of the range of a joint's relative rotation.
+    TorsionalStop => SpringId, "torsional_stop";
+    ["kind" = "torsional_stop"]
+    /// With what must be given.
+    ///
+    /// - `joint`: the joint whose relative rotation it acts on
+    /// - `range`: Rotations between the stops; an end that is infinite has none \[rad\]
+    /// - `stiffness`: Moment at a penetration of 1 rad \[N m/rad^n\]
+    new(joint: JointId = "joint", range: [f64; 2] = "range", stiffness: f64 = "stiffness")
+    /// N, from 1 on; default 1.
+    exponent: f64 = "exponent";
+    /// Factor a of the penetration rate; default 0 \[s/rad\].
+    dissipation: f64 = "dissipation";
+    /// Instead of `dissipation`: rate after an impact over that before, 0.01 to 1, at `impact_velocity`.
+    restitution: f64 = "restitution";
+    /// Rate of that impact \[rad/s\].
+    impact_velocity: f64 = "impact_velocity";
+    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    coordinate: f64 = "coordinate";
+}

@@ -1,0 +1,88 @@
+// Made by `cargo xtask reference` of the program's own tables: do not edit.
+//! Words that keys choose among.
+
+use crate::builder::entry::words;
+
+words! {
+    /// One of `static`, `undeformed`.
+    About;
+    Static = "static";
+    Undeformed = "undeformed";
+}
+
+words! {
+    /// One of `ground`, `base`, `tip`.
+    Axes;
+    Ground = "ground";
+    Base = "base";
+    Tip = "tip";
+}
+
+words! {
+    /// One of `both`, `rising`, `falling`.
+    Direction;
+    Both = "both";
+    Rising = "rising";
+    Falling = "falling";
+}
+
+words! {
+    /// One of `x`, `y`, `z`, `rx`, `ry`, `rz`.
+    Locked;
+    X = "x";
+    Y = "y";
+    Z = "z";
+    Rx = "rx";
+    Ry = "ry";
+    Rz = "rz";
+}
+
+words! {
+    /// One of `xy`, `yz`, `zx`.
+    Plane;
+    Xy = "xy";
+    Yz = "yz";
+    Zx = "zx";
+}
+
+words! {
+    /// One of `physical`, `unit`, `none`.
+    Scaling;
+    Physical = "physical";
+    Unit = "unit";
+    None = "none";
+}
+
+words! {
+    /// One of `generalized-alpha`, `hht`, `radau-iia`, `energy-decaying`.
+    Scheme;
+    GeneralizedAlpha = "generalized-alpha";
+    Hht = "hht";
+    RadauIia = "radau-iia";
+    EnergyDecaying = "energy-decaying";
+}
+
+words! {
+    /// One of `both`, `tension`, `compression`.
+    Side;
+    Both = "both";
+    Tension = "tension";
+    Compression = "compression";
+}
+
+words! {
+    /// One of `both`, `positive`, `negative`.
+    SignedSide;
+    Both = "both";
+    Positive = "positive";
+    Negative = "negative";
+}
+
+words! {
+    /// One of `sparse`, `skyline`, `pivoting`, `dense`.
+    Solver;
+    Sparse = "sparse";
+    Skyline = "skyline";
+    Pivoting = "pivoting";
+    Dense = "dense";
+}

@@ -1,0 +1,121 @@
+//! How the types of entries are declared: what must be given stands in `new`, the rest in a method per key.
+
+use super::ids::Id;
+use super::written::Written;
+
+/// Something that can be added to a model. Its kinds are those of the model file.
+pub trait Entry {
+    /// What code holds of it afterwards.
+    type Id: Id;
+    /// What names are made of where none is given.
+    const WORD: &'static str;
+
+    /// What stands in the model file behind its name.
+    fn written(self) -> Written;
+}
+
+/// Declares the type of an entry of a table.
+macro_rules! entry {
+    (
+        $(#[$meta:meta])*
+        $name:ident => $id:ident, $word:literal;
+        [$($tag:literal = $form:literal)?]
+        $($rest:tt)*
+    ) => {
+        $crate::builder::entry::fields! {
+            $(#[$meta])*
+            $name
+            [$($tag = $form)?]
+            $($rest)*
+        }
+
+        impl $crate::builder::entry::Entry for $name {
+            type Id = $crate::builder::ids::$id;
+            const WORD: &'static str = $word;
+
+            fn written(self) -> $crate::builder::written::Written {
+                self.0.into()
+            }
+        }
+    };
+}
+
+/// Declares the type of a table that is a value of another one.
+macro_rules! nested {
+    ($(#[$meta:meta])* $name:ident; $($rest:tt)*) => {
+        $crate::builder::entry::fields! {
+            $(#[$meta])*
+            $name
+            []
+            $($rest)*
+        }
+
+        impl From<$name> for $crate::builder::written::Written {
+            fn from(value: $name) -> Self {
+                value.0.into()
+            }
+        }
+    };
+}
+
+macro_rules! fields {
+    (
+        $(#[$meta:meta])*
+        $name:ident
+        [$($tag:literal = $form:literal)?]
+        $(#[$new:meta])*
+        new($($required:ident: $held:ty = $key:literal),*)
+        $($(#[$doc:meta])* $optional:ident: $holds:ty = $own:literal;)*
+    ) => {
+        $(#[$meta])*
+        #[derive(Clone, Debug, PartialEq)]
+        #[must_use]
+        pub struct $name(pub(crate) $crate::builder::written::Fields);
+
+        impl $name {
+            $(#[$new])*
+            #[allow(clippy::new_without_default, reason = "what is empty is rarely meant")]
+            pub fn new($($required: impl Into<$held>),*) -> Self {
+                #[allow(unused_mut, reason = "some have nothing that must be given")]
+                let mut fields = $crate::builder::written::Fields::default();
+                $(fields.set($tag, $form.to_owned());)?
+                $(fields.set($key, $required.into());)*
+                Self(fields)
+            }
+
+            $(
+                $(#[$doc])*
+                pub fn $optional(mut self, value: impl Into<$holds>) -> Self {
+                    self.0.set($own, value.into());
+                    self
+                }
+            )*
+        }
+    };
+}
+
+/// Declares a type for the words that a key chooses among.
+macro_rules! words {
+    ($(#[$meta:meta])* $name:ident; $($word:ident = $written:literal;)*) => {
+        $(#[$meta])*
+        #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+        #[non_exhaustive]
+        pub enum $name {
+            $(
+                #[doc = concat!("`", $written, "`.")]
+                $word,
+            )*
+        }
+
+        impl From<$name> for $crate::builder::written::Written {
+            fn from(word: $name) -> Self {
+                let written = match word {
+                    $($name::$word => $written),*
+                };
+                Self::Text(written.to_owned())
+            }
+        }
+    };
+}
+
+pub(crate) use {entry, fields, nested, words};

@@ -1,0 +1,311 @@
+//! Values that entries hold: nodes, places, masses, matrices.
+
+use super::entries::sections::SliceMass;
+use super::ids::{
+    AnyId, BeamId, BodyId, InputId, JointId, MaterialId, PointMassId, SectionId, SignalId, SpringId, StateId,
+};
+use super::written::{Fields, NameOf, Written};
+
+/// A node: the ground, a body, a point mass, or a place along a beam.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Node(pub(crate) Option<(AnyId, At)>);
+
+/// Where on a part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum At {
+    Itself,
+    Start,
+    End,
+    Fraction(f64),
+}
+
+/// The fixed frame.
+pub const GROUND: Node = Node(None);
+
+impl BeamId {
+    /// The beam's first node.
+    pub fn start(self) -> Node {
+        Node(Some((self.0, At::Start)))
+    }
+
+    /// The beam's last node.
+    pub fn end(self) -> Node {
+        Node(Some((self.0, At::End)))
+    }
+
+    /// The node at a fraction of the beam, from 0 to 1.
+    pub fn at(self, fraction: f64) -> Node {
+        Node(Some((self.0, At::Fraction(fraction))))
+    }
+}
+
+impl From<BodyId> for Node {
+    fn from(body: BodyId) -> Self {
+        Self(Some((body.0, At::Itself)))
+    }
+}
+
+impl From<PointMassId> for Node {
+    fn from(mass: PointMassId) -> Self {
+        Self(Some((mass.0, At::Itself)))
+    }
+}
+
+impl From<Node> for Written {
+    fn from(node: Node) -> Self {
+        Self::Node(node)
+    }
+}
+
+/// A place [m], or a node of another part, which is then shared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Place {
+    /// Three coordinates [m].
+    Point([f64; 3]),
+    /// A node.
+    Node(Node),
+}
+
+impl From<[f64; 3]> for Place {
+    fn from(point: [f64; 3]) -> Self {
+        Self::Point(point)
+    }
+}
+
+impl From<Node> for Place {
+    fn from(node: Node) -> Self {
+        Self::Node(node)
+    }
+}
+
+impl From<BodyId> for Place {
+    fn from(body: BodyId) -> Self {
+        Self::Node(body.into())
+    }
+}
+
+impl From<Place> for Written {
+    fn from(place: Place) -> Self {
+        match place {
+            Place::Point(point) => point.into(),
+            Place::Node(node) => node.into(),
+        }
+    }
+}
+
+/// Declares types that hold the name of one of several tables.
+macro_rules! names {
+    ($($(#[$doc:meta])* $name:ident of $($id:ident)*;)*) => {
+        $(
+            $(#[$doc])*
+            #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+            pub struct $name(AnyId);
+
+            impl $name {
+                /// The id.
+                pub(crate) fn id(self) -> AnyId {
+                    self.0
+                }
+            }
+
+            $(impl From<$id> for $name {
+                fn from(id: $id) -> Self {
+                    Self(id.0)
+                }
+            })*
+
+            impl From<$name> for Written {
+                fn from(name: $name) -> Self {
+                    Self::Name(NameOf(name.0))
+                }
+            }
+        )*
+    };
+}
+
+names! {
+    /// A body, a point mass or a beam.
+    Part of BodyId PointMassId BeamId;
+    /// A number that a simulation knows by name: a signal, an input or a state.
+    Quantity of SignalId InputId StateId;
+}
+
+macro_rules! written_names {
+    ($($id:ident)*) => {
+        $(impl From<$id> for Written {
+            fn from(id: $id) -> Self {
+                Self::Name(NameOf(id.0))
+            }
+        })*
+    };
+}
+
+written_names! { MaterialId SectionId JointId SpringId }
+
+/// The mass of a body.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Mass {
+    /// A number [kg].
+    Given(f64),
+    /// Mass per volume [kg/m³] of the solid that gives the inertia.
+    Density(f64),
+}
+
+impl From<f64> for Mass {
+    fn from(mass: f64) -> Self {
+        Self::Given(mass)
+    }
+}
+
+impl From<Mass> for Written {
+    fn from(mass: Mass) -> Self {
+        match mass {
+            Mass::Given(mass) => mass.into(),
+            Mass::Density(density) => {
+                let mut fields = Fields::default();
+                fields.set("density", density);
+                fields.into()
+            }
+        }
+    }
+}
+
+/// The inertia of a body about its centre of mass, in body axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Inertia {
+    /// Principal moments [kg m²].
+    Principal([f64; 3]),
+    /// A symmetric matrix [kg m²].
+    Matrix([[f64; 3]; 3]),
+    /// That of a box with these sides along the body axes [m].
+    Box([f64; 3]),
+    /// That of a cylinder about the z axis: radius and length [m].
+    Cylinder([f64; 2]),
+    /// That of a tube about the z axis: outer radius, inner radius and length [m].
+    Tube([f64; 3]),
+    /// That of a sphere of this radius [m].
+    Sphere(f64),
+}
+
+impl From<[f64; 3]> for Inertia {
+    fn from(principal: [f64; 3]) -> Self {
+        Self::Principal(principal)
+    }
+}
+
+impl From<[[f64; 3]; 3]> for Inertia {
+    fn from(matrix: [[f64; 3]; 3]) -> Self {
+        Self::Matrix(matrix)
+    }
+}
+
+impl From<Inertia> for Written {
+    fn from(inertia: Inertia) -> Self {
+        let mut fields = Fields::default();
+        match inertia {
+            Inertia::Principal(moments) => return moments.into(),
+            Inertia::Matrix(matrix) => return matrix.into(),
+            Inertia::Box(sides) => fields.set("box", sides),
+            Inertia::Cylinder(sizes) => fields.set("cylinder", sizes),
+            Inertia::Tube(sizes) => fields.set("tube", sizes),
+            Inertia::Sphere(radius) => fields.set("sphere", radius),
+        }
+        fields.into()
+    }
+}
+
+/// A 6 x 6 matrix, or its diagonal.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Matrix {
+    /// Its diagonal.
+    Diagonal([f64; 6]),
+    /// All of it.
+    Full(Box<[[f64; 6]; 6]>),
+}
+
+impl From<[f64; 6]> for Matrix {
+    fn from(diagonal: [f64; 6]) -> Self {
+        Self::Diagonal(diagonal)
+    }
+}
+
+impl From<[[f64; 6]; 6]> for Matrix {
+    fn from(matrix: [[f64; 6]; 6]) -> Self {
+        Self::Full(Box::new(matrix))
+    }
+}
+
+impl From<Matrix> for Written {
+    fn from(matrix: Matrix) -> Self {
+        match matrix {
+            Matrix::Diagonal(diagonal) => diagonal.into(),
+            Matrix::Full(rows) => (*rows).into(),
+        }
+    }
+}
+
+/// The mass of a section per length of the beam.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SectionMass(Written);
+
+impl From<[f64; 6]> for SectionMass {
+    fn from(diagonal: [f64; 6]) -> Self {
+        Self(diagonal.into())
+    }
+}
+
+impl From<[[f64; 6]; 6]> for SectionMass {
+    fn from(matrix: [[f64; 6]; 6]) -> Self {
+        Self(matrix.into())
+    }
+}
+
+impl From<SliceMass> for SectionMass {
+    fn from(mass: SliceMass) -> Self {
+        Self(mass.into())
+    }
+}
+
+impl From<SectionMass> for Written {
+    fn from(mass: SectionMass) -> Self {
+        mass.0
+    }
+}
+
+/// The shear coefficients of a section.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Shear {
+    /// One for both directions.
+    Both(f64),
+    /// Along axes 2 and 3.
+    Each([f64; 2]),
+    /// By Cowper's theory.
+    Cowper,
+    /// By Renton's theory.
+    Renton,
+}
+
+impl From<f64> for Shear {
+    fn from(coefficient: f64) -> Self {
+        Self::Both(coefficient)
+    }
+}
+
+impl From<[f64; 2]> for Shear {
+    fn from(coefficients: [f64; 2]) -> Self {
+        Self::Each(coefficients)
+    }
+}
+
+impl From<Shear> for Written {
+    fn from(shear: Shear) -> Self {
+        match shear {
+            Shear::Both(coefficient) => coefficient.into(),
+            Shear::Each(coefficients) => coefficients.into(),
+            Shear::Cowper => "cowper".to_owned().into(),
+            Shear::Renton => "renton".to_owned().into(),
+        }
+    }
+}

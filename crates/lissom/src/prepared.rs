@@ -1,0 +1,233 @@
+//! A model ready to run, shared by many sessions: its system is built once.
+
+use std::sync::Arc;
+
+use lissom_core::analysis::InitialError;
+use lissom_core::system::{Kinematics, State, System};
+use lissom_model::Document;
+use lissom_model::document::AnalysisKind;
+use lissom_model::lower::{Lowered, Plan, lower};
+
+use crate::builder::{ForeignId, IdNames, InputId, Part};
+use crate::session::{Session, SessionError};
+
+/// Largest violation of a constraint in a given state: of an angle [rad], and of a length over the size of the model.
+const LARGEST_VIOLATION: f64 = 1e-6;
+
+/// A model ready to run. Sessions that are started from it, or from its copies, share one [`System`], also in several threads.
+#[derive(Clone)]
+pub struct Prepared {
+    lowered: Lowered,
+    ids: Option<Arc<IdNames>>,
+}
+
+/// A state from which no session can start.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum StartError {
+    /// It does not fit the model.
+    #[error("the state has {found} {what}, the model {wanted}: it belongs to another model")]
+    OtherModel {
+        /// What there are too few or too many of.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        wanted: usize,
+    },
+    /// A number is not finite.
+    #[error("the state holds a number that is not finite")]
+    NotFinite,
+    /// Places do not satisfy the constraints.
+    #[error(
+        "the places of the state violate joint `{joint}` ({equation}) by {violation:.1e}: move all parts so that joints hold, \
+         or change the places in the model"
+    )]
+    Violated {
+        /// Name of the joint.
+        joint: String,
+        /// Which of its equations.
+        equation: &'static str,
+        /// By how much [m, rad].
+        violation: f64,
+    },
+    /// There are no consistent velocities or accelerations.
+    #[error(transparent)]
+    Initial(#[from] InitialError),
+}
+
+/// An id whose motion at the start cannot be set.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PartError {
+    /// The model was read from a text: its parts have names alone.
+    #[error("the model was not built in code: its parts have no ids")]
+    NotBuilt,
+    /// The id belongs to another model.
+    #[error(transparent)]
+    Foreign(#[from] ForeignId),
+    /// A beam has many nodes.
+    #[error("`{0}` is a beam: set the motion of its nodes in the state")]
+    Beam(String),
+}
+
+impl Prepared {
+    /// Makes a document ready to run.
+    ///
+    /// # Errors
+    /// If the model is wrong, or nothing in it is computed over time.
+    pub(crate) fn new(document: &Document, ids: Option<Arc<IdNames>>) -> Result<Self, SessionError> {
+        let kind = &document.analysis.kind;
+        if !matches!(kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
+            return Err(SessionError::NotInTime(kind.name()));
+        }
+        Ok(Self { lowered: lower(document)?, ids })
+    }
+
+    /// The system that all sessions share.
+    pub fn system(&self) -> &Arc<System> {
+        &self.lowered.system
+    }
+
+    /// The state at the start, as the model gives it: accelerations and multipliers are still to be found.
+    pub fn state(&self) -> &State {
+        &self.lowered.state
+    }
+
+    /// A session at the start that the model gives.
+    ///
+    /// # Errors
+    /// If there are no consistent initial values.
+    pub fn session(&self) -> Result<Session, InitialError> {
+        Ok(Session::start(self.lowered.clone())?.with_ids(self.ids.clone()))
+    }
+
+    /// A session that starts from `state`, at its time: from its places, velocities and held values. Velocities are made to fit
+    /// the constraints, accelerations and multipliers follow. This is a new start; to go on to the last bit, use
+    /// [`Session::snapshot`] or [`Session::try_clone`].
+    ///
+    /// # Errors
+    /// If the state does not fit the model, or its places violate the constraints.
+    pub fn session_from(&self, state: State) -> Result<Session, StartError> {
+        self.check(&state)?;
+        let mut lowered = self.lowered.clone();
+        lowered.settings.from_equilibrium = false;
+        lowered.plan = plan_from(&lowered.plan, state.kinematics.time, lowered.settings.step_size);
+        lowered.state = state;
+        lowered.state.kinematics.elapsed = 0.0;
+        Ok(Session::start(lowered)?.with_ids(self.ids.clone()))
+    }
+
+    /// Makes `velocity` [m/s, global axes] and `angular_velocity` [rad/s, body axes] those of a body or point mass in `state`.
+    ///
+    /// # Errors
+    /// If the part is a beam, or of another model.
+    pub fn set_velocity(
+        &self,
+        state: &mut State,
+        part: impl Into<Part>,
+        velocity: impl Into<[f64; 3]>,
+        angular_velocity: impl Into<[f64; 3]>,
+    ) -> Result<(), PartError> {
+        let name = self.ids()?.name(part.into().id())?;
+        let Some(node) =
+            self.lowered.names.nodes.get(name).and_then(|&node| state.kinematics.nodes.get_mut(node))
+        else {
+            return Err(PartError::Beam(name.to_owned()));
+        };
+        let velocity = node.frame.rotation.apply_inverse(&velocity.into().into());
+        let angular: [f64; 3] = angular_velocity.into();
+        for axis in 0..3 {
+            node.twist[axis] = velocity[axis];
+            node.twist[axis + 3] = angular[axis];
+        }
+        Ok(())
+    }
+
+    /// Makes `value` that of an input in `state`.
+    ///
+    /// # Errors
+    /// If the input belongs to another model.
+    pub fn set_input(&self, state: &mut State, input: InputId, value: f64) -> Result<(), PartError> {
+        let name = self.ids()?.name(input)?;
+        let held =
+            self.lowered.system.signals().input(name).and_then(|held| state.kinematics.held.get_mut(held));
+        if let Some(held) = held {
+            *held = value;
+        }
+        Ok(())
+    }
+
+    fn ids(&self) -> Result<&IdNames, PartError> {
+        self.ids.as_deref().ok_or(PartError::NotBuilt)
+    }
+
+    fn check(&self, state: &State) -> Result<(), StartError> {
+        let own = &self.lowered.state;
+        let sizes = |state: &State| {
+            let Kinematics { nodes, coordinates, held, .. } = &state.kinematics;
+            [
+                ("nodes", nodes.len()),
+                ("coordinates", coordinates.len()),
+                ("held values", held.len()),
+                ("multipliers", state.multipliers.len()),
+                ("violations", state.violations.len()),
+                ("remembered accelerations", state.algorithmic.len()),
+                ("remainders", state.position_remainders.len()),
+            ]
+        };
+        for ((what, found), (_, wanted)) in sizes(state).into_iter().zip(sizes(own)) {
+            if found != wanted {
+                return Err(StartError::OtherModel { what, found, wanted });
+            }
+        }
+        if !is_finite(&state.kinematics) {
+            return Err(StartError::NotFinite);
+        }
+        let system = &self.lowered.system;
+        let violations = |at: &Kinematics| {
+            let mut all = vec![0.0; system.layout().multiplier_rows().len()];
+            system.violations(at, &mut all);
+            all
+        };
+        let positions = state.kinematics.nodes.iter().map(|node| node.frame.position);
+        let size = positions.map(|position| position.amax()).fold(0.0, f64::max);
+        let rows = &system.layout().quantities()[system.layout().multiplier_rows()];
+        let given = violations(&state.kinematics);
+        for (index, ((violation, known), quantity)) in
+            given.iter().zip(violations(&own.kinematics)).zip(rows).enumerate()
+        {
+            let unit = if *quantity == lissom_core::joints::Quantity::Angle { 1.0 } else { size };
+            // What the model starts with is told when it is read.
+            if violation.abs() > known.abs() + LARGEST_VIOLATION * unit {
+                let (joint, equation) = system.layout().constraint_name(index);
+                return Err(StartError::Violated {
+                    joint: joint.to_owned(),
+                    equation,
+                    violation: violation.abs(),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn is_finite(at: &Kinematics) -> bool {
+    let of_node = |node: &lissom_core::system::NodeMotion| {
+        node.frame.position.iter().chain(node.twist.iter()).all(|number| number.is_finite())
+            && node.frame.rotation.quaternion().iter().all(|number| number.is_finite())
+    };
+    at.time.is_finite()
+        && at.nodes.iter().all(of_node)
+        && at.coordinates.iter().all(|own| own.value.is_finite() && own.rate.is_finite())
+        && at.held.iter().all(|held| held.is_finite())
+}
+
+/// The rest of a plan from `time` [s] on, in planned steps of `size` [s].
+fn plan_from(plan: &Plan, time: f64, size: f64) -> Plan {
+    if time == plan.start {
+        return *plan;
+    }
+    let rest = ((plan.end - time) / size - 1e-6).ceil().max(0.0);
+    Plan { start: time, end: plan.end.max(time), steps: rest as usize, ..*plan }
+}

@@ -1,0 +1,110 @@
+//! A session of a model that was built in code: what ids of the builder mean in it, and copies of it.
+
+use std::ops::Range;
+use std::sync::Arc;
+use std::time::Instant;
+
+use lissom_core::analysis::InputError;
+use lissom_core::stepping::SnapshotError;
+use lissom_core::system::State;
+
+use super::Session;
+use crate::builder::{ForeignId, IdNames, InputId, OutputId, Quantity};
+use crate::spent::Spent;
+
+/// An id that cannot be read or set.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The model was read from a text: its parts have names alone.
+    #[error("the model was not built in code: ask for its quantities by name")]
+    NotBuilt,
+    /// The id belongs to another model.
+    #[error(transparent)]
+    Foreign(#[from] ForeignId),
+    /// The input cannot be set.
+    #[error(transparent)]
+    Input(#[from] InputError),
+}
+
+impl Session {
+    fn ids(&self) -> Result<&IdNames, ReadError> {
+        self.ids.as_deref().ok_or(ReadError::NotBuilt)
+    }
+
+    pub(crate) fn with_ids(self, ids: Option<Arc<IdNames>>) -> Self {
+        Self { ids, ..self }
+    }
+
+    /// Positions, velocities, accelerations and multipliers, now. A session starts from a state with
+    /// [`Prepared::session_from`](crate::Prepared::session_from).
+    pub fn state(&self) -> &State {
+        self.simulation.state()
+    }
+
+    /// The components of an output, now, in the order of its columns [SI].
+    ///
+    /// # Errors
+    /// If the output belongs to another model.
+    pub fn output(&self, output: OutputId) -> Result<Vec<f64>, ReadError> {
+        let name = self.ids()?.name(output)?;
+        let mut values = Vec::new();
+        if let Some(channel) = self.channels.iter().find(|channel| channel.name == name) {
+            channel.evaluate(self.simulation.system(), self.simulation.state(), &mut values);
+        }
+        Ok(values)
+    }
+
+    /// Where the components of an output stand among the [`columns`](Self::columns), and in what is recorded.
+    ///
+    /// # Errors
+    /// If the output belongs to another model.
+    pub fn columns_of(&self, output: OutputId) -> Result<Range<usize>, ReadError> {
+        let name = self.ids()?.name(output)?;
+        let is_own = |column: &crate::Column| column.output == name;
+        let first = self.columns.iter().position(is_own).unwrap_or(0);
+        Ok(first..first + self.columns.iter().filter(|column| is_own(column)).count())
+    }
+
+    /// The value of a signal, an input or a state, now.
+    ///
+    /// # Errors
+    /// If it belongs to another model.
+    pub fn quantity(&self, quantity: impl Into<Quantity>) -> Result<f64, ReadError> {
+        let id = quantity.into().id();
+        self.value(self.ids()?.name(id)?).ok_or_else(|| id.foreign().into())
+    }
+
+    /// Sets an input from now on, until it is set again.
+    ///
+    /// # Errors
+    /// If it belongs to another model, if the value is not finite, or nothing can move so.
+    pub fn set(&mut self, input: InputId, value: f64) -> Result<(), ReadError> {
+        let name = self.ids()?.name(input)?.to_owned();
+        Ok(self.set_input(&name, value)?)
+    }
+
+    /// A second session that stands where this one does, and goes on from there to the same bits. It shares the system, and
+    /// writes no states.
+    ///
+    /// # Errors
+    /// If the tangent in use cannot be factored again.
+    pub fn try_clone(&self) -> Result<Self, SnapshotError> {
+        let simulation = self.simulation.try_clone()?;
+        Ok(Self {
+            simulation,
+            channels: self.channels.clone(),
+            columns: self.columns.clone(),
+            signals: self.signals.clone(),
+            schedule: self.schedule.clone(),
+            tally: self.tally.clone(),
+            spent: Spent::new(),
+            scale: self.scale,
+            telemetry: self.telemetry.clone(),
+            state_writers: Vec::new(),
+            warnings: self.warnings.clone(),
+            ids: self.ids.clone(),
+            began: Instant::now(),
+        })
+    }
+}
