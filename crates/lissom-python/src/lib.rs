@@ -1,6 +1,8 @@
 //! The compiled part of the Python package `lissom`. The package itself, in `python/`, holds what users see; here are the
 //! classes and functions it is made of. No mechanics is done here.
 
+mod analyses;
+mod animation;
 mod errors;
 mod model;
 mod results;
@@ -21,6 +23,16 @@ fn _lissom(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<model::NativeModel>()?;
     module.add_class::<simulation::Simulation>()?;
     module.add_class::<sweep::NativeSweep>()?;
+    module.add_function(wrap_pyfunction!(analyses::modes, module)?)?;
+    module.add_function(wrap_pyfunction!(analyses::buckling, module)?)?;
+    module.add_function(wrap_pyfunction!(analyses::gradient, module)?)?;
+    module.add_function(wrap_pyfunction!(analyses::campbell, module)?)?;
+    module.add_function(wrap_pyfunction!(analyses::response, module)?)?;
+    module.add_function(wrap_pyfunction!(analyses::linearize, module)?)?;
+    module.add_function(wrap_pyfunction!(analyses::path, module)?)?;
+    module.add_function(wrap_pyfunction!(animation::animation, module)?)?;
+    module.add_function(wrap_pyfunction!(animation::modes_animation, module)?)?;
+    module.add_function(wrap_pyfunction!(animation::folder_animation, module)?)?;
     module.add_function(wrap_pyfunction!(results::read_folder, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::statistics, module)?)?;
     Ok(())

@@ -4,7 +4,7 @@ use std::num::NonZero;
 use std::path::PathBuf;
 
 use lissom::core::analysis::mobility::{Redundant, mobility};
-use lissom::{Model, Override, Record, Session, SessionError, Stopped, summary};
+use lissom::{Document, Model, Override, Record, Session, SessionError, Stopped, summary};
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;
 use pyo3::prelude::*;
@@ -28,6 +28,24 @@ impl NativeModel {
         lower(&document).map_err(|report| of_report(&report))?;
         Ok(Self { model, overrides })
     }
+
+    /// The checked document.
+    pub(crate) fn document(&self) -> PyResult<Document> {
+        self.model.document(&self.overrides).map_err(|report| of_report(&report))
+    }
+
+    /// Refuses a model whose analysis has no course in time.
+    pub(crate) fn in_time(document: &Document) -> PyResult<()> {
+        match document.analysis.kind {
+            AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } => Ok(()),
+            _ => Err(of_session(&SessionError::NotInTime(document.analysis.kind.name()))),
+        }
+    }
+}
+
+/// So many threads, or one per processor.
+pub(crate) fn threads_or_all(threads: Option<NonZero<usize>>) -> NonZero<usize> {
+    threads.unwrap_or_else(|| std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN))
 }
 
 #[pymethods]
@@ -79,7 +97,7 @@ impl NativeModel {
 
     /// Sizes, freedoms, redundant constraints and warnings.
     fn check<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyDict>> {
-        let document = self.model.document(&self.overrides).map_err(|report| of_report(&report))?;
+        let document = self.document()?;
         let lowered = lower(&document).map_err(|report| of_report(&report))?;
         let freedom = mobility(&lowered.system, &lowered.state);
         let facts = PyDict::new(py);
@@ -118,9 +136,14 @@ impl NativeModel {
     }
 
     /// A session at the start of the model.
-    fn simulation(&self, py: Python<'_>) -> PyResult<Simulation> {
-        let start = || self.model.session(&self.overrides).map_err(|error| of_session(&error));
-        Ok(Simulation::new(py.detach(start)?))
+    fn simulation(slf: Bound<'_, Self>) -> PyResult<Simulation> {
+        let model = slf.get();
+        let (session, document) = slf.py().detach(|| {
+            let document = model.document()?;
+            let session = Session::new(&document).map_err(|error| of_session(&error))?;
+            Ok::<_, PyErr>((session, document))
+        })?;
+        Ok(Simulation::new(session, document, slf.unbind()))
     }
 }
 
@@ -130,13 +153,10 @@ impl NativeModel {
         progress: Option<&Py<PyAny>>,
         threads: Option<NonZero<usize>>,
     ) -> PyResult<(Record, String, Option<String>)> {
-        let document = self.model.document(&self.overrides).map_err(|report| of_report(&report))?;
+        let document = self.document()?;
         let mut lowered = lower(&document).map_err(|report| of_report(&report))?;
-        if !matches!(document.analysis.kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
-            return Err(of_session(&SessionError::NotInTime(document.analysis.kind.name())));
-        }
-        let processors = || std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
-        lowered.settings.threads = threads.unwrap_or_else(processors).get();
+        Self::in_time(&document)?;
+        lowered.settings.threads = threads_or_all(threads).get();
         let mut summary = summary::of_model(self.model.name(), &self.overrides, &document, &lowered);
         let mut session = match Session::start(lowered) {
             Ok(session) => session,

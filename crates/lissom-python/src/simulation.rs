@@ -4,13 +4,15 @@ use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use lissom::core::analysis::InputError;
-use lissom::{Session, SessionSnapshot};
+use lissom::{Document, Session, SessionSnapshot};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
+use crate::analyses::linearize_here;
 use crate::errors::SolutionError;
+use crate::model::NativeModel;
 use crate::watch::Watch;
 
 /// A session and the values of its columns.
@@ -37,16 +39,18 @@ impl Inner {
 #[pyclass(frozen, module = "lissom")]
 pub(crate) struct Simulation {
     inner: Mutex<Inner>,
+    model: Py<NativeModel>,
+    document: Document,
     names: Vec<String>,
     indices: HashMap<String, usize>,
 }
 
 impl Simulation {
-    pub(crate) fn new(session: Session) -> Self {
+    pub(crate) fn new(session: Session, document: Document, model: Py<NativeModel>) -> Self {
         let names: Vec<String> = session.columns().iter().map(lissom::Column::name).collect();
         let indices = names.iter().enumerate().map(|(index, name)| (name.clone(), index)).collect();
         let inner = Mutex::new(Inner { session, values: Vec::new(), are_current: false });
-        Self { inner, names, indices }
+        Self { inner, model, document, names, indices }
     }
 
     fn lock(&self) -> MutexGuard<'_, Inner> {
@@ -178,6 +182,24 @@ impl Simulation {
             return Err(PyKeyError::new_err(format!("`{name}` is no column; the columns are {known}")));
         };
         Ok(self.lock().values()[index])
+    }
+
+    /// The model linearised where the simulation stands, a `lissom.LinearModel`: what `model.linearize` gives about this
+    /// time. `inputs` name inputs, loads and prescribed motions, `outputs` outputs or columns of them.
+    ///
+    /// Raises `ModelError` if there is no such input or output, `SolutionError` if the model is at rest without being in
+    /// equilibrium.
+    #[pyo3(signature = (inputs = Vec::new(), outputs = Vec::new()))]
+    fn linearize<'py>(
+        &self,
+        py: Python<'py>,
+        inputs: Vec<String>,
+        outputs: Vec<String>,
+    ) -> PyResult<Bound<'py, PyAny>> {
+        let model = self.model.get();
+        let files =
+            py.detach(|| linearize_here(&self.lock().session, model, &self.document, (&inputs, &outputs)))?;
+        py.import("lissom._linear")?.getattr("LinearModel")?.call_method1("_of", files)
     }
 
     /// Where the simulation stands, as bytes that can be kept, sent and pickled.

@@ -176,10 +176,21 @@ fn after<T, E: From<ModesError>>(
     }
     let mut session = Session::new(&document).map_err(ModesError::from)?;
     session.step_to(time).map_err(ModesError::from)?;
+    now(&session, &document, then)
+}
+
+/// Linearises where `session`, which runs `document`, stands.
+pub(crate) fn now<T, E: From<ModesError>>(
+    session: &Session,
+    document: &Document,
+    then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
+) -> Result<T, E> {
+    let is_static = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
+    let time = session.progress().time;
     let simulation = session.simulation();
     let model = linear(simulation.system(), simulation.state(), simulation.settings())?;
     if is_static {
-        if time > start {
+        if time > document.analysis.start {
             balanced(&model, "state that was reached", STILL_BALANCED, "take more load steps")?;
         } else {
             let hint = "no load step leads to this time: take a later one";

@@ -11,10 +11,11 @@ use lissom_model::Document;
 use lissom_model::output::{Summary, full_matrix, quoted, sparse_matrix};
 use serde_json::{Value, json};
 
-use crate::about::{About, Reached};
+use crate::about::{self, About, Reached};
 use crate::model::{Model, Override};
 use crate::ports::{self, Input, Observed};
 use crate::response::FrequencyError;
+use crate::session::Session;
 
 /// What is asked for.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,6 +66,28 @@ pub fn linearize(
         Ok(told(reached, &inputs, &outputs))
     })?;
     report.about = request.about.name();
+    report.wall = began.elapsed();
+    Ok(report)
+}
+
+/// Linearises the model of `document` where `session`, which runs it, stands: what [`linearize`] gives about that time.
+/// `inputs` and `outputs` are named as in [`LinearizeRequest`].
+///
+/// # Errors
+/// If an input or output does not exist, or the state is at rest without being in equilibrium.
+pub fn linearize_session(
+    session: &Session,
+    document: &Document,
+    inputs: &[String],
+    outputs: &[String],
+) -> Result<LinearizeReport, FrequencyError> {
+    let began = Instant::now();
+    let mut report = about::now(session, document, |reached| -> Result<_, FrequencyError> {
+        let inputs = ports::inputs(document, &reached, inputs)?;
+        let outputs = ports::outputs(&reached, outputs)?;
+        Ok(told(reached, &inputs, &outputs))
+    })?;
+    report.about = About::Time(session.progress().time).name();
     report.wall = began.elapsed();
     Ok(report)
 }

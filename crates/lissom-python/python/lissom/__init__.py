@@ -8,21 +8,35 @@
 All quantities are in SI units. Exceptions are `ModelError` and `SolutionError`, with the texts of the command line.
 """
 
+from ._analyses import Buckling, Campbell, Gradient, Modes, Path, Response
+from ._animation import Animation
+from ._linear import LinearModel, StateSpace
 from ._lissom import LissomError, ModelError, Simulation, SolutionError, __version__
 from ._model import Model, ModelWarning, load, loads
 from ._result import Result, read
 from ._sweep import SolutionWarning, SweepTable, sweep
+from ._tables import Table
 
 __all__ = [
+    "Animation",
+    "Buckling",
+    "Campbell",
+    "Gradient",
+    "LinearModel",
     "LissomError",
     "Model",
     "ModelError",
     "ModelWarning",
+    "Modes",
+    "Path",
+    "Response",
     "Result",
     "Simulation",
     "SolutionError",
     "SolutionWarning",
+    "StateSpace",
     "SweepTable",
+    "Table",
     "__version__",
     "load",
     "loads",

@@ -2,6 +2,8 @@
 
 from typing import Any, Callable, Optional, final
 
+from ._linear import LinearModel
+from ._tables import Files
 from ._types import Array, Outcome, Parts
 
 _Progress = Optional[Callable[[float, float], object]]
@@ -87,6 +89,13 @@ class Simulation:
         Raises `ValueError` if the model has no such input or the value is not finite, `SolutionError` if there is no
         consistent start with it.
         """
+    def linearize(self, inputs: list[str] = ..., outputs: list[str] = ...) -> LinearModel:
+        """The model linearised where the simulation stands, a `lissom.LinearModel`: what `model.linearize` gives about this
+        time. `inputs` name inputs, loads and prescribed motions, `outputs` outputs or columns of them.
+
+        Raises `ModelError` if there is no such input or output, `SolutionError` if the model is at rest without being in
+        equilibrium.
+        """
     def snapshot(self) -> bytes:
         """Where the simulation stands, as bytes that can be kept, sent and pickled."""
     def restore(self, snapshot: bytes) -> None:
@@ -108,5 +117,21 @@ class NativeSweep:
         self, folder: str, restart: bool, workers: Optional[int], progress: _Progress
     ) -> list[Outcome]: ...
 
+def modes(model: NativeModel, count: Optional[int], state: Optional[str], shift: Optional[float]) -> Files: ...
+def buckling(model: NativeModel, count: Optional[int]) -> Files: ...
+def gradient(model: NativeModel, of: str, by: list[str]) -> Files: ...
+def campbell(
+    model: NativeModel, path: str, range: tuple[float, float, int], count: int, rays: list[int]
+) -> Files: ...
+def response(
+    model: NativeModel, inputs: list[str], outputs: list[str], range: tuple[float, float, int], state: str
+) -> Files: ...
+def linearize(model: NativeModel, inputs: list[str], outputs: list[str], state: str) -> Files: ...
+def path(model: NativeModel) -> tuple[Parts, Optional[str]]: ...
+def animation(model: NativeModel, threads: Optional[int]) -> str: ...
+def modes_animation(
+    model: NativeModel, count: Optional[int], state: Optional[str], shift: Optional[float]
+) -> str: ...
+def folder_animation(folder: str) -> str: ...
 def read_folder(folder: str) -> Parts: ...
 def statistics() -> tuple[dict[str, str], dict[str, str]]: ...

@@ -5,14 +5,19 @@ from __future__ import annotations
 import os
 import sys
 import warnings
-from collections.abc import Callable
-from typing import Any, Union
+from collections.abc import Callable, Sequence
+from typing import Any, TypeVar, Union
 
-from . import _toml
+from . import _lissom, _toml
+from ._analyses import Buckling, Campbell, Gradient, Modes, Path, Response
+from ._linear import LinearModel, linear_model
 from ._lissom import NativeModel, Simulation, SolutionError
 from ._result import Result
 
 Progress = Union[bool, Callable[[float, float], object]]
+#: `"static"`, `"undeformed"`, `"rotation"` or a time [s].
+About = Union[str, float]
+Told = TypeVar("Told", Modes, Buckling, Campbell, Response, LinearModel)
 
 
 class ModelWarning(UserWarning):
@@ -96,7 +101,7 @@ class Model:
             parts, failure = self._native.run(show, threads)
         finally:
             clear()
-        result = Result._of(parts)
+        result = Result._of(parts, lambda: _lissom.animation(self._native, threads))
         if failure is not None:
             error = SolutionError(failure)
             error.result = result
@@ -114,6 +119,120 @@ class Model:
             SolutionError: if there are no consistent initial values.
         """
         return self._native.simulation()
+
+    def modes(self, count: int | None = None, *, about: About | None = None, shift: float | None = None) -> Modes:
+        """Natural modes, as `lissom modes` finds them.
+
+        Args:
+            count: how many, the lowest first; 20 where neither this nor the model says otherwise.
+            about: the state: `"static"`, `"undeformed"`, `"rotation"` (steady, with the velocities of the file) or a time of
+                the model's analysis [s].
+            shift: seek the modes nearest to this frequency [Hz].
+
+        Raises:
+            ModelError: if the question makes no sense for the model. SolutionError: if the state is not reached or no
+            equilibrium, or modes were missed.
+        """
+        question = (_at_least(1, count, "count"), None if about is None else _about(about), None if shift is None else float(shift))
+        found = Modes(_lissom.modes(self._native, *question), lambda: _lissom.modes_animation(self._native, *question))
+        return self._told(found)
+
+    def buckling(self, count: int | None = None) -> Buckling:
+        """Load factors at which the model buckles, by a linear estimate, as `lissom buckling` finds them."""
+        return self._told(Buckling(_lissom.buckling(self._native, _at_least(1, count, "count"))))
+
+    def path(self, **analysis: Any) -> Path:
+        """Follows the equilibria under the loads times a load factor, as `lissom run` does for an analysis of kind `path`.
+
+        Args:
+            analysis: keys of that analysis, as `end=1.2, step=0.05`; they take the place of the model's table
+                `[analysis]`. Without any, the model's own analysis must be of kind `path`.
+
+        Raises:
+            SolutionError: if the path cannot be followed to its end; `error.result` holds what was found before.
+        """
+        model = self.replace({"analysis": {"kind": "path", **analysis}}) if analysis else self
+        parts, failure = _lissom.path(model._native)
+        path = Path._of(parts)
+        if failure is not None:
+            error = SolutionError(failure)
+            error.result = path
+            raise error
+        return path
+
+    def gradient(self, of: str, by: str | Sequence[str]) -> Gradient:
+        """Derivatives of an output by numbers of the model file, along the steps of a run, as `lissom gradient` finds them.
+
+        Args:
+            of: a column, and what of it: `tip.u3` (at the end), `tip.u3@0.5` (at a time), `tip.u3@max`, `tip.u3@rms`.
+            by: paths of numbers, as `["bodies.top.mass", "springs.s.stiffness"]`.
+        """
+        return Gradient(_lissom.gradient(self._native, of, _names(by)))
+
+    def campbell(
+        self,
+        path: str,
+        start: float,
+        end: float,
+        values: int = 41,
+        *,
+        count: int = 8,
+        rays: Sequence[int] = (1, 2, 3),
+    ) -> Campbell:
+        """Natural frequencies over a number of the model file, as `lissom campbell` finds them.
+
+        Args:
+            path: the number, as `parameters.speed`.
+            start: its first value.
+            end: its last value.
+            values: how many values.
+            count: how many modes, the lowest first.
+            rays: multiples of the rotation whose crossings are critical speeds.
+        """
+        asked = (float(start), float(end), _at_least(2, values, "values") or 2)
+        multiples = [_at_least(1, ray, "rays") or 1 for ray in rays]
+        files = _lissom.campbell(self._native, path, asked, _at_least(1, count, "count") or 1, multiples)
+        return self._told(Campbell(files))
+
+    def response(
+        self,
+        inputs: str | Sequence[str],
+        outputs: str | Sequence[str],
+        start: float,
+        end: float,
+        points: int = 400,
+        *,
+        about: About = "static",
+    ) -> Response:
+        """Response of outputs to harmonic inputs of the linearised model, as `lissom response` finds it.
+
+        Args:
+            inputs: inputs, loads (per unit of size) or prescribed motions (per m or rad).
+            outputs: outputs, or columns of them.
+            start: first frequency [Hz].
+            end: last frequency [Hz].
+            points: number of frequencies in equal ratios; more are put where a response changes fast.
+            about: the state, as for `modes`.
+        """
+        asked = (float(start), float(end), _at_least(2, points, "points") or 2)
+        return self._told(Response(_lissom.response(self._native, _names(inputs), _names(outputs), asked, _about(about))))
+
+    def linearize(
+        self, inputs: str | Sequence[str] = (), outputs: str | Sequence[str] = (), *, about: About = "static"
+    ) -> LinearModel:
+        """The linear model about a state: M, D, K, G, and A, B, C, D of small models, as `lissom linearize` leaves them.
+
+        Args:
+            inputs: inputs, loads (per unit of size) or prescribed motions (per m or rad).
+            outputs: outputs, or columns of them.
+            about: the state, as for `modes`.
+        """
+        return self._told(linear_model(_lissom.linearize(self._native, _names(inputs), _names(outputs), _about(about))))
+
+    def _told(self, found: Told) -> Told:
+        for words in found.warnings:
+            warnings.warn(words, ModelWarning, stacklevel=3)
+        return found
 
     def __repr__(self) -> str:
         return f"<lissom.Model {self.name!r}, {self._facts['unknowns']} unknowns>"
@@ -136,6 +255,23 @@ def load(path: str | os.PathLike[str], /, **overrides: Any) -> Model:
 def loads(text: str, name: str = "model", /, **overrides: Any) -> Model:
     """A model from a text; `name` is what messages call it. Otherwise as `load`."""
     return Model._of(NativeModel(text, name, _toml.overrides(overrides)))
+
+
+def _names(names: str | Sequence[str]) -> list[str]:
+    return [names] if isinstance(names, str) else [str(name) for name in names]
+
+
+def _about(state: About) -> str:
+    """The words of the command line."""
+    return state if isinstance(state, str) else repr(float(state))
+
+
+def _at_least(least: int, number: int | None, name: str) -> int | None:
+    if number is None:
+        return None
+    if number != int(number) or not least <= number < 2**32:
+        raise ValueError(f"`{name}` is {number}: it must be a whole number, {least} at least")
+    return int(number)
 
 
 def _shown(progress: Progress) -> tuple[Callable[[float, float], object] | None, Callable[[], None]]:

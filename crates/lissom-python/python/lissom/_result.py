@@ -2,23 +2,36 @@
 
 from __future__ import annotations
 
-import difflib
 import json
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from . import _lissom
+from ._animation import Animation
+from ._tables import known
 from ._types import Array, Parts
 
 if TYPE_CHECKING:
     import pandas
+    from typing_extensions import Self
 
 
 class Result:
     """Columns over time, in SI units. `result["midspan.u2"]` is an array of shape (number of records,)."""
 
-    def __init__(self, time: Array, columns: dict[str, Array], units: dict[str, str], summary: dict[str, Any]) -> None:
+    def __init__(
+        self,
+        time: Array,
+        columns: dict[str, Array],
+        units: dict[str, str],
+        summary: dict[str, Any],
+        page: Callable[[], str] | None = None,
+    ) -> None:
+        self._page = page
         #: Times of the records [s], of shape (number of records,).
         self.time = time
         #: Unit of each column, as `m`; empty for none.
@@ -28,9 +41,9 @@ class Result:
         self._columns = columns
 
     @classmethod
-    def _of(cls, parts: Parts) -> Result:
+    def _of(cls, parts: Parts, page: Callable[[], str] | None = None) -> Self:
         time, names, units, arrays, summary = parts
-        return cls(time, dict(zip(names, arrays)), dict(zip(names, units)), json.loads(summary))
+        return cls(time, dict(zip(names, arrays)), dict(zip(names, units)), json.loads(summary), page)
 
     @property
     def names(self) -> list[str]:
@@ -43,12 +56,7 @@ class Result:
         return bool(self.summary.get("stopped") == "end")
 
     def __getitem__(self, name: str) -> Array:
-        try:
-            return self._columns[name]
-        except KeyError:
-            near = difflib.get_close_matches(name, self._columns, n=1)
-            help = f"did you mean `{near[0]}`?" if near else "the columns are " + ", ".join(self._columns)
-            raise KeyError(f"`{name}` is no column; {help}") from None
+        return self._columns[known(name, self._columns, "column")]
 
     def __contains__(self, name: object) -> bool:
         return name in self._columns
@@ -65,15 +73,57 @@ class Result:
 
         return pandas.DataFrame(self._columns, index=pandas.Index(self.time, name="time"))
 
+    def to_npz(self, path: str | os.PathLike[str]) -> None:
+        """Writes a NumPy archive: `time`, every column under its name, and `lissom`, units and summary as JSON.
+
+        `lissom.read` and `numpy.load` read it, to the last bit. The file has the ending `.npz`.
+        """
+        target = Path(path)
+        if target.suffix != ".npz":
+            raise ValueError(f"the name of a NumPy archive ends with `.npz`, not `{target.name}`")
+        taken = [name for name in self._columns if name in ("time", "lissom", "file")]
+        if taken:
+            raise ValueError(f"an archive cannot hold a column called `{taken[0]}`: give the output another name")
+        about = json.dumps({"units": self.units, "summary": self.summary})
+        arrays: dict[str, Any] = {"time": self.time, **self._columns, "lissom": np.array(about)}
+        np.savez(target, **arrays)
+
+    @classmethod
+    def _of_npz(cls, path: Path) -> Self:
+        with np.load(path, allow_pickle=False) as archive:
+            if "lissom" not in archive or "time" not in archive:
+                raise ValueError(f"`{path}` was not written by `Result.to_npz`")
+            about = json.loads(str(archive["lissom"]))
+            columns = {name: archive[name] for name in archive.files if name not in ("time", "lissom")}
+            return cls(archive["time"], columns, about["units"], about["summary"])
+
+    def plot(self, *names: str) -> Any:
+        """Columns over time as a `matplotlib.figure.Figure`: all outputs, or the outputs and columns that are named."""
+        from ._plots import result_figure
+
+        return result_figure(self, names, "time [s]")
+
+    def animate(self) -> Animation:
+        """The page that shows the model moving beside its plots, for a cell of a notebook: what `lissom view` writes.
+
+        Results of `Model.run` have no motion in them: the model runs once more. Those of a folder show what is there.
+        """
+        if self._page is None:
+            raise ValueError("these results have no model and no folder from which a motion could be shown")
+        return Animation(self._page())
+
     def __repr__(self) -> str:
         stopped = self.summary.get("stopped", "unknown")
         return f"<lissom.Result of {len(self.time)} records, {len(self._columns)} columns, stopped: {stopped}>"
 
 
-def read(folder: str | os.PathLike[str]) -> Result:
-    """What `lissom run` left in a folder. Ask `is_complete` whether that run reached its end.
+def read(path: str | os.PathLike[str]) -> Result:
+    """What `lissom run` left in a folder, or `Result.to_npz` in a file. Ask `is_complete` whether that run reached its end.
 
     Raises:
         OSError: if there is no table. ValueError: if it is damaged.
     """
-    return Result._of(_lissom.read_folder(os.fspath(folder)))
+    if os.fspath(path).endswith(".npz"):
+        return Result._of_npz(Path(path))
+    folder = os.fspath(path)
+    return Result._of(_lissom.read_folder(folder), lambda: _lissom.folder_animation(folder))

@@ -1,0 +1,84 @@
+"""Pictures with matplotlib, which only these calls need."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from ._analyses import Campbell, Response
+    from ._result import Result
+
+
+def _figure(rows: int, width: float = 8.0, height: float = 2.6) -> tuple[Any, Any]:
+    try:
+        import matplotlib.pyplot as pyplot
+    except ImportError:
+        raise ImportError("plots need matplotlib: pip install matplotlib") from None
+    figure, axes = pyplot.subplots(
+        rows, 1, sharex=True, squeeze=False, figsize=(width, height * rows + 0.6), layout="constrained"
+    )
+    return figure, axes[:, 0]
+
+
+def result_figure(result: Result, names: Sequence[str], label: str) -> Any:
+    """Columns over time, one picture for each output, or for each name that is given."""
+    groups: dict[str, list[str]] = {}
+    for column in result.names:
+        groups.setdefault(column.rsplit(".", 1)[0], []).append(column)
+    chosen: list[tuple[str, list[str]]] = []
+    for name in names or groups:
+        if name in groups:
+            chosen.append((name, groups[name]))
+        else:
+            result[name]  # tells which column may be meant
+            chosen.append((name, [name]))
+    if not chosen:
+        raise ValueError("there is nothing to plot: the model records no outputs")
+    figure, axes = _figure(len(chosen))
+    for ax, (group, columns) in zip(axes, chosen):
+        for column in columns:
+            ax.plot(result.time, result[column], label=column.rsplit(".", 1)[-1])
+        units = list(dict.fromkeys(result.units[column] for column in columns))
+        ax.set_ylabel(f"{group} [{', '.join(units)}]" if any(units) else group)
+        if len(columns) > 1:
+            ax.legend(loc="upper right", fontsize="small")
+        ax.grid(True, alpha=0.3)
+    axes[-1].set_xlabel(label)
+    title = result.summary.get("title")
+    if title:
+        figure.suptitle(title)
+    return figure
+
+
+def bode_figure(response: Response) -> Any:
+    """Magnitudes and phases over frequency."""
+    figure, (above, below) = _figure(2)
+    for name in response:
+        amplitudes = response[name]
+        unit = response.units[name]
+        above.loglog(response.frequencies, np.abs(amplitudes), label=f"{name} [{unit}]" if unit else name)
+        below.semilogx(response.frequencies, np.degrees(np.angle(amplitudes)), label=name)
+    above.set_ylabel("magnitude")
+    below.set_ylabel("phase [°]")
+    below.set_xlabel("frequency [Hz]")
+    above.legend(fontsize="small")
+    for ax in (above, below):
+        ax.grid(True, which="both", alpha=0.3)
+    return figure
+
+
+def campbell_figure(campbell: Campbell) -> Any:
+    """Frequencies over the parameter, and where they meet multiples of the rotation."""
+    figure, (ax,) = _figure(1, height=4.4)
+    for number in range(1, campbell.summary["lines"] + 1):
+        values, frequencies = campbell.line(number)
+        ax.plot(values, frequencies, marker=".", markersize=3)
+    for crossing in campbell.critical_speeds:
+        ax.plot(crossing["value"], crossing["multiple"] * crossing["rotation"], "kx")
+    ax.set_xlabel(campbell.summary["vary"])
+    ax.set_ylabel("frequency [Hz]")
+    ax.grid(True, alpha=0.3)
+    return figure

@@ -1,0 +1,228 @@
+//! The analyses around motion: each gives the texts of the files that its command leaves, so that Python reads the same bits.
+
+use std::str::FromStr;
+
+use lissom::Summary;
+use lissom::buckling::BucklingRunError;
+use lissom::campbell::{CampbellError, CampbellRequest};
+use lissom::gradient::{GradientError, Target};
+use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize_session};
+use lissom::modes::{About, ModeReport, ModeRequest, ModesError};
+use lissom::path::{PathEnd, PathSession, PathSessionError, of_request};
+use lissom::response::{FrequencyError, ResponseRequest};
+use lissom::{Document, Record, Session};
+use pyo3::prelude::*;
+
+use crate::errors::{ModelError, SolutionError, of_report};
+use crate::model::NativeModel;
+use crate::results::{Parts, json, parts};
+use crate::watch::Watch;
+
+/// Names and texts of files, the summary as JSON, and what is to be doubted.
+pub(crate) type Files = (Vec<(String, String)>, String, Vec<String>);
+
+fn files(texts: Vec<(&str, String)>, summary: &Summary, warnings: &[String]) -> Files {
+    let owned = texts.into_iter().map(|(name, text)| (name.to_owned(), text));
+    (owned.collect(), json(summary), warnings.to_vec())
+}
+
+/// The state to linearise about.
+fn about(words: &str) -> PyResult<About> {
+    About::from_str(words).map_err(|reason| ModelError::new_err(format!("`about` is \"{words}\": {reason}")))
+}
+
+/// What is wrong with the question, or why it has no answer.
+fn refused(is_of_question: bool, error: &dyn std::fmt::Display) -> PyErr {
+    let words = error.to_string();
+    if is_of_question { ModelError::new_err(words) } else { SolutionError::new_err(words) }
+}
+
+fn of_modes(error: &ModesError) -> PyErr {
+    match error {
+        ModesError::Model(report) => of_report(report),
+        other => refused(matches!(other, ModesError::Time { .. } | ModesError::Shift(_)), other),
+    }
+}
+
+fn of_frequency(error: &FrequencyError) -> PyErr {
+    match error {
+        FrequencyError::Model(report) => of_report(report),
+        other => refused(other.is_of_question(), other),
+    }
+}
+
+/// What is asked of `modes`.
+pub(crate) fn mode_request(
+    count: Option<usize>,
+    state: Option<&str>,
+    shift: Option<f64>,
+) -> PyResult<ModeRequest> {
+    Ok(ModeRequest { count, about: state.map(about).transpose()?, shift })
+}
+
+/// Modes of a model.
+pub(crate) fn found_modes(model: &NativeModel, request: &ModeRequest) -> PyResult<ModeReport> {
+    lissom::modes::modes(&model.model, &model.overrides, request).map_err(|error| of_modes(&error))
+}
+
+fn of_linear(
+    found: &LinearizeReport,
+    name: &str,
+    overrides: &[lissom::Override],
+    document: &Document,
+) -> Files {
+    (found.files.clone(), json(&found.summary(name, overrides, document)), found.warnings.clone())
+}
+
+/// The linear model where `session` stands, as files.
+pub(crate) fn linearize_here(
+    session: &Session,
+    model: &NativeModel,
+    document: &Document,
+    (inputs, outputs): (&[String], &[String]),
+) -> PyResult<Files> {
+    let found =
+        linearize_session(session, document, inputs, outputs).map_err(|error| of_frequency(&error))?;
+    Ok(of_linear(&found, model.model.name(), &model.overrides, document))
+}
+
+/// What `lissom modes` leaves.
+#[pyfunction]
+pub(crate) fn modes(
+    model: &NativeModel,
+    py: Python<'_>,
+    count: Option<usize>,
+    state: Option<&str>,
+    shift: Option<f64>,
+) -> PyResult<Files> {
+    let request = mode_request(count, state, shift)?;
+    py.detach(|| {
+        let found = found_modes(model, &request)?;
+        let summary = found.summary(model.model.name(), &model.overrides, &model.document()?);
+        let tables = vec![("modes.csv", found.csv()), ("shapes.csv", found.shapes_csv())];
+        Ok(files(tables, &summary, &found.warnings))
+    })
+}
+
+/// What `lissom buckling` leaves.
+#[pyfunction]
+pub(crate) fn buckling(model: &NativeModel, py: Python<'_>, count: Option<usize>) -> PyResult<Files> {
+    py.detach(|| {
+        let found =
+            lissom::buckling::buckling(&model.model, &model.overrides, count).map_err(
+                |error| match error {
+                    BucklingRunError::Model(report) => of_report(&report),
+                    other => SolutionError::new_err(other.to_string()),
+                },
+            )?;
+        let summary = found.summary(model.model.name(), &model.overrides, &model.document()?);
+        let tables = vec![("buckling.csv", found.csv()), ("shapes.csv", found.shapes_csv())];
+        Ok(files(tables, &summary, &found.warnings))
+    })
+}
+
+/// What `lissom gradient` leaves.
+#[pyfunction]
+pub(crate) fn gradient(model: &NativeModel, py: Python<'_>, of: &str, by: Vec<String>) -> PyResult<Files> {
+    let target: Target = of.parse().map_err(|words: String| ModelError::new_err(words))?;
+    py.detach(|| {
+        let found =
+            lissom::gradient::gradient(&model.model, &model.overrides, &target, &by).map_err(|error| {
+                match error {
+                    GradientError::Model(report) => of_report(&report),
+                    other => refused(other.is_of_question(), &other),
+                }
+            })?;
+        let summary = found.summary(model.model.name(), &model.overrides, &model.document()?, of);
+        Ok(files(vec![("gradient.csv", found.csv())], &summary, &[]))
+    })
+}
+
+/// What `lissom campbell` leaves, without its pictures.
+#[pyfunction]
+pub(crate) fn campbell(
+    model: &NativeModel,
+    py: Python<'_>,
+    path: String,
+    range: (f64, f64, usize),
+    count: usize,
+    rays: Vec<u32>,
+) -> PyResult<Files> {
+    let (from, to, values) = range;
+    let request = CampbellRequest { path, from, to, values, count, rays };
+    py.detach(|| {
+        let found = lissom::campbell::campbell(&model.model, &model.overrides, &request).map_err(
+            |error| match error {
+                CampbellError::Model(report) => of_report(&report),
+                other => {
+                    let is_of_question =
+                        matches!(other, CampbellError::Range { .. } | CampbellError::Unlike(_));
+                    refused(is_of_question, &other)
+                }
+            },
+        )?;
+        let summary = found.summary(model.model.name(), &model.overrides, &model.document()?);
+        Ok(files(vec![("campbell.csv", found.csv())], &summary, &found.warnings))
+    })
+}
+
+/// What `lissom response` leaves, without its pictures.
+#[pyfunction]
+pub(crate) fn response(
+    model: &NativeModel,
+    py: Python<'_>,
+    inputs: Vec<String>,
+    outputs: Vec<String>,
+    range: (f64, f64, usize),
+    state: &str,
+) -> PyResult<Files> {
+    let (from, to, points) = range;
+    let request = ResponseRequest { about: about(state)?, inputs, outputs, from, to, points };
+    py.detach(|| {
+        let found = lissom::response::response(&model.model, &model.overrides, &request)
+            .map_err(|error| of_frequency(&error))?;
+        let summary = found.summary(model.model.name(), &model.overrides, &model.document()?);
+        Ok(files(vec![("response.csv", found.csv())], &summary, &found.warnings))
+    })
+}
+
+/// What `lissom linearize` leaves.
+#[pyfunction]
+pub(crate) fn linearize(
+    model: &NativeModel,
+    py: Python<'_>,
+    inputs: Vec<String>,
+    outputs: Vec<String>,
+    state: &str,
+) -> PyResult<Files> {
+    let request = LinearizeRequest { about: about(state)?, inputs, outputs };
+    py.detach(|| {
+        let found = lissom::linearize::linearize(&model.model, &model.overrides, &request)
+            .map_err(|error| of_frequency(&error))?;
+        Ok(of_linear(&found, model.model.name(), &model.overrides, &model.document()?))
+    })
+}
+
+/// Follows the path of a model with an analysis of kind `path`: the results, and why it ended early, if it did.
+#[pyfunction]
+pub(crate) fn path<'py>(model: &NativeModel, py: Python<'py>) -> PyResult<(Parts<'py>, Option<String>)> {
+    let (record, summary, failure) = py.detach(|| {
+        let document = model.document()?;
+        let mut session = PathSession::new(&document).map_err(|error| match error {
+            PathSessionError::Model(report) => of_report(&report),
+            other => refused(matches!(other, PathSessionError::NotAPath(_)), &other),
+        })?;
+        let mut record = Record::default();
+        let mut watch = Watch::new(None);
+        let report = session.run(&mut [&mut record], &mut || watch.ask(0.0, 0.0));
+        watch.finish()?;
+        let summary = session.summary(of_request(model.model.name(), &model.overrides, &document), &report);
+        let failure = match &report.end {
+            PathEnd::Reached => None,
+            PathEnd::Interrupted => Some("interrupted".to_owned()),
+            PathEnd::Failed(error) => Some(error.to_string()),
+        };
+        Ok::<_, PyErr>((record, json(&summary), failure))
+    })?;
+    Ok((parts(py, record, summary), failure))
+}
