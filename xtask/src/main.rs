@@ -55,7 +55,7 @@ enum Chore {
     },
     /// Run scenes without outputs and print where their time goes
     Bench(BenchArguments),
-    /// Write the reference of the model file, and the types of its entries for models built in code
+    /// Write the reference of the model file, and the types of its entries for models built in Rust and Python
     Reference {
         /// Write nothing; tell whether it is old
         #[arg(long)]

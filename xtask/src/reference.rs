@@ -1,11 +1,11 @@
 //! `cargo xtask reference`: the reference of the model file in docs/, and the types of its entries for models that are built
-//! in code, made of what the program itself reads.
+//! in Rust and in Python, made of what the program itself reads.
 
 use std::path::{Path, PathBuf};
 
 use lissom::FileError;
 use lissom_model::lower::registry::registry;
-use lissom_model::{files, manual, typed_entries};
+use lissom_model::{files, manual, python_entries, typed_entries};
 
 use crate::verify::root;
 
@@ -21,6 +21,8 @@ fn files_made(root: &Path) -> Vec<(PathBuf, String)> {
     for (name, text) in typed_entries(&registry()) {
         made.push((folder.join(format!("{name}.rs")), format!("{RUST_NOTE}{}\n", text.trim_end())));
     }
+    let folder = root.join("crates/lissom-python/python/lissom/entries");
+    made.extend(python_entries(&registry()).into_iter().map(|(name, text)| (folder.join(name), text)));
     made
 }
 

@@ -167,7 +167,7 @@ fn keys<'k>(text: &mut String, keys: impl Iterator<Item = &'k Key>) {
 }
 
 /// What a shape holds, in words.
-fn words(shape: &Shape) -> String {
+pub(crate) fn words(shape: &Shape) -> String {
     let fixed = match shape {
         Shape::Text => "a text",
         Shape::Version => "the number 1",

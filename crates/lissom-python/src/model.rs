@@ -7,6 +7,7 @@ use lissom::core::analysis::mobility::{Redundant, mobility};
 use lissom::{Document, Model, Override, Record, Session, SessionError, Stopped, summary};
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -91,8 +92,14 @@ impl NativeModel {
         if self.overrides.is_empty() {
             return Ok(self.model.text().to_owned());
         }
-        let text = self.model.model_text(&self.overrides);
-        text.map(|text| text.to_toml()).map_err(|report| of_report(&report))
+        let text = self.model.model_text(&self.overrides).map_err(|report| of_report(&report))?;
+        match text.overrides_inside_parts().as_slice() {
+            [] => Ok(text.to_toml()),
+            [inside, ..] => Err(PyValueError::new_err(format!(
+                "`{inside}` was put into a part, which the text of the model cannot say: change the file that the part is made of, \
+                 or a parameter of it"
+            ))),
+        }
     }
 
     /// Sizes, freedoms, redundant constraints and warnings.

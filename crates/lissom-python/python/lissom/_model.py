@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import difflib
 import os
 import sys
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar, Union
 
 from . import _lissom, _toml
 from ._analyses import Buckling, Campbell, Gradient, Modes, Path, Response
+from ._driven import InputFunction, driven
 from ._linear import LinearModel, linear_model
 from ._lissom import NativeModel, Simulation, SolutionError
 from ._result import Result
+from .entries._entry import written
+from .entries._model_tables import ORDER, ModelTables
 
 Progress = Union[bool, Callable[[float, float], object]]
 #: `"static"`, `"undeformed"`, `"rotation"` or a time [s].
@@ -24,32 +28,67 @@ class ModelWarning(UserWarning):
     """Something in a model may not be meant as it is written, or its results are to be doubted."""
 
 
-class Model:
-    """A checked model, made by `load` or `loads`. It can be pickled.
+class Model(ModelTables):
+    """A model: read by `load` or `loads`, or built from the objects of `lissom.entries`. It can be pickled.
+
+    >>> from lissom.entries import PointMass, analyses, outputs
+    >>> model = lissom.Model(title="A stone", gravity=[0, 0, -9.81])
+    >>> model.point_masses["stone"] = PointMass(mass=2, velocity=[3, 0, 0])
+    >>> model.outputs["stone"] = outputs.Position(of="stone")
+    >>> model.analysis = analyses.Dynamics(end=1, step=0.1)
+    >>> print(model)               # the model file it means
+
+    The tables of the model file are attributes: dictionaries of entries by name. What is changed in them counts from then on;
+    a model is checked when it is used.
 
     Args:
-        text: the model file's text.
-        name: what messages call it.
-        overrides: paths into the model and the values to put there, as `{"analysis.step": 1e-4}`.
-
-    Raises:
-        ModelError: if the model is wrong; the text underlines every mistake.
+        title: one line about the model.
+        name: what messages call it; files that it names are looked for beside a file of this name.
+        tables: everything else at the top of a model file, as `gravity=[0, 0, -9.81]`, `bodies={"rod": Body(…)}`.
     """
 
-    def __init__(self, text: str, name: str = "model", overrides: dict[str, Any] | None = None) -> None:
-        self._become(NativeModel(text, name, _toml.overrides(overrides or {})))
+    __slots__ = ("_name", "_checked", "_text", "_facts", "__weakref__")
 
-    def _become(self, native: NativeModel) -> None:
-        self._native = native
-        self._facts = native.check()
-        for words in self._facts["warnings"]:
-            warnings.warn(f"{native.name}: {words}", ModelWarning, stacklevel=4)
+    def __init__(self, title: str | None = None, *, name: str = "model", **tables: Any) -> None:
+        self._name = name
+        #: What the compiled part has checked, of a text that was read or printed.
+        self._checked: NativeModel | None = None
+        self._text = ""
+        self._facts: dict[str, Any] = {}
+        self._tables = {}
+        for key, of in {"title": title, **tables}.items():
+            if key not in ORDER:
+                near = difflib.get_close_matches(key, ORDER, n=1)
+                help = f"did you mean `{near[0]}`?" if near else "it has " + ", ".join(ORDER[1:])
+                raise TypeError(f"a model has no `{key}`; {help}")
+            self._set(key, dict(of) if isinstance(of, Mapping) else of)
 
     @classmethod
     def _of(cls, native: NativeModel) -> Model:
         model = cls.__new__(cls)
-        model._become(native)
+        model._name, model._text, model._tables = native.name, "", None
+        model._become(native, 4)
         return model
+
+    def _become(self, native: NativeModel, stacklevel: int) -> None:
+        self._checked, self._facts = native, native.check()
+        for words in self._facts["warnings"]:
+            warnings.warn(f"{native.name}: {words}", ModelWarning, stacklevel=stacklevel)
+
+    @property
+    def _native(self) -> NativeModel:
+        """The checked model; checked again where the tables have changed."""
+        if self._tables is not None:
+            text = written(self._tables)
+            if self._checked is None or text != self._text:
+                self._become(NativeModel(text, self._name, []), 5)
+                self._text = text
+        assert self._checked is not None
+        return self._checked
+
+    def _source(self) -> str:
+        assert self._checked is not None
+        return self._checked.to_toml()
 
     def __reduce__(self) -> tuple[Callable[[NativeModel], Model], tuple[NativeModel]]:
         return (Model._of, (self._native,))
@@ -57,7 +96,7 @@ class Model:
     @property
     def name(self) -> str:
         """Path or name."""
-        return self._native.name
+        return self._name
 
     @property
     def overrides(self) -> dict[str, str]:
@@ -67,15 +106,26 @@ class Model:
     @property
     def names(self) -> list[str]:
         """Names of the columns that a run records, as `midspan.u2`."""
-        return list(self._facts["names"])
+        return list(self._native.check()["names"])
 
     def replace(self, changes: dict[str, Any] | None = None, /, **more: Any) -> Model:
         """The model with other values: `model.replace({"bodies.top.mass": 2})`, or the same as keywords."""
         return Model._of(self._native.replace(_toml.overrides({**(changes or {}), **more})))
 
     def to_toml(self) -> str:
-        """The model as TOML: the text as it was written, or, with values put into it, the same without its comments."""
+        """The model as TOML: the text as it was written; with values put into it, or built of objects, without comments.
+
+        A model that is built is written as it is, complete or not.
+
+        Raises:
+            ValueError: if a value was put into an included part, which no single text can say.
+        """
+        if self._tables is not None:
+            return written(self._tables)
         return self._native.to_toml()
+
+    def __str__(self) -> str:
+        return self.to_toml()
 
     def check(self) -> dict[str, Any]:
         """What `lissom check` tells.
@@ -86,17 +136,36 @@ class Model:
         """
         return dict(self._native.check())
 
-    def run(self, progress: Progress = False, threads: int | None = None) -> Result:
+    def run(
+        self,
+        progress: Progress = False,
+        threads: int | None = None,
+        *,
+        inputs: Mapping[str, InputFunction] | None = None,
+        sample: float | None = None,
+    ) -> Result:
         """Simulates the model as its table `[analysis]` asks. The interpreter lock is released; Ctrl-C ends the run.
 
         Args:
             progress: `True` for a line on the terminal, or a function of (steps done, steps planned).
             threads: for models of thousands of elements or joints; results do not depend on it. All by default.
+            inputs: functions by the names of entries of `[inputs]`, as `{"motor": lambda sim: -3 * sim["arm.rate"]}`: each is
+                called with the simulation every `sample` seconds, from the start on, and its value holds until the next
+                call. Rows are then recorded at these instants. A call costs some microseconds, the step that it ends far
+                more where steps are shorter than they would be.
+            sample: time from call to call [s], with `inputs`.
 
         Raises:
             SolutionError: if a step has no solution; `error.result` holds what was computed before.
         """
         show, clear = _shown(progress)
+        if (inputs is None) != (sample is None):
+            raise ValueError("`inputs` and `sample` belong together")
+        if inputs is not None and sample is not None:
+            try:
+                return driven(self._native, inputs, float(sample), show)
+            finally:
+                clear()
         try:
             parts, failure = self._native.run(show, threads)
         finally:
@@ -235,6 +304,9 @@ class Model:
         return found
 
     def __repr__(self) -> str:
+        if self._tables is not None:
+            entries = sum(len(of) for of in self._tables.values() if isinstance(of, dict))
+            return f"<lissom.Model {self.name!r} of {entries} entries>"
         return f"<lissom.Model {self.name!r}, {self._facts['unknowns']} unknowns>"
 
 

@@ -1,8 +1,9 @@
-"""From Python values to TOML, as model and sweep files take them."""
+"""From Python values to TOML, as model and sweep files take them, and back."""
 
 from __future__ import annotations
 
 import json
+import sys
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -24,6 +25,8 @@ def value(of: Any) -> str:
         return json.dumps(of, ensure_ascii=False).replace("\x7f", "\\u007f")
     if isinstance(of, np.ndarray):
         return value(of.tolist())
+    if hasattr(of, "to_table"):
+        of = of.to_table()
     if isinstance(of, Mapping):
         return "{ " + ", ".join(f"{key(str(name))} = {value(inner)}" for name, inner in of.items()) + " }"
     if isinstance(of, Sequence):
@@ -40,3 +43,13 @@ def key(name: str) -> str:
 def overrides(changes: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Paths and TOML values."""
     return [(path, value(of)) for path, of in changes.items()]
+
+
+def parse(text: str) -> dict[str, Any]:
+    """A TOML text as dictionaries, lists and values."""
+    if sys.version_info >= (3, 11):
+        import tomllib
+    else:
+        import tomli as tomllib
+
+    return tomllib.loads(text)

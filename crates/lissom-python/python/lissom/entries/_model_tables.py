@@ -1,0 +1,337 @@
+# Made by `cargo xtask reference` of the program's own tables: do not edit.
+"""The tables of a model, and the classes of their entries."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from . import sections, parts, joints, springs, loads, feedback, motions, outputs, analyses
+from ._entry import Entry, ModelTree
+from .sections import Material, Section
+from .parts import Beam, Body, PointMass, Part
+from .joints import Joint
+from .springs import Spring
+from .loads import Load
+from .feedback import State, Event
+from .motions import Initial
+from .outputs import Output
+from .analyses import Analysis
+
+#: The classes of the entries of a table: one, or several by the word that chooses.
+CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
+    "materials": sections.Material,
+    "sections": {
+        "rectangle": sections.Rectangle,
+        "circle": sections.Circle,
+        "tube": sections.Tube,
+        "general": sections.General,
+    },
+    "parts": parts.Part,
+    "beams": parts.Beam,
+    "bodies": parts.Body,
+    "point_masses": parts.PointMass,
+    "joints": {
+        "cam": joints.Cam,
+        "clamp": joints.Clamp,
+        "constant_velocity": joints.ConstantVelocity,
+        "cylindrical": joints.Cylindrical,
+        "distance": joints.Distance,
+        "equation": joints.Equation,
+        "gear": joints.Gear,
+        "generic": joints.Generic,
+        "inline": joints.Inline,
+        "parallel_axes": joints.ParallelAxes,
+        "perpendicular_axes": joints.PerpendicularAxes,
+        "planar": joints.Planar,
+        "point_in_plane": joints.PointInPlane,
+        "point_on_line": joints.PointOnLine,
+        "prescribed_displacement": joints.PrescribedDisplacement,
+        "prescribed_rotation": joints.PrescribedRotation,
+        "prismatic": joints.Prismatic,
+        "revolute": joints.Revolute,
+        "rigid_link": joints.RigidLink,
+        "screw": joints.Screw,
+        "spherical": joints.Spherical,
+        "swing_arm": joints.SwingArm,
+        "universal": joints.Universal,
+    },
+    "springs": {
+        "axial": springs.Axial,
+        "point": springs.Point,
+        "torsional": springs.Torsional,
+        "axial_friction": springs.AxialFriction,
+        "torsional_friction": springs.TorsionalFriction,
+        "bushing": springs.Bushing,
+        "axial_stop": springs.AxialStop,
+        "torsional_stop": springs.TorsionalStop,
+    },
+    "loads": {
+        "force": loads.Force,
+        "moment": loads.Moment,
+        "joint_torque": loads.JointTorque,
+        "joint_force": loads.JointForce,
+        "gyrostat": loads.Gyrostat,
+    },
+    "states": feedback.State,
+    "events": feedback.Event,
+    "initial": motions.Initial,
+    "outputs": {
+        "position": outputs.Position,
+        "displacement": outputs.Displacement,
+        "rotation": outputs.Rotation,
+        "quaternion": outputs.Quaternion,
+        "cardan_angles": outputs.CardanAngles,
+        "velocity": outputs.Velocity,
+        "angular_velocity": outputs.AngularVelocity,
+        "acceleration": outputs.Acceleration,
+        "section_force": outputs.SectionForce,
+        "section_moment": outputs.SectionMoment,
+        "reaction": outputs.Reaction,
+        "relative": outputs.Relative,
+        "relative_acceleration": outputs.RelativeAcceleration,
+        "relative_motion": outputs.RelativeMotion,
+        "spring": outputs.Spring,
+        "energy": outputs.Energy,
+        "momentum": outputs.Momentum,
+        "signal": outputs.Signal,
+        "expression": outputs.Expression,
+    },
+    "analysis": {
+        "dynamics": analyses.Dynamics,
+        "statics": analyses.Statics,
+        "path": analyses.Path,
+        "buckling": analyses.Buckling,
+        "modes": analyses.Modes,
+    },
+}
+
+#: The words at the top of a model file, in order.
+ORDER = (
+    "lissom",
+    "title",
+    "gravity",
+    "parameters",
+    "materials",
+    "sections",
+    "points",
+    "parts",
+    "beams",
+    "bodies",
+    "point_masses",
+    "joints",
+    "springs",
+    "loads",
+    "inputs",
+    "signals",
+    "states",
+    "events",
+    "initial",
+    "outputs",
+    "analysis",
+)
+
+
+class ModelTables(ModelTree):
+    """The tables of a model as attributes. What is changed in them counts from then on."""
+
+    __slots__ = ()
+
+    @property
+    def title(self) -> str | None:
+        """One line about the model."""
+        of: str | None = self._value("title")
+        return of
+
+    @title.setter
+    def title(self, of: str | None) -> None:
+        self._set("title", of)
+
+    @property
+    def gravity(self) -> Any:
+        """Acceleration of gravity [m/s²]; none when left out."""
+        of: Any = self._value("gravity")
+        return of
+
+    @gravity.setter
+    def gravity(self, of: Any) -> None:
+        self._set("gravity", of)
+
+    @property
+    def parameters(self) -> dict[str, Any]:
+        """Numbers that expressions may name."""
+        of: dict[str, Any] = self._table("parameters")
+        return of
+
+    @parameters.setter
+    def parameters(self, of: dict[str, Any]) -> None:
+        self._set("parameters", of)
+
+    @property
+    def materials(self) -> dict[str, Material]:
+        """Isotropic elastic materials."""
+        of: dict[str, Material] = self._table("materials")
+        return of
+
+    @materials.setter
+    def materials(self, of: dict[str, Material]) -> None:
+        self._set("materials", of)
+
+    @property
+    def sections(self) -> dict[str, Section]:
+        """Cross sections; axis 1 along the beam, 2 and 3 across."""
+        of: dict[str, Section] = self._table("sections")
+        return of
+
+    @sections.setter
+    def sections(self, of: dict[str, Section]) -> None:
+        self._set("sections", of)
+
+    @property
+    def points(self) -> dict[str, Any]:
+        """Named places [m]."""
+        of: dict[str, Any] = self._table("points")
+        return of
+
+    @points.setter
+    def points(self, of: dict[str, Any]) -> None:
+        self._set("points", of)
+
+    @property
+    def parts(self) -> dict[str, Part]:
+        """Sub-assemblies that are named, placed and repeated; names inside are `part.name`."""
+        of: dict[str, Part] = self._table("parts")
+        return of
+
+    @parts.setter
+    def parts(self, of: dict[str, Part]) -> None:
+        self._set("parts", of)
+
+    @property
+    def beams(self) -> dict[str, Beam]:
+        """Flexible beams."""
+        of: dict[str, Beam] = self._table("beams")
+        return of
+
+    @beams.setter
+    def beams(self, of: dict[str, Beam]) -> None:
+        self._set("beams", of)
+
+    @property
+    def bodies(self) -> dict[str, Body]:
+        """Rigid bodies."""
+        of: dict[str, Body] = self._table("bodies")
+        return of
+
+    @bodies.setter
+    def bodies(self, of: dict[str, Body]) -> None:
+        self._set("bodies", of)
+
+    @property
+    def point_masses(self) -> dict[str, PointMass]:
+        """Masses without extension."""
+        of: dict[str, PointMass] = self._table("point_masses")
+        return of
+
+    @point_masses.setter
+    def point_masses(self, of: dict[str, PointMass]) -> None:
+        self._set("point_masses", of)
+
+    @property
+    def joints(self) -> dict[str, Joint]:
+        """What holds nodes together."""
+        of: dict[str, Joint] = self._table("joints")
+        return of
+
+    @joints.setter
+    def joints(self, of: dict[str, Joint]) -> None:
+        self._set("joints", of)
+
+    @property
+    def springs(self) -> dict[str, Spring]:
+        """What pulls nodes or joints back."""
+        of: dict[str, Spring] = self._table("springs")
+        return of
+
+    @springs.setter
+    def springs(self, of: dict[str, Spring]) -> None:
+        self._set("springs", of)
+
+    @property
+    def loads(self) -> dict[str, Load]:
+        """Forces and moments from outside, and of actuators."""
+        of: dict[str, Load] = self._table("loads")
+        return of
+
+    @loads.setter
+    def loads(self, of: dict[str, Load]) -> None:
+        self._set("loads", of)
+
+    @property
+    def inputs(self) -> dict[str, Any]:
+        """Numbers that are set from outside while a simulation runs, with their values at the start."""
+        of: dict[str, Any] = self._table("inputs")
+        return of
+
+    @inputs.setter
+    def inputs(self, of: dict[str, Any]) -> None:
+        self._set("inputs", of)
+
+    @property
+    def signals(self) -> dict[str, Any]:
+        """Named expressions of time, inputs, states and outputs."""
+        of: dict[str, Any] = self._table("signals")
+        return of
+
+    @signals.setter
+    def signals(self, of: dict[str, Any]) -> None:
+        self._set("signals", of)
+
+    @property
+    def states(self) -> dict[str, State]:
+        """First-order states: numbers whose derivative by time is an expression."""
+        of: dict[str, State] = self._table("states")
+        return of
+
+    @states.setter
+    def states(self, of: dict[str, State]) -> None:
+        self._set("states", of)
+
+    @property
+    def events(self) -> dict[str, Event]:
+        """What happens when expressions pass through zero."""
+        of: dict[str, Event] = self._table("events")
+        return of
+
+    @events.setter
+    def events(self, of: dict[str, Event]) -> None:
+        self._set("events", of)
+
+    @property
+    def initial(self) -> Initial | None:
+        """How the parts are and move at the start: a rigid motion of all, or of those that an entry [initial.…] names; static equilibrium."""
+        of: Initial | None = self._value("initial")
+        return of
+
+    @initial.setter
+    def initial(self, of: Initial | None) -> None:
+        self._set("initial", of)
+
+    @property
+    def outputs(self) -> dict[str, Output]:
+        """What is recorded."""
+        of: dict[str, Output] = self._table("outputs")
+        return of
+
+    @outputs.setter
+    def outputs(self, of: dict[str, Output]) -> None:
+        self._set("outputs", of)
+
+    @property
+    def analysis(self) -> Analysis | None:
+        """What is computed, and how."""
+        of: Analysis | None = self._value("analysis")
+        return of
+
+    @analysis.setter
+    def analysis(self, of: Analysis | None) -> None:
+        self._set("analysis", of)

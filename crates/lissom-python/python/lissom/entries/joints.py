@@ -1,0 +1,560 @@
+# Made by `cargo xtask reference` of the program's own tables: do not edit.
+"""What holds nodes together, one class per kind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+from ._entry import Entry, Function, Number, Place, Table, Vector
+
+
+class Joint(Entry):
+    """What holds nodes together."""
+
+    __slots__ = ()
+    _table: ClassVar[str] = "joints"
+    _tag: ClassVar[str] = "kind"
+
+
+@dataclass(kw_only=True, slots=True)
+class Cam(Joint):
+    """A coordinate of `other`, the follower, is a function of that of `joint`: a cam, or any curve.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        joint: the joint whose coordinate leads; the name of an entry of `[joints]`.
+        other: the joint whose coordinate follows; the name of an entry of `[joints]`.
+        profile: The other coordinate as a function of the first, `x` [m or rad]; an expression of `x`, or a table of it written as a function of time.
+        coordinate: Which coordinate of `joint`, counted from 1; may be left out where it has one; a number > 0, or nothing.
+        other_coordinate: Which coordinate of `other`, counted from 1; may be left out where it has one; a number > 0, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "cam"
+
+    in_: str | None = None
+    joint: str
+    other: str
+    profile: Function
+    coordinate: Number | None = None
+    other_coordinate: Number | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Clamp(Joint):
+    """Holds all six relative freedoms.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "clamp"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class ConstantVelocity(Joint):
+    """Two shafts share a point, may bend against each other, and turn by the same angle.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        tip_axis: Direction of the tip's shaft at the start, global axes; default `axis`, which is that of the base's shaft; three numbers, not all zero, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "constant_velocity"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    tip_axis: Vector | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Cylindrical(Joint):
+    """The tip slides along an axis and turns about it; rotation and displacement are coordinates.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "cylindrical"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    angle: Number | None = None
+    displacement: Number | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Distance(Joint):
+    """Keeps the distance of two points: a massless rod with a ball at each end.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at_base: location on the base; default: the node's place [m]; a place, or nothing.
+        at_tip: location on the tip; default: the node's place [m]; a place, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "distance"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at_base: Place | None = None
+    at_tip: Place | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Equation(Joint):
+    """An expression of coordinates of joints, and of the time, is zero: planetary gears, differentials, curves.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        equation: What is zero: an expression of coordinates such as `arm.angle` and `slide.displacement`, and of `t`; an expression of coordinates of joints, as `arm.angle`, and of `t`.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "equation"
+
+    in_: str | None = None
+    equation: Number
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Gear(Joint):
+    """A coordinate of `other` changes by `ratio` times the change of that of `joint`: gears, racks, belts.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        joint: the joint whose coordinate leads; the name of an entry of `[joints]`.
+        other: the joint whose coordinate follows; the name of an entry of `[joints]`.
+        ratio: Change of the other coordinate per change of the first; negative for gears that mesh outside [1, m/rad or rad/m]; a number.
+        coordinate: Which coordinate of `joint`, counted from 1; may be left out where it has one; a number > 0, or nothing.
+        other_coordinate: Which coordinate of `other`, counted from 1; may be left out where it has one; a number > 0, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "gear"
+
+    in_: str | None = None
+    joint: str
+    other: str
+    ratio: Number
+    coordinate: Number | None = None
+    other_coordinate: Number | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Generic(Joint):
+    """Locks chosen translations and rotations of the tip in the axes of the base.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction of x at the start, global axes; default: global x; three numbers, not all zero, or nothing.
+        second_axis: direction of y at the start, global axes; default: global y; three numbers, not all zero, or nothing.
+        locked: What cannot move: x along `axis`, y along `second_axis`, z across both; rx, ry, rz about them; a list of `"x"`, `"y"`, `"z"`, `"rx"`, `"ry"`, `"rz"`.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "generic"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector | None = None
+    second_axis: Vector | None = None
+    locked: list[Literal["x", "y", "z", "rx", "ry", "rz"]]
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Inline(Joint):
+    """The tip's point moves along a line of the base; as `point_on_line`, without a coordinate.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "inline"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class ParallelAxes(Joint):
+    """The tip turns about `axis` alone and moves freely; the relative rotation is a coordinate.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "parallel_axes"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    angle: Number | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class PerpendicularAxes(Joint):
+    """Keeps `axis`, carried by the base, perpendicular to `second_axis`, carried by the tip.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        second_axis: second direction at the start, global axes; three numbers, not all zero.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "perpendicular_axes"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    second_axis: Vector
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Planar(Joint):
+    """The tip moves in the base's plane across `axis` and turns about it; the rotation is a coordinate.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "planar"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    angle: Number | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class PointInPlane(Joint):
+    """The tip's point moves in the base's plane across `axis`; the tip turns freely.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "point_in_plane"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class PointOnLine(Joint):
+    """The tip's point slides along a line of the base and the tip turns freely; the displacement is a coordinate.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "point_on_line"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    displacement: Number | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class PrescribedDisplacement(Joint):
+    """Prescribes a joint's relative displacement as a function of time.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
+        displacement: The relative displacement as a function of time [m]; a function of time.
+        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+    """
+
+    _form: ClassVar[str] = "prescribed_displacement"
+
+    in_: str | None = None
+    joint: str
+    displacement: Function
+    coordinate: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class PrescribedRotation(Joint):
+    """Prescribes a joint's relative rotation as a function of time.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
+        rotation: The relative rotation as a function of time [rad]; a function of time.
+        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+    """
+
+    _form: ClassVar[str] = "prescribed_rotation"
+
+    in_: str | None = None
+    joint: str
+    rotation: Function
+    coordinate: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Prismatic(Joint):
+    """The tip slides along an axis without turning; the displacement is a coordinate.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "prismatic"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    displacement: Number | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Revolute(Joint):
+    """Two nodes share a point and an axis; the relative rotation is a coordinate.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "revolute"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    angle: Number | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class RigidLink(Joint):
+    """Joins two nodes at different places by a massless rigid link.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "rigid_link"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Screw(Joint):
+    """The tip turns about an axis and moves along it in proportion; the rotation is a coordinate.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        lead: Displacement along `axis` per turn; negative for a left-handed thread [m]; a number.
+        angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "screw"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    lead: Number
+    angle: Number | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Spherical(Joint):
+    """Two nodes share a point and turn freely about it.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "spherical"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class SwingArm(Joint):
+    """A massless arm, hinged to the base about an axis, carries the tip's point.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        angle: Value of the arm's angle at the start; default 0 [rad]; a number, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "swing_arm"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    angle: Number | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Universal(Joint):
+    """Two nodes share a point and a cross of two axes; both rotations are coordinates.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        second_axis: second direction at the start, global axes; three numbers, not all zero.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "universal"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    second_axis: Vector
+    friction: Table | None = None

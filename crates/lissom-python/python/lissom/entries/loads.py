@@ -1,0 +1,124 @@
+# Made by `cargo xtask reference` of the program's own tables: do not edit.
+"""Forces and moments from outside, and of actuators."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ._entry import Entry, Function, Number, Place, Vector
+
+
+class Load(Entry):
+    """Forces and moments from outside, and of actuators."""
+
+    __slots__ = ()
+    _table: ClassVar[str] = "loads"
+    _tag: ClassVar[str] = "kind"
+
+
+@dataclass(kw_only=True, slots=True)
+class Force(Load):
+    """Force on a point, dead or following the node's rotation, with a function of time.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        on: the node it acts on; a node.
+        at: location; default: the node's place [m]; a place, or nothing.
+        vector: Force or moment at scale 1, in global axes at the start [N or N m]; three numbers.
+        scale: Factor; default 1; a size, or nothing.
+        follower: Whether it turns with the node; default false: it keeps its direction; `true` or `false`, or nothing.
+    """
+
+    _form: ClassVar[str] = "force"
+
+    in_: str | None = None
+    on: str
+    at: Place | None = None
+    vector: Vector
+    scale: Function | None = None
+    follower: bool | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Moment(Load):
+    """Moment on a node, dead or following the node's rotation, with a function of time.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        on: the node it acts on; a node.
+        at: location; default: the node's place [m]; a place, or nothing.
+        vector: Force or moment at scale 1, in global axes at the start [N or N m]; three numbers.
+        scale: Factor; default 1; a size, or nothing.
+        follower: Whether it turns with the node; default false: it keeps its direction; `true` or `false`, or nothing.
+    """
+
+    _form: ClassVar[str] = "moment"
+
+    in_: str | None = None
+    on: str
+    at: Place | None = None
+    vector: Vector
+    scale: Function | None = None
+    follower: bool | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class JointTorque(Load):
+    """Torque of an actuator on a joint's relative rotation, from the base on the tip.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
+        torque: Torque about the joint's axis, positive where it increases the rotation [N m]; a size.
+        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+    """
+
+    _form: ClassVar[str] = "joint_torque"
+
+    in_: str | None = None
+    joint: str
+    torque: Function
+    coordinate: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class JointForce(Load):
+    """Force of an actuator on a joint's relative displacement, from the base on the tip.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
+        force: Force along the joint's axis, positive where it increases the displacement [N]; a size.
+        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+    """
+
+    _form: ClassVar[str] = "joint_force"
+
+    in_: str | None = None
+    joint: str
+    force: Function
+    coordinate: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Gyrostat(Load):
+    """Rotor in a body, with a constant rate of spin relative to it.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        on: the node it acts on; a node.
+        at: location; default: the node's place [m]; a place, or nothing.
+        axis: Axis of the rotor at the start, global axes; it turns with the node; three numbers, not all zero.
+        inertia: Inertia of the rotor about its axis [kg m²]; a number > 0.
+        spin: Rate of spin relative to the body [rad/s]; a number.
+    """
+
+    _form: ClassVar[str] = "gyrostat"
+
+    in_: str | None = None
+    on: str
+    at: Place | None = None
+    axis: Vector
+    inertia: Number
+    spin: Number

@@ -1,0 +1,49 @@
+# Made by `cargo xtask reference` of the program's own tables: do not edit.
+"""How the parts are and move at the start."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+from ._entry import Entry, Names, Place, Vector
+
+
+@dataclass(kw_only=True, slots=True)
+class Initial(Entry):
+    """How the parts are and move at the start: a rigid motion of all, or of those that an entry [initial.…] names; static equilibrium.
+
+    Args:
+        velocity: velocity of the point `about` [m/s]; three numbers, or nothing.
+        angular_velocity: global axes [rad/s]; three numbers, or nothing.
+        about: a point of the rigid motion; default the origin [m]; a place, or nothing.
+        equilibrium: start from static equilibrium under the loads of the first instant, default false; `true` or `false`, or nothing.
+        motions: rigid motions of some parts, by names of their own; `PartMotion`, or nothing.
+    """
+
+    _table: ClassVar[str] = "initial"
+
+    velocity: Vector | None = None
+    angular_velocity: Vector | None = None
+    about: Place | None = None
+    equilibrium: bool | None = None
+    motions: dict[str, PartMotion] | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class PartMotion(Entry):
+    """A rigid motion of some parts at the start.
+
+    Args:
+        parts: bodies, point masses, beams and entries of [parts] that move in this way; a list of names of parts.
+        velocity: velocity of the point `about` [m/s]; three numbers, or nothing.
+        angular_velocity: global axes [rad/s]; three numbers, or nothing.
+        about: a point of the rigid motion; default the origin [m]; a place, or nothing.
+    """
+
+    _table: ClassVar[str] = ""
+
+    parts: Names
+    velocity: Vector | None = None
+    angular_velocity: Vector | None = None
+    about: Place | None = None

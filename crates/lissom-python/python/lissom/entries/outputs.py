@@ -1,0 +1,292 @@
+# Made by `cargo xtask reference` of the program's own tables: do not edit.
+"""What is recorded, one class per kind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+from ._entry import Entry, Number, Place
+
+
+class Output(Entry):
+    """What is recorded."""
+
+    __slots__ = ()
+    _table: ClassVar[str] = "outputs"
+    _tag: ClassVar[str] = "kind"
+
+
+@dataclass(kw_only=True, slots=True)
+class Position(Output):
+    """Place of a node or of a point it carries.
+
+    Args:
+        of: the node, as in "beam@0.5"; a node.
+        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        in_: body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`; a node, or nothing.
+        point: a place at the start, carried by the node [m]; a place, or nothing.
+    """
+
+    _form: ClassVar[str] = "position"
+
+    of: str
+    relative_to: str | None = None
+    in_: str | None = None
+    point: Place | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Displacement(Output):
+    """Change of place since the start.
+
+    Args:
+        of: the node, as in "beam@0.5"; a node.
+        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        in_: body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`; a node, or nothing.
+        point: a place at the start, carried by the node [m]; a place, or nothing.
+    """
+
+    _form: ClassVar[str] = "displacement"
+
+    of: str
+    relative_to: str | None = None
+    in_: str | None = None
+    point: Place | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Rotation(Output):
+    """Rotation vector since the start.
+
+    Args:
+        of: the node, as in "beam@0.5"; a node.
+        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        in_: body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`; a node, or nothing.
+    """
+
+    _form: ClassVar[str] = "rotation"
+
+    of: str
+    relative_to: str | None = None
+    in_: str | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Quaternion(Output):
+    """Axes of a node as a unit quaternion, q0 not negative.
+
+    Args:
+        of: the node, as in "beam@0.5"; a node.
+    """
+
+    _form: ClassVar[str] = "quaternion"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
+class CardanAngles(Output):
+    """Axes of a node as angles about x, the turned y and the twice turned z.
+
+    Args:
+        of: the node, as in "beam@0.5"; a node.
+    """
+
+    _form: ClassVar[str] = "cardan_angles"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
+class Velocity(Output):
+    """Velocity of a node or of a point it carries.
+
+    Args:
+        of: the node, as in "beam@0.5"; a node.
+        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        in_: body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`; a node, or nothing.
+        point: a place at the start, carried by the node [m]; a place, or nothing.
+    """
+
+    _form: ClassVar[str] = "velocity"
+
+    of: str
+    relative_to: str | None = None
+    in_: str | None = None
+    point: Place | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class AngularVelocity(Output):
+    """Angular velocity of a node.
+
+    Args:
+        of: the node, as in "beam@0.5"; a node.
+        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        in_: body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`; a node, or nothing.
+    """
+
+    _form: ClassVar[str] = "angular_velocity"
+
+    of: str
+    relative_to: str | None = None
+    in_: str | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Acceleration(Output):
+    """Acceleration of a node or of a point it carries.
+
+    Args:
+        of: the node, as in "beam@0.5"; a node.
+        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+        in_: body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`; a node, or nothing.
+        point: a place at the start, carried by the node [m]; a place, or nothing.
+    """
+
+    _form: ClassVar[str] = "acceleration"
+
+    of: str
+    relative_to: str | None = None
+    in_: str | None = None
+    point: Place | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class SectionForce(Output):
+    """Axial and shear forces in a beam, local axes.
+
+    Args:
+        of: the node, as in "beam@0.5"; a node.
+    """
+
+    _form: ClassVar[str] = "section_force"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
+class SectionMoment(Output):
+    """Torsion and bending moments in a beam, local axes.
+
+    Args:
+        of: the node, as in "beam@0.5"; a node.
+    """
+
+    _form: ClassVar[str] = "section_moment"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
+class Reaction(Output):
+    """Force and moment of a joint on its tip.
+
+    Args:
+        of: the joint; the name of an entry of `[joints]`.
+        axes: global axes, or those of the joint frame that base or tip carries; default ground; `"ground"`, `"base"`, `"tip"`, or nothing.
+    """
+
+    _form: ClassVar[str] = "reaction"
+
+    of: str
+    axes: Literal["ground", "base", "tip"] | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Relative(Output):
+    """Relative coordinate of a joint.
+
+    Args:
+        of: the joint; the name of an entry of `[joints]`.
+    """
+
+    _form: ClassVar[str] = "relative"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
+class RelativeAcceleration(Output):
+    """Accelerations of a joint's relative coordinates.
+
+    Args:
+        of: the joint; the name of an entry of `[joints]`.
+    """
+
+    _form: ClassVar[str] = "relative_acceleration"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
+class RelativeMotion(Output):
+    """Place and rotation vector of a joint's tip frame, in the axes of its base frame.
+
+    Args:
+        of: the joint; the name of an entry of `[joints]`.
+    """
+
+    _form: ClassVar[str] = "relative_motion"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
+class Spring(Output):
+    """Elongation or rotation of a spring, its rate, and its force or moment.
+
+    Args:
+        of: the spring; the name of an entry of `[springs]`.
+    """
+
+    _form: ClassVar[str] = "spring"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
+class Energy(Output):
+    """Kinetic, strain, gravity and total energy of the model."""
+
+    _form: ClassVar[str] = "energy"
+
+
+@dataclass(kw_only=True, slots=True)
+class Momentum(Output):
+    """Momentum and angular momentum of the model about the origin, global axes.
+
+    Args:
+        in_: body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`; a node, or nothing.
+    """
+
+    _form: ClassVar[str] = "momentum"
+
+    in_: str | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Signal(Output):
+    """Value of a signal, an input or a state.
+
+    Args:
+        of: the name of a signal, an input or a state; a text.
+    """
+
+    _form: ClassVar[str] = "signal"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
+class Expression(Output):
+    """Value of an expression of time, components of other outputs, coordinates of joints, signals, inputs and states.
+
+    Args:
+        value: as "hypot(a.x - b.x, a.y - b.y)", of components of outputs; an expression of signals.
+    """
+
+    _form: ClassVar[str] = "expression"
+
+    value: Number

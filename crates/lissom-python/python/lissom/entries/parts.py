@@ -1,0 +1,153 @@
+# Made by `cargo xtask reference` of the program's own tables: do not edit.
+"""Beams, rigid bodies, point masses and sub-assemblies."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+from ._entry import Count, Entry, Function, Number, Place, Table, Tables, Vector
+
+
+@dataclass(kw_only=True, slots=True)
+class Beam(Entry):
+    """Flexible beams.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        section: name of a section; give it or `stations`; the name of an entry of `[sections]`, or nothing.
+        stations: [{ at = 0, section = "a" }, …, { at = 1, … }], linear between; a list of tables, or nothing.
+        from_: start: a point, or a node of another part, which is shared [m]; a place or a node, or nothing.
+        to: end: a point, or a node of another part, which is shared [m]; a place or a node, or nothing.
+        through: a point between: the beam is a circular arc [m]; a place, or nothing.
+        curve: instead of from and to: three expressions of s in 0..1 [m]; three expressions of `s`, or nothing.
+        elements: number of elements; a whole number from 1 to 100000.
+        order: 1, 2 or 3 (default): elements of 2, 3 or 4 nodes; a whole number from 1 to 3, or nothing.
+        up: direction that local axis 3 leans to; three numbers, not all zero, or nothing.
+        force_per_length: along global axes, which it keeps: three numbers or expressions of s and t [N/m]; three expressions of `s` and `t`, or nothing.
+        section_force_per_length: along the section's axes 1, 2 and 3, with which it turns: three numbers or expressions of s and t [N/m]; three expressions of `s` and `t`, or nothing.
+        twist: turn about the tangent, a number or an expression of s [rad]; a number or an expression of `s`, or nothing.
+    """
+
+    _table: ClassVar[str] = "beams"
+
+    in_: str | None = None
+    section: str | None = None
+    stations: list[Table] | None = None
+    from_: Place | None = None
+    to: Place | None = None
+    through: Place | None = None
+    curve: Vector | None = None
+    elements: Count
+    order: Count | None = None
+    up: Vector | None = None
+    force_per_length: Vector | None = None
+    section_force_per_length: Vector | None = None
+    twist: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Body(Entry):
+    """Rigid bodies.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        mass: mass, or { density } of the solid in `inertia` [kg]; a number > 0, or `{ density }`.
+        inertia: about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid as { box = [a, b, c] } [kg m²]; three numbers, a 3 x 3 matrix, or `{ box | cylinder | tube | sphere }`.
+        position: place of the reference frame [m]; a place, or nothing.
+        rotation: rotation vector of the reference frame [rad]; three numbers, or nothing.
+        axes: instead of rotation: first and second body axis; two vectors, or nothing.
+        center_of_mass: in body axes, from the reference point [m]; three numbers, or nothing.
+        velocity: of the reference point at the start, global axes [m/s]; three numbers, or nothing.
+        angular_velocity: at the start, body axes [rad/s]; three numbers, or nothing.
+    """
+
+    _table: ClassVar[str] = "bodies"
+
+    in_: str | None = None
+    mass: Function
+    inertia: Vector | list[Vector] | Table
+    position: Place | None = None
+    rotation: Vector | None = None
+    axes: list[Vector] | None = None
+    center_of_mass: Vector | None = None
+    velocity: Vector | None = None
+    angular_velocity: Vector | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class PointMass(Entry):
+    """Masses without extension.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        mass: mass [kg]; a number > 0.
+        position: place at the start [m]; a place, or nothing.
+        plane: move in this plane only; `"xy"`, `"yz"`, `"zx"`, or nothing.
+        velocity: at the start, global axes [m/s]; three numbers, or nothing.
+    """
+
+    _table: ClassVar[str] = "point_masses"
+
+    in_: str | None = None
+    mass: Number
+    position: Place | None = None
+    plane: Literal["xy", "yz", "zx"] | None = None
+    velocity: Vector | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Part(Entry):
+    """Sub-assemblies that are named, placed and repeated; names inside are `part.name`.
+
+    Args:
+        include: path of the file that it is made of, relative to this file; a text, or nothing.
+        like: part of the same table of which it is a copy, turned and shifted; a text, or nothing.
+        count: an array `name1`, `name2` …; `index` and `count` are parameters in it; a whole number from 1 to 20000, or nothing.
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        position: place of its origin [m]; a place, or nothing.
+        rotation: rotation vector of its axes [rad]; three numbers, or nothing.
+        parameters: its parameters, in place of the defaults of its file; a table, or nothing.
+        names: names in the included file that mean something outside, as { hub = "hub" }; a table, or nothing.
+        materials: Isotropic elastic materials; entries as in `[materials]`, or nothing.
+        sections: Cross sections; axis 1 along the beam, 2 and 3 across; entries as in `[sections]`, or nothing.
+        points: Named places [m]; entries as in `[points]`, or nothing.
+        parts: Sub-assemblies that are named, placed and repeated; names inside are `part.name`; entries as in `[parts]`, or nothing.
+        beams: Flexible beams; entries as in `[beams]`, or nothing.
+        bodies: Rigid bodies; entries as in `[bodies]`, or nothing.
+        point_masses: Masses without extension; entries as in `[point_masses]`, or nothing.
+        joints: What holds nodes together; entries as in `[joints]`, or nothing.
+        springs: What pulls nodes or joints back; entries as in `[springs]`, or nothing.
+        loads: Forces and moments from outside, and of actuators; entries as in `[loads]`, or nothing.
+        inputs: Numbers that are set from outside while a simulation runs, with their values at the start; entries as in `[inputs]`, or nothing.
+        signals: Named expressions of time, inputs, states and outputs; entries as in `[signals]`, or nothing.
+        states: First-order states: numbers whose derivative by time is an expression; entries as in `[states]`, or nothing.
+        events: What happens when expressions pass through zero; entries as in `[events]`, or nothing.
+        outputs: What is recorded; entries as in `[outputs]`, or nothing.
+    """
+
+    _table: ClassVar[str] = "parts"
+
+    include: str | None = None
+    like: str | None = None
+    count: Count | None = None
+    in_: str | None = None
+    position: Place | None = None
+    rotation: Vector | None = None
+    parameters: Table | None = None
+    names: Table | None = None
+    materials: Tables | None = None
+    sections: Tables | None = None
+    points: Tables | None = None
+    parts: Tables | None = None
+    beams: Tables | None = None
+    bodies: Tables | None = None
+    point_masses: Tables | None = None
+    joints: Tables | None = None
+    springs: Tables | None = None
+    loads: Tables | None = None
+    inputs: Tables | None = None
+    signals: Tables | None = None
+    states: Tables | None = None
+    events: Tables | None = None
+    outputs: Tables | None = None

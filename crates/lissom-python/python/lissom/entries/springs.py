@@ -1,0 +1,265 @@
+# Made by `cargo xtask reference` of the program's own tables: do not edit.
+"""What pulls nodes or joints back, one class per kind."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar, Literal
+
+from ._entry import Entry, Function, Number, Place, Vector
+
+
+class Spring(Entry):
+    """What pulls nodes or joints back."""
+
+    __slots__ = ()
+    _table: ClassVar[str] = "springs"
+    _tag: ClassVar[str] = "kind"
+
+
+@dataclass(kw_only=True, slots=True)
+class Axial(Spring):
+    """Spring and damper on a joint's relative displacement.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
+        stiffness: Stiffness; default 0 [N/m]; a number ≥ 0, or nothing.
+        damping: Damping; default 0 [N s/m]; a number ≥ 0, or nothing.
+        force: Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` [N]; a number, an expression of `elongation` and `rate`, or a table over `elongation`, or nothing.
+        damper_force: Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate` [N]; a number, an expression of `rate` and `elongation`, or a table over `rate`, or nothing.
+        side: Where it acts: where it is longer than its free length, where it is shorter, or both; default both; `"both"`, `"tension"`, `"compression"`, or nothing.
+        limits: Least and greatest force; default none [N]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
+        backlash: Width of the free play about the free length, without force; default 0 [m]; a number ≥ 0, or nothing.
+        displacement: Relative displacement at which it is free of force; default 0 [m]; a number, or nothing.
+        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+    """
+
+    _form: ClassVar[str] = "axial"
+
+    in_: str | None = None
+    joint: str
+    stiffness: Number | None = None
+    damping: Number | None = None
+    force: Function | None = None
+    damper_force: Function | None = None
+    side: Literal["both", "tension", "compression"] | None = None
+    limits: Vector | None = None
+    backlash: Number | None = None
+    displacement: Number | None = None
+    coordinate: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Point(Spring):
+    """Spring and damper between two points, along the line that joins them.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at_base: location on the base; default: the node's place [m]; a place, or nothing.
+        at_tip: location on the tip; default: the node's place [m]; a place, or nothing.
+        stiffness: Stiffness; default 0 [N/m]; a number ≥ 0, or nothing.
+        damping: Damping; default 0 [N s/m]; a number ≥ 0, or nothing.
+        force: Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` [N]; a number, an expression of `elongation` and `rate`, or a table over `elongation`, or nothing.
+        damper_force: Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate` [N]; a number, an expression of `rate` and `elongation`, or a table over `rate`, or nothing.
+        side: Where it acts: where it is longer than its free length, where it is shorter, or both; default both; `"both"`, `"tension"`, `"compression"`, or nothing.
+        limits: Least and greatest force; default none [N]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
+        backlash: Width of the free play about the free length, without force; default 0 [m]; a number ≥ 0, or nothing.
+        length: Length at which it is free of force; default: the length at the start [m]; a number ≥ 0, or nothing.
+    """
+
+    _form: ClassVar[str] = "point"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at_base: Place | None = None
+    at_tip: Place | None = None
+    stiffness: Number | None = None
+    damping: Number | None = None
+    force: Function | None = None
+    damper_force: Function | None = None
+    side: Literal["both", "tension", "compression"] | None = None
+    limits: Vector | None = None
+    backlash: Number | None = None
+    length: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Torsional(Spring):
+    """Spring and damper on a joint's relative rotation.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
+        stiffness: Stiffness; default 0 [N m/rad]; a number ≥ 0, or nothing.
+        damping: Damping; default 0 [N m s/rad]; a number ≥ 0, or nothing.
+        moment: Moment over `rotation` and `rate`, in addition to `stiffness`; a table is over `rotation` [N m]; a number, an expression of `rotation` and `rate`, or a table over `rotation`, or nothing.
+        damper_moment: Moment over `rate` and `rotation`, in addition to `damping`; a table is over `rate` [N m]; a number, an expression of `rate` and `rotation`, or a table over `rate`, or nothing.
+        side: Where it acts: on rotations above the free one, below it, or both; default both; `"both"`, `"positive"`, `"negative"`, or nothing.
+        limits: Least and greatest moment; default none [N m]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
+        backlash: Width of the free play about the free rotation, without moment; default 0 [rad]; a number ≥ 0, or nothing.
+        angle: Relative rotation at which it is free of moment; default 0 [rad]; a number, or nothing.
+        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+    """
+
+    _form: ClassVar[str] = "torsional"
+
+    in_: str | None = None
+    joint: str
+    stiffness: Number | None = None
+    damping: Number | None = None
+    moment: Function | None = None
+    damper_moment: Function | None = None
+    side: Literal["both", "positive", "negative"] | None = None
+    limits: Vector | None = None
+    backlash: Number | None = None
+    angle: Number | None = None
+    coordinate: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class AxialFriction(Spring):
+    """Dry and viscous friction on a joint's relative displacement; it sticks without creeping.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
+        coulomb: Force of sliding friction [N]; a number > 0.
+        breakaway: Additional force of friction at rest; default none [N]; a number > 0, or nothing.
+        stribeck: Velocity at which the additional force has fallen to 1/e; default 0.01 [m/s]; a number > 0, or nothing.
+        viscous: Force per velocity besides; default 0 [N s/m]; a number ≥ 0, or nothing.
+        deflection: Elastic displacement before it slips; default 1e-4 [m]; a number > 0, or nothing.
+        damping: Damping of the elastic displacement; default 0 [N s/m]; a number ≥ 0, or nothing.
+        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+    """
+
+    _form: ClassVar[str] = "axial_friction"
+
+    in_: str | None = None
+    joint: str
+    coulomb: Number
+    breakaway: Number | None = None
+    stribeck: Number | None = None
+    viscous: Number | None = None
+    deflection: Number | None = None
+    damping: Number | None = None
+    coordinate: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class TorsionalFriction(Spring):
+    """Dry and viscous friction on a joint's relative rotation; it sticks without creeping.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
+        coulomb: Moment of sliding friction [N m]; a number > 0.
+        breakaway: Additional moment of friction at rest; default none [N m]; a number > 0, or nothing.
+        stribeck: Rate at which the additional moment has fallen to 1/e; default 0.01 [rad/s]; a number > 0, or nothing.
+        viscous: Moment per rate besides; default 0 [N m s/rad]; a number ≥ 0, or nothing.
+        deflection: Elastic rotation before it slips; default 1e-4 [rad]; a number > 0, or nothing.
+        damping: Damping of the elastic rotation; default 0 [N m s/rad]; a number ≥ 0, or nothing.
+        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+    """
+
+    _form: ClassVar[str] = "torsional_friction"
+
+    in_: str | None = None
+    joint: str
+    coulomb: Number
+    breakaway: Number | None = None
+    stribeck: Number | None = None
+    viscous: Number | None = None
+    deflection: Number | None = None
+    damping: Number | None = None
+    coordinate: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Bushing(Spring):
+    """Springs and dampers along and about three axes, with full matrices; its length may be zero.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at_base: location on the base; default: the node's place [m]; a place, or nothing.
+        at_tip: location on the tip; default: the node's place [m]; a place, or nothing.
+        stiffness: 6 x 6 or its diagonal: displacements along the axes, rotations about them; default 0 [N/m, N, N m/rad]; six numbers or a 6 x 6 matrix, or nothing.
+        damping: 6 x 6 or its diagonal, likewise; default 0 [N s/m, N s, N m s/rad]; six numbers or a 6 x 6 matrix, or nothing.
+        axis: First axis at the start, global axes; default global x. The axes turn with the base; three numbers, not all zero, or nothing.
+        second_axis: Second axis at the start, made perpendicular to the first; default global y; three numbers, not all zero, or nothing.
+    """
+
+    _form: ClassVar[str] = "bushing"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at_base: Place | None = None
+    at_tip: Place | None = None
+    stiffness: Vector | list[Vector] | None = None
+    damping: Vector | list[Vector] | None = None
+    axis: Vector | None = None
+    second_axis: Vector | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class AxialStop(Spring):
+    """Stops at the ends of the range of a joint's relative displacement.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
+        range: Displacements between the stops; an end that is infinite has none [m]; two ascending numbers, which may be `-inf` and `inf`.
+        stiffness: Force at a penetration of 1 m [N/m^n]; a number > 0.
+        exponent: n, from 1 on; default 1; a number > 0, or nothing.
+        dissipation: Factor a of the penetration rate; default 0 [s/m]; a number ≥ 0, or nothing.
+        restitution: Instead of `dissipation`: velocity after an impact over that before, 0.01 to 1, at `impact_velocity`; a number > 0, or nothing.
+        impact_velocity: Velocity of that impact [m/s]; a number > 0, or nothing.
+        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+    """
+
+    _form: ClassVar[str] = "axial_stop"
+
+    in_: str | None = None
+    joint: str
+    range: Vector
+    stiffness: Number
+    exponent: Number | None = None
+    dissipation: Number | None = None
+    restitution: Number | None = None
+    impact_velocity: Number | None = None
+    coordinate: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class TorsionalStop(Spring):
+    """Stops at the ends of the range of a joint's relative rotation.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
+        range: Rotations between the stops; an end that is infinite has none [rad]; two ascending numbers, which may be `-inf` and `inf`.
+        stiffness: Moment at a penetration of 1 rad [N m/rad^n]; a number > 0.
+        exponent: n, from 1 on; default 1; a number > 0, or nothing.
+        dissipation: Factor a of the penetration rate; default 0 [s/rad]; a number ≥ 0, or nothing.
+        restitution: Instead of `dissipation`: rate after an impact over that before, 0.01 to 1, at `impact_velocity`; a number > 0, or nothing.
+        impact_velocity: Rate of that impact [rad/s]; a number > 0, or nothing.
+        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
+    """
+
+    _form: ClassVar[str] = "torsional_stop"
+
+    in_: str | None = None
+    joint: str
+    range: Vector
+    stiffness: Number
+    exponent: Number | None = None
+    dissipation: Number | None = None
+    restitution: Number | None = None
+    impact_velocity: Number | None = None
+    coordinate: Number | None = None

@@ -1,0 +1,156 @@
+"""The examples in Python run, and come to what they should."""
+
+from __future__ import annotations
+
+import json
+import runpy
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import lissom
+from conftest import PENDULUM, ROOT
+
+Program = Callable[..., "subprocess.CompletedProcess[str]"]
+FOLDER = ROOT / "examples" / "python"
+
+
+def example(name: str) -> dict[str, Any]:
+    return runpy.run_path(str(FOLDER / f"{name}.py"))
+
+
+def test_an_absorber_is_tuned() -> None:
+    own = example("tune_damper")
+    found, course = own["tune"](show=False)
+    assert found.success and len(course) < 40, found.message
+    assert all(later <= earlier * (1 + 1e-12) for earlier, later in zip(course[1:], course[2:])), "it converges"
+    assert found.fun < 0.55 * course[0]
+    # An optimum indeed: the measure of runs, without gradients, is larger on all sides.
+    model = own["build"]()
+    best = np.exp(found.x)
+
+    def value(numbers: Any) -> float:
+        run = model.replace({**dict(zip(own["PATHS"], numbers)), "analysis.tolerance": 1e-12}).run()
+        x, t = run["mass.x"], run.time
+        return 1e3 * float(np.sqrt(np.trapezoid(x**2, t) / (t[-1] - t[0])))
+
+    assert value(best) == pytest.approx(found.fun, rel=1e-9)
+    for factors in ([1.02, 1], [0.98, 1], [1, 1.05], [1, 0.95]):
+        assert value(best * factors) > found.fun
+
+
+def test_a_stiffness_is_identified() -> None:
+    own = example("identify_stiffness")
+    numbers, deviations, course = own["identify"](show=False)
+    assert np.all(np.abs(numbers - own["TRUE"]) < 3 * deviations) and np.all(deviations < [0.05, 0.02])
+    assert course[-1] < 0.02 * course[0] and course[-1] == pytest.approx(301 / 2, rel=0.2), "what is left is the noise"
+
+
+def test_the_environment_is_one_of_gymnasium() -> None:
+    from gymnasium.utils.env_checker import check_env
+
+    own = example("gymnasium_arm")
+    env = own["ArmEnv"]()
+    check_env(env, skip_render_check=True)
+    first = [env.reset(seed=3)[0], *(env.step(np.array([1.0]))[0] for _ in range(5))]
+    again = [env.reset(seed=3)[0], *(env.step(np.array([1.0]))[0] for _ in range(5))]
+    assert np.array_equal(first, again), "the same seed gives the same episode"
+    observation, _ = env.reset(seed=0)
+    highest, steps, ended = -1.0, 0, False
+    while not ended:
+        observation, _, terminated, ended, _ = env.step(own["swing_up"](observation))
+        highest, steps = max(highest, -observation[0]), steps + 1
+        assert not terminated
+    assert steps == 200 and highest > 0.9, "it is swung up"
+
+
+def test_the_tutorial_tells_what_the_command_line_tells(program: Program, tmp_path: Path) -> None:
+    told = example("tutorial")["told"]
+
+    def run(name: str, *args: object) -> Path:
+        ended = program(*args, "--out", tmp_path / name, "--quiet")
+        assert ended.returncode == 0, ended.stderr
+        return tmp_path / name
+
+    def summary(folder: Path) -> Any:
+        return json.loads((folder / "summary.json").read_text())
+
+    assert told["pendulum_x"] == lissom.read(run("a", "run", PENDULUM))["bob.x"][-1]
+    heavy = ("--set", "point_masses.bob.mass=4")
+    assert told["heavy_x"] == lissom.read(run("b", "run", PENDULUM, *heavy))["bob.x"][-1]
+    crank = ROOT / "examples/tip-crank.toml"
+    modes = summary(run("c", "modes", crank, "--about", "undeformed", "--count", 3))
+    assert told["first_frequency"] == modes["modes"][0]["frequency"]
+    gradient = summary(run("d", "gradient", PENDULUM, "--of", "bob.x@0.5", "--by", "springs.spring.stiffness"))
+    assert told["derivative"] == gradient["derivatives"][0]["derivative"]
+    linear = run("e", "linearize", crank, "--about", "undeformed")
+    rows = [line.split() for line in (linear / "M.mtx").read_text().splitlines()[3:]]
+    diagonal = {int(row): float(value) for row, column, value in rows if row == column}
+    assert told["mass_trace"] == float(np.sum([diagonal.get(row, 0.0) for row in range(1, max(diagonal) + 1)])) or told[
+        "mass_trace"
+    ] == pytest.approx(sum(diagonal.values()), rel=1e-14)
+    sweep = tmp_path / "sweep.toml"
+    sweep.write_text(
+        f'lissom_sweep = 1\nmodel = "{PENDULUM}"\n[vary]\n"point_masses.bob.mass" = [1, 2, 4]\n[collect]\nswing = "max(bob.x)"\n'
+    )
+    table = np.genfromtxt(run("f", "sweep", sweep) / "sweep.csv", delimiter=",", names=True, dtype=None, encoding="utf-8")
+    assert told["sweep_swing"] == table["swing"][2]
+    # The model that was built of objects, by its text.
+    file = tmp_path / "swing.toml"
+    file.write_text(str(example("tutorial")["swing"]))
+    assert told["swing"] == lissom.read(run("g", "run", file))["hinge.angle"][-1]
+
+
+CART = """
+lissom = 1
+[point_masses.cart]
+mass = 2
+position = [1, 0, 0]
+{thrust}
+[loads.thrust]
+kind = "force"
+on = "cart"
+vector = [1, 0, 0]
+scale = "thrust"
+[outputs.place]
+kind = "position"
+of = "cart"
+[outputs.speed]
+kind = "velocity"
+of = "cart"
+[analysis]
+kind = "dynamics"
+scheme = "radau-iia"
+end = 3
+step = 0.01
+"""
+
+
+def test_a_function_drives_an_input_as_a_sampled_signal_does() -> None:
+    """The same law twice: in Python, and as a sampled signal of the model."""
+    law = '[signals]\nthrust = { value = "-3*place.x - 2*speed.v1", sample = 0.05 }'
+    there = lissom.loads(CART.format(thrust=law)).run()
+    model = lissom.loads(CART.format(thrust="[inputs]\nthrust = 0"))
+
+    def thrust(sim: lissom.Simulation) -> float:
+        return -3 * sim["place.x"] - 2 * sim["speed.v1"]
+
+    here = model.run(inputs={"thrust": thrust}, sample=0.05)
+    assert here.is_complete and here.time[-1] == 3 and len(here.time) == 61 and here.summary["inputs"] == ["thrust"]
+    assert np.allclose(here.time, there.time[::5], rtol=0, atol=1e-12)
+    assert np.allclose(here["place.x"], there["place.x"][::5], rtol=0, atol=1e-9) and abs(here["place.x"][-1]) < 0.3
+    # A sample that divides neither step nor end: the end is met all the same.
+    other = model.run(inputs={"thrust": thrust}, sample=0.07)
+    assert other.time[-1] == 3 and len(other.time) == 44
+    with pytest.raises(ValueError, match="belong together"):
+        model.run(inputs={"thrust": thrust})
+    with pytest.raises(ValueError, match="greater than zero"):
+        model.run(inputs={"thrust": thrust}, sample=0)
+    with pytest.raises(ValueError, match="thust"):
+        model.run(inputs={"thust": thrust}, sample=0.05)
+    with pytest.raises(ZeroDivisionError):
+        model.run(inputs={"thrust": lambda sim: 1 / 0}, sample=0.05)
