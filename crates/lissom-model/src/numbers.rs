@@ -39,3 +39,15 @@ pub fn number_at(
         Some(_) => Err(format!("`{path}` is not a number")),
     }
 }
+
+/// Names and values of the entries of a table at the top of a model's `text`, with `overrides` put in place, that are written as
+/// plain numbers; those that are expressions, which follow from others, are left out.
+pub fn written_numbers(text: &str, overrides: &[(String, String)], table: &str) -> Vec<(String, f64)> {
+    let tree = text::read(text, "", overrides, Arc::default());
+    let Some(table) = tree.root.get(table).and_then(|entry| entry.node.table()) else { return Vec::new() };
+    let number = |(name, _, node): (&str, _, &text::Node)| match node.value {
+        Value::Number(value) => Some((name.to_owned(), value)),
+        _ => None,
+    };
+    text::in_order(table).into_iter().filter_map(number).collect()
+}

@@ -116,6 +116,7 @@ pub mod builder;
 
 pub mod campbell;
 mod checkpoint;
+pub mod fmu;
 mod folder;
 mod folder_page;
 pub mod geometry;

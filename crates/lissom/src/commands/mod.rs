@@ -4,6 +4,7 @@ mod buckling;
 mod campbell;
 mod check;
 mod completions;
+mod fmu;
 mod gradient;
 mod kinds;
 mod linearize;
@@ -121,6 +122,7 @@ enum Command {
     Campbell(campbell::Campbell),
     Response(response::Response),
     Linearize(linearize::Linearize),
+    Fmu(fmu::Fmu),
     Kinds(kinds::Kinds),
     Schema(schema::Schema),
     Plot(plot::Plot),
@@ -146,6 +148,7 @@ impl Line {
             Command::Campbell(command) => command.run(),
             Command::Response(command) => command.run(),
             Command::Linearize(command) => command.run(),
+            Command::Fmu(command) => command.run(),
             Command::Kinds(command) => command.run(),
             Command::Schema(command) => command.run(),
             Command::Plot(command) => command.run(),

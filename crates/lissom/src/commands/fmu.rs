@@ -1,0 +1,83 @@
+//! `lissom fmu`: a model as a functional mock-up unit.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use lissom::fmu::{FmuError, LIBRARY, export, platform};
+use lissom_model::files;
+
+use super::{Exit, Failure, ModelArguments, show_warnings};
+use crate::terminal;
+
+/// Pack a model as a functional mock-up unit (FMI 3.0, co-simulation), for Simulink, Modelica tools and others.
+///
+/// Inputs of the model are inputs of the unit, its numbers under [parameters] are parameters, all columns that it records are
+/// outputs. The unit holds the model, the files it includes and a shared library, and needs nothing else.
+#[derive(Args)]
+#[command(after_help = "\
+Example:
+  lissom fmu examples/controlled-arm.toml --out controlled-arm.fmu
+
+The shared library is taken from beside the program, or from where --library says. It is built from the sources by
+  cargo build --release --manifest-path crates/lissom-fmi/Cargo.toml
+Exit code: 0 all is done; 2 wrong model or command line, or no library; 3 the file cannot be written.")]
+pub(super) struct Fmu {
+    #[command(flatten)]
+    model: ModelArguments,
+
+    /// The unit [default: <name of the model file>.fmu].
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+
+    /// The shared library that simulates the model [default: the one beside the program].
+    #[arg(long, value_name = "FILE")]
+    library: Option<PathBuf>,
+
+    /// Nothing on the terminal.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Fmu {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let (model, document) = self.model.read()?;
+        if !self.quiet {
+            show_warnings(&document);
+        }
+        let library = self.library()?;
+        let bytes = std::fs::read(&library).map_err(|error| {
+            Failure::file(Exit::BadModel, &files::failure(files::Action::Read, &library, error))
+        })?;
+        let unit = export(&model, &self.model.set, &bytes).map_err(|error| match error {
+            FmuError::Model(report) => report.into(),
+            FmuError::Archive(_) => Failure::new(Exit::Failed, error),
+            other => Failure::new(Exit::BadModel, other),
+        })?;
+        let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let target = self.out.unwrap_or_else(|| PathBuf::from(format!("{stem}.fmu")));
+        files::write(&target, &unit).map_err(|error| Failure::file(Exit::Failed, &error))?;
+        if !self.quiet {
+            terminal::print(&format!("{} for {}\n", target.display(), platform()));
+        }
+        Ok(Exit::Done)
+    }
+
+    /// The shared library: the one that is named, or the one beside the program, or where cargo leaves it.
+    fn library(&self) -> Result<PathBuf, Failure> {
+        if let Some(library) = &self.library {
+            return Ok(library.clone());
+        }
+        let name = format!("{}{LIBRARY}{}", std::env::consts::DLL_PREFIX, std::env::consts::DLL_SUFFIX);
+        let program = std::env::current_exe().unwrap_or_default();
+        let folder = program.parent().map(ToOwned::to_owned).unwrap_or_default();
+        let places = [folder.join(&name), folder.join("../lib/lissom").join(&name)];
+        places.into_iter().find(|place| place.is_file()).ok_or_else(|| {
+            let message = format!(
+                "the shared library `{name}` of units is not beside the program, in `{}`\n  help: build it by `cargo build --release \
+                 --manifest-path crates/lissom-fmi/Cargo.toml`, and name it by `--library`",
+                folder.display()
+            );
+            Failure::new(Exit::BadModel, message)
+        })
+    }
+}

@@ -1,0 +1,212 @@
+//! Models as functional mock-up units (FMI 3.0, co-simulation): which variables they have, and the archive that holds model,
+//! description and the shared library that simulates it. The library itself is made in `crates/lissom-fmi`.
+
+mod archive;
+mod description;
+
+use std::collections::BTreeMap;
+
+use lissom_model::document::AnalysisKind;
+use lissom_model::lower::lower;
+use lissom_model::numbers::written_numbers;
+use lissom_model::{Document, Report};
+use serde::{Deserialize, Serialize};
+
+use crate::model::{Model, Override};
+use crate::session::columns;
+
+/// Name of the shared library in a unit, without its ending.
+pub const LIBRARY: &str = "lissom_fmi";
+/// Name of the file with the model among the resources of a unit.
+pub const MODEL_FILE: &str = "model.json";
+
+/// A model that cannot become a unit.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum FmuError {
+    /// The model is wrong.
+    #[error(transparent)]
+    Model(#[from] Report),
+    /// What is computed has no course in time.
+    #[error(
+        "an analysis of kind `{0}` has no course in time: a unit needs one of kind `dynamics` or `statics`"
+    )]
+    NotInTime(&'static str),
+    /// Two variables would have the same name.
+    #[error("`{0}` would be the name of two variables: call one of them otherwise in the model")]
+    SameName(String),
+    /// The archive cannot be made.
+    #[error("the archive cannot be made: {0}")]
+    Archive(#[from] std::io::Error),
+}
+
+/// What a variable of a unit is to those that use it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Causality {
+    /// The time.
+    Independent,
+    /// An entry of `[inputs]`, set while the unit runs.
+    Input,
+    /// An entry of `[parameters]` that is written as a number, set before the unit runs.
+    Parameter,
+    /// A column that the model records.
+    Output,
+}
+
+/// A variable of a unit, a real number. Its value reference is its index.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variable {
+    /// Its name: that of the input, parameter or column.
+    pub name: String,
+    /// What it is.
+    pub causality: Causality,
+    /// Value at the start of inputs and parameters; nothing of others.
+    pub start: Option<f64>,
+    /// Its unit; empty for none.
+    pub unit: String,
+    /// What is recorded of outputs.
+    pub quantity: String,
+}
+
+/// What a unit offers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Interface {
+    /// All variables: the time, inputs, parameters, outputs. The value reference of each is its index.
+    pub variables: Vec<Variable>,
+    /// First and last time of the model's analysis [s].
+    pub span: [f64; 2],
+    /// Step of the model's analysis [s]; none where steps are chosen by their error, or of load steps.
+    pub step: Option<f64>,
+    /// One line about the model.
+    pub title: String,
+}
+
+/// A model as it stands among the resources of a unit: nothing beside it is needed.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PackedModel {
+    /// Version of the program that packed it.
+    pub version: String,
+    /// What messages call it.
+    pub name: String,
+    /// Its text.
+    pub text: String,
+    /// Values that were put into it.
+    pub overrides: Vec<Override>,
+    /// Texts of the files that it includes, by their paths.
+    pub included: BTreeMap<String, String>,
+}
+
+impl PackedModel {
+    /// A model with `overrides` put in place.
+    ///
+    /// # Errors
+    /// If the model is wrong.
+    pub fn of(model: &Model, overrides: &[Override]) -> Result<Self, Report> {
+        // The files are read as the document is made.
+        lower(&model.document(overrides)?)?;
+        Ok(Self {
+            version: crate::VERSION.to_owned(),
+            name: model.name().to_owned(),
+            text: model.text().to_owned(),
+            overrides: overrides.to_vec(),
+            included: model.included(),
+        })
+    }
+
+    /// The model.
+    pub fn model(&self) -> Model {
+        Model::from_text(&self.name, &self.text).with_included(self.included.clone())
+    }
+
+    /// As the text of a JSON object.
+    ///
+    /// # Panics
+    /// Never: texts can always be said in JSON.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("texts can always be said in JSON")
+    }
+
+    /// What tells units apart: the same for the same model and version.
+    pub fn token(&self) -> String {
+        // FNV-1a, from two starts.
+        let hash = |start: u64| {
+            let byte = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+            self.to_json().bytes().fold(start, byte)
+        };
+        format!("{:016x}{:016x}", hash(0xcbf2_9ce4_8422_2325), hash(0x8422_2325_cbf2_9ce4))
+    }
+}
+
+impl Interface {
+    /// What a unit of `model`, with `overrides` put in place, offers.
+    ///
+    /// # Errors
+    /// If the model is wrong, has no course in time, or a name would mean two variables.
+    pub fn of(model: &Model, overrides: &[Override]) -> Result<Self, FmuError> {
+        let document = model.document(overrides)?;
+        let step = match &document.analysis.kind {
+            AnalysisKind::Dynamics { step, control } => control.is_none().then_some(step.value),
+            AnalysisKind::Statics { .. } => None,
+            other => return Err(FmuError::NotInTime(other.name())),
+        };
+        let variables = variables(model, overrides, &document)?;
+        let mut names: Vec<&str> = variables.iter().map(|variable| variable.name.as_str()).collect();
+        names.sort_unstable();
+        if let Some(pair) = names.windows(2).find(|pair| pair[0] == pair[1]) {
+            return Err(FmuError::SameName(pair[0].to_owned()));
+        }
+        let span = [document.analysis.start, document.analysis.end];
+        Ok(Self { variables, span, step, title: document.title.unwrap_or_default() })
+    }
+}
+
+fn variables(model: &Model, overrides: &[Override], document: &Document) -> Result<Vec<Variable>, FmuError> {
+    let plain = |name: &str, causality, start| Variable {
+        name: name.to_owned(),
+        causality,
+        start,
+        unit: String::new(),
+        quantity: String::new(),
+    };
+    let time = Variable { unit: "s".to_owned(), ..plain("time", Causality::Independent, None) };
+    let inputs =
+        document.inputs.iter().map(|(name, start)| plain(&name.value, Causality::Input, Some(*start)));
+    let parameters = written_numbers(model.text(), overrides, "parameters")
+        .into_iter()
+        .map(|(name, value)| plain(&format!("parameters.{name}"), Causality::Parameter, Some(value)));
+    let lowered = lower(document)?;
+    let outputs = columns(&lowered.channels).into_iter().map(|column| Variable {
+        unit: column.unit.clone(),
+        quantity: column.quantity.clone(),
+        ..plain(&column.name(), Causality::Output, None)
+    });
+    let mut all = vec![time];
+    all.extend(inputs);
+    all.extend(parameters);
+    all.extend(outputs);
+    Ok(all)
+}
+
+/// The archive of a unit. `library` is the shared library for this machine's platform.
+///
+/// # Errors
+/// If the model is wrong or cannot become a unit.
+pub fn export(model: &Model, overrides: &[Override], library: &[u8]) -> Result<Vec<u8>, FmuError> {
+    let packed = PackedModel::of(model, overrides)?;
+    let interface = Interface::of(model, overrides)?;
+    let description = description::xml(&packed, &interface);
+    let binary = format!("binaries/{}/{LIBRARY}{}", platform(), std::env::consts::DLL_SUFFIX);
+    let (resource, text) = (format!("resources/{MODEL_FILE}"), packed.to_json());
+    let files =
+        [("modelDescription.xml", description.as_bytes()), (&resource, text.as_bytes()), (&binary, library)];
+    Ok(archive::zip(&files)?)
+}
+
+/// The folder of this machine's platform, as FMI 3.0 calls it.
+pub fn platform() -> String {
+    let system = match std::env::consts::OS {
+        "macos" => "darwin",
+        other => other,
+    };
+    format!("{}-{system}", std::env::consts::ARCH)
+}
