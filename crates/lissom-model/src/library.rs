@@ -35,6 +35,11 @@ impl Library {
         Self { folder: Some(folder), found: Mutex::default() }
     }
 
+    /// Texts in the folder in which the file `model` lies, of which some were read before, by their paths.
+    pub fn beside_with(model: &Path, texts: impl IntoIterator<Item = (String, String)>) -> Self {
+        Self { folder: Self::beside(model).folder, ..Self::of_texts(texts) }
+    }
+
     /// Texts that were read before, by their paths; no file is looked for.
     pub fn of_texts(texts: impl IntoIterator<Item = (String, String)>) -> Self {
         let found = texts.into_iter().map(|(path, text)| (path, Ok(Arc::from(text)))).collect();

@@ -1,5 +1,6 @@
 //! A model: its text with overrides, checked when it is made.
 
+use std::collections::BTreeMap;
 use std::num::NonZero;
 use std::path::PathBuf;
 
@@ -51,10 +52,16 @@ pub(crate) fn threads_or_all(threads: Option<NonZero<usize>>) -> NonZero<usize> 
 
 #[pymethods]
 impl NativeModel {
-    /// A model from a text; `name` is what complaints call it.
+    /// A model from a text; `name` is what complaints call it, `known` has texts of files that it includes, by their paths.
     #[new]
-    fn new(text: &str, name: &str, overrides: Vec<Override>) -> PyResult<Self> {
-        Self::checked(Model::from_text(name, text), overrides)
+    #[pyo3(signature = (text, name, overrides, known = BTreeMap::new()))]
+    fn new(
+        text: &str,
+        name: &str,
+        overrides: Vec<Override>,
+        known: BTreeMap<String, String>,
+    ) -> PyResult<Self> {
+        Self::checked(Model::from_text(name, text).with_known(known), overrides)
     }
 
     /// A model from a file.
@@ -64,8 +71,8 @@ impl NativeModel {
         Self::checked(model, overrides)
     }
 
-    fn __getnewargs__(&self) -> (&str, &str, Vec<Override>) {
-        (self.model.text(), self.model.name(), self.overrides.clone())
+    fn __getnewargs__(&self) -> (&str, &str, Vec<Override>, BTreeMap<String, String>) {
+        (self.model.text(), self.model.name(), self.overrides.clone(), self.model.included())
     }
 
     /// Path or name.

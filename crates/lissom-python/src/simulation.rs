@@ -15,6 +15,22 @@ use crate::errors::SolutionError;
 use crate::model::NativeModel;
 use crate::watch::Watch;
 
+/// A name, or several.
+#[derive(FromPyObject)]
+enum Names {
+    One(String),
+    Several(Vec<String>),
+}
+
+impl Names {
+    fn all(self) -> Vec<String> {
+        match self {
+            Self::One(name) => vec![name],
+            Self::Several(names) => names,
+        }
+    }
+}
+
 /// A session and the values of its columns.
 struct Inner {
     session: Session,
@@ -35,7 +51,7 @@ impl Inner {
 
 /// A model on its way, made by `Model.simulation()`.
 ///
-/// `sim["arm.rotation"]` is the present value of a column, in SI units. The interpreter lock is released while stepping.
+/// `sim["arm.angle"]` is the present value of a column, in SI units. The interpreter lock is released while stepping.
 #[pyclass(frozen, module = "lissom")]
 pub(crate) struct Simulation {
     inner: Mutex<Inner>,
@@ -189,13 +205,9 @@ impl Simulation {
     ///
     /// Raises `ModelError` if there is no such input or output, `SolutionError` if the model is at rest without being in
     /// equilibrium.
-    #[pyo3(signature = (inputs = Vec::new(), outputs = Vec::new()))]
-    fn linearize<'py>(
-        &self,
-        py: Python<'py>,
-        inputs: Vec<String>,
-        outputs: Vec<String>,
-    ) -> PyResult<Bound<'py, PyAny>> {
+    #[pyo3(signature = (inputs = Names::Several(Vec::new()), outputs = Names::Several(Vec::new())))]
+    fn linearize<'py>(&self, py: Python<'py>, inputs: Names, outputs: Names) -> PyResult<Bound<'py, PyAny>> {
+        let (inputs, outputs) = (inputs.all(), outputs.all());
         let model = self.model.get();
         let files =
             py.detach(|| linearize_here(&self.lock().session, model, &self.document, (&inputs, &outputs)))?;

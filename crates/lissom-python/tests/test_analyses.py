@@ -224,6 +224,8 @@ def test_a_simulation_is_linearised_where_it_stands(program: Program, tmp_path: 
         there = scipy.io.mmread(out / f"{name}.mtx").tocsr()
         assert (getattr(linear, name) != there).nnz == 0 and (getattr(about, name) != there).nnz == 0, name
     before = sim.values()
+    (output,) = {name.rsplit(".", 1)[0] for name in model.names[:3]}
+    assert sim.linearize([], output).outputs == sim.linearize(outputs=(output,)).outputs == model.names[:3]
     assert linear.K.nnz > 0 and np.array_equal(before, sim.values())
     sim.step()
     assert (sim.linearize().K != linear.K).nnz > 0

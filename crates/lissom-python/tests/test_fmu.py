@@ -17,6 +17,7 @@ from fmpy.validation import validate_fmu
 
 import lissom
 from conftest import ROOT
+from test_simulation import THROWN
 
 Program = Callable[..., "subprocess.CompletedProcess[str]"]
 ARM = ROOT / "examples" / "controlled-arm.toml"
@@ -142,6 +143,37 @@ def test_states_are_gone_back_to(unit: Path, slave: Any) -> None:
     for of in (slave, other):
         of.terminate()
         of.freeInstance()
+
+
+def test_a_start_time_moves_the_analysis(unit: Path, slave: Any) -> None:
+    by = references(unit)
+    slave.enterInitializationMode(startTime=1.0)
+    slave.exitInitializationMode()
+    slave.doStep(1.0, STEP)
+    sim = lissom.load(ARM, **{"analysis.start": 1.0, "analysis.end": 1.2}).simulation()
+    sim.step_to(1.0 + STEP)
+    assert slave.getFloat64([by["time"], by["arm.angle"]]) == [sim.time, sim["arm.angle"]]
+    slave.terminate()
+    slave.freeInstance()
+
+
+def test_an_event_that_ends_the_model_ends_the_unit(program: Program, tmp_path: Path) -> None:
+    file, target = tmp_path / "stone.toml", tmp_path / "stone.fmu"
+    file.write_text(THROWN)
+    ended = program("fmu", file, "--out", target, "--quiet")
+    if ended.returncode == 2 and "LISSOM_PROGRAM" not in os.environ:
+        pytest.skip("the shared library of units is not built")
+    assert ended.returncode == 0, ended.stderr
+    folder = extract(str(target))
+    of = instance(target, folder)
+    of.enterInitializationMode(startTime=0.0)
+    of.exitInitializationMode()
+    assert of.doStep(0.0, 0.2)[1] in (False, 0)
+    needed, terminate, early, time = of.doStep(0.2, 0.2)
+    assert terminate and early and abs(time - 0.25) < 1e-12
+    of.terminate()
+    of.freeInstance()
+    shutil.rmtree(folder)
 
 
 def test_what_is_not_allowed_is_an_error(unit: Path, slave: Any) -> None:

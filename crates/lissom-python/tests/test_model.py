@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import pickle
+import shutil
 import warnings
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import lissom
-from conftest import PENDULUM
+from conftest import PENDULUM, ROOT
 
 TEXT = """
 lissom = 1
@@ -48,6 +50,15 @@ def test_models_are_pickled() -> None:
     model = lissom.load(PENDULUM, **{"analysis.end": 0.1})
     again = pickle.loads(pickle.dumps(model))
     assert again.overrides == model.overrides and np.array_equal(again.run()["bob.x"], model.run()["bob.x"])
+
+
+def test_a_pickled_model_brings_the_files_it_includes(tmp_path: Path) -> None:
+    folder = tmp_path / "here"
+    shutil.copytree(ROOT / "examples", folder)
+    model = lissom.load(folder / "turbine-rotor.toml", **{"analysis.end": 0.01})
+    shutil.move(folder, tmp_path / "there")
+    again = pickle.loads(pickle.dumps(model))
+    assert np.array_equal(again.run()["shaft.angle"], model.run()["shaft.angle"])
 
 
 def test_a_check_counts_freedoms() -> None:

@@ -58,6 +58,14 @@ impl Model {
         Self { library: Arc::new(Library::of_texts(texts)), ..self }
     }
 
+    /// The same with texts of files that it may include, by their paths, as [`included`](Self::included) gives them on another
+    /// machine; others are looked for where they were before.
+    #[must_use]
+    pub fn with_known(self, texts: BTreeMap<String, String>) -> Self {
+        let library = Arc::new(Library::beside_with(Path::new(&self.name), texts));
+        Self { library, ..self }
+    }
+
     /// The texts of the files it includes, by their paths, as far as documents were made of it.
     pub fn included(&self) -> BTreeMap<String, String> {
         self.library.texts()

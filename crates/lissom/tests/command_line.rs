@@ -2,6 +2,8 @@
 
 #[path = "command_line/data_file.rs"]
 mod data_file;
+#[path = "command_line/fmu.rs"]
+mod fmu;
 #[path = "command_line/live.rs"]
 mod live;
 #[path = "command_line/modes.rs"]

@@ -21,8 +21,8 @@ if TYPE_CHECKING:
 #: How often a task that raises an error is tried again; tasks of workers that die are not counted.
 RETRIES = 3
 
-#: Text, name and overrides of the model, sweep file, version of the package.
-Specification = tuple[str, str, tuple[tuple[str, str], ...], str, str]
+#: Text, name and overrides of the model, files it includes, sweep file, version of the package.
+Specification = tuple[str, str, tuple[tuple[str, str], ...], tuple[tuple[str, str], ...], str, str]
 
 
 def _specification(*parts: Any) -> Any:
@@ -33,10 +33,10 @@ def _specification(*parts: Any) -> Any:
 @functools.lru_cache(maxsize=4)
 def _prepared(specification: Specification) -> NativeSweep:
     """The sweep on a worker, read once."""
-    text, name, overrides, sweep, version = specification
+    text, name, overrides, known, sweep, version = specification
     if version != __version__:
         raise RuntimeError(f"this worker has version {__version__} of lissom, the client has {version}: install the same")
-    return NativeSweep(NativeModel(text, name, list(overrides)), sweep, "sweep")
+    return NativeSweep(NativeModel(text, name, list(overrides), dict(known)), sweep, "sweep")
 
 
 def _solve(specification: Specification, first: int, end: int) -> list[Outcome]:
@@ -124,8 +124,8 @@ def sweep_on_cluster(
             if part.exists():
                 tables[first] = _read(part)
     done = sum(len(table) for table in tables.values())
-    _, name, overrides = model.__getnewargs__()
-    parts = (model.__getnewargs__()[0], name, tuple(overrides), text, __version__)
+    model_text, name, overrides, known = model.__getnewargs__()
+    parts = (model_text, name, tuple(overrides), tuple(sorted(known.items())), text, __version__)
     specification = client.submit(_specification, *parts, pure=False)
     futures = {
         client.submit(_solve, specification, first, min(first + batch, members), pure=False, retries=RETRIES): first

@@ -30,17 +30,17 @@ def driven(
     error: SolutionError | None = None
     while True:
         is_finished = sim.is_finished or sim.time >= end
-        if not is_finished:
-            for name, function in inputs.items():
-                sim.set(name, float(function(sim)))
-        times.append(sim.time)
-        rows.append(sim.values())
-        if is_finished:
-            break
-        count += 1
-        # Products, not sums: no round-off gathers over many samples.
-        target = start + count * sample
+        values = {} if is_finished else {name: float(function(sim)) for name, function in inputs.items()}
         try:
+            for name, value in values.items():
+                sim.set(name, value)
+            times.append(sim.time)
+            rows.append(sim.values())
+            if is_finished:
+                break
+            count += 1
+            # Products, not sums: no round-off gathers over many samples.
+            target = start + count * sample
             sim.step_to(end if target > end - 1e-9 * sample else target)
         except SolutionError as failed:
             error = failed
@@ -49,7 +49,7 @@ def driven(
             break
         if show is not None:
             show(sim.time - start, end - start)
-    values = np.ascontiguousarray(np.array(rows).T)
+    columns = np.ascontiguousarray(np.array(rows).T)
     names = sim.names
     summary = {
         "model": native.name,
@@ -64,7 +64,7 @@ def driven(
     }
     if error is not None:
         summary["error"] = str(error)
-    result = Result(np.array(times), dict(zip(names, values)), dict(zip(names, sim.units)), summary)
+    result = Result(np.array(times), dict(zip(names, columns)), dict(zip(names, sim.units)), summary)
     if error is not None:
         error.result = result
         raise error

@@ -1,6 +1,6 @@
 """The compiled part of the package."""
 
-from typing import Any, Callable, Optional, final
+from typing import Any, Callable, Optional, Sequence, Union, final
 
 from ._linear import LinearModel
 from ._tables import Files
@@ -24,10 +24,12 @@ class SolutionError(LissomError):
 
 @final
 class NativeModel:
-    def __new__(cls, text: str, name: str, overrides: list[tuple[str, str]]) -> NativeModel: ...
+    def __new__(
+        cls, text: str, name: str, overrides: list[tuple[str, str]], known: dict[str, str] = ...
+    ) -> NativeModel: ...
     @staticmethod
     def read(path: str, overrides: list[tuple[str, str]]) -> NativeModel: ...
-    def __getnewargs__(self) -> tuple[str, str, list[tuple[str, str]]]: ...
+    def __getnewargs__(self) -> tuple[str, str, list[tuple[str, str]], dict[str, str]]: ...
     @property
     def name(self) -> str: ...
     @property
@@ -42,7 +44,7 @@ class NativeModel:
 class Simulation:
     """A model on its way, made by `Model.simulation()`.
 
-    `sim["arm.rotation"]` is the present value of a column, in SI units. The interpreter lock is released while stepping.
+    `sim["arm.angle"]` is the present value of a column, in SI units. The interpreter lock is released while stepping.
     """
 
     def step(self) -> None:
@@ -89,7 +91,7 @@ class Simulation:
         Raises `ValueError` if the model has no such input or the value is not finite, `SolutionError` if there is no
         consistent start with it.
         """
-    def linearize(self, inputs: list[str] = ..., outputs: list[str] = ...) -> LinearModel:
+    def linearize(self, inputs: Union[str, Sequence[str]] = ..., outputs: Union[str, Sequence[str]] = ...) -> LinearModel:
         """The model linearised where the simulation stands, a `lissom.LinearModel`: what `model.linearize` gives about this
         time. `inputs` name inputs, loads and prescribed motions, `outputs` outputs or columns of them.
 
