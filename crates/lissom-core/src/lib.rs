@@ -10,6 +10,7 @@ pub mod joints;
 pub mod judge;
 mod lanes;
 pub mod linear;
+pub mod mechanisms;
 pub mod newton;
 mod node_motion;
 pub mod registry;

@@ -5,6 +5,8 @@
 use lissom_solver::FactorError;
 use serde::{Deserialize, Serialize};
 
+use crate::mechanisms::{Mechanism, Without};
+
 /// What Newton's method sees of a problem.
 pub trait Equations {
     /// Evaluates the residual at the current iterate, solves with the current tangent and corrects.
@@ -45,11 +47,13 @@ pub struct Limits {
     pub tolerance: f64,
     /// Most iterations in one solution.
     pub max_iterations: usize,
+    /// What is left out, for studies.
+    pub without: Without,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { tolerance: 1e-8, max_iterations: 25 }
+        Self { tolerance: 1e-8, max_iterations: 25, without: Without::default() }
     }
 }
 
@@ -74,7 +78,10 @@ impl Memory {
     }
 
     /// Takes note of a solution, and gives the tangent up if it has become too dear.
-    fn keep_account(&mut self, outcome: &Outcome) {
+    fn keep_account(&mut self, outcome: &Outcome, without: Without) {
+        if !without.has(Mechanism::Account) {
+            return;
+        }
         if outcome.factorizations > 0 {
             self.account = Account { spent: TANGENT_COST, ..Account::default() };
         } else if self.account.is_too_dear(outcome.iterations as f64) {
@@ -207,7 +214,7 @@ pub fn solve<E: Equations>(
         age += 1;
         match judge(&correction, previous, fresh, limits, memory) {
             Verdict::Converged => {
-                memory.keep_account(&outcome);
+                memory.keep_account(&outcome, limits.without);
                 return Ok(outcome);
             }
             Verdict::Stalled if stalls > 0 && correction.size > EXACT_ROUND_OFF => {
@@ -225,12 +232,14 @@ pub fn solve<E: Equations>(
                     memory.round_off = memory.round_off.min(EXACT_REMEMBERED);
                 }
                 outcome.stagnated = true;
-                memory.keep_account(&outcome);
+                memory.keep_account(&outcome, limits.without);
                 return Ok(outcome);
             }
             // Seen through the same tangent the next correction must be smaller (natural monotonicity
             // [Deuflhard 2011, section 3.3]); where it is not, the last one went too far.
-            Verdict::BackOff if age == 2 && halvings < MOST_HALVINGS => {
+            Verdict::BackOff
+                if age == 2 && halvings < MOST_HALVINGS && limits.without.has(Mechanism::BackOff) =>
+            {
                 halvings += 1;
                 age = 1;
                 equations.back_off();
@@ -293,6 +302,7 @@ fn judge(
             return Verdict::Converged;
         }
         if let Some(contraction) = memory.contraction
+            && limits.without.has(Mechanism::SingleCorrection)
             && remaining(contraction) * size <= UNSEEN * goal
         {
             memory.contraction = Some(DISTRUST * contraction);
@@ -376,7 +386,7 @@ mod tests {
     fn converges_and_keeps_the_tangent_for_the_next_solution() {
         let mut root = Root::new(1.0, 0.0);
         let mut memory = Memory::default();
-        let limits = Limits { tolerance: 1e-10, max_iterations: 30 };
+        let limits = Limits { tolerance: 1e-10, max_iterations: 30, ..Limits::default() };
         solve(&mut root, &limits, &mut memory).expect("converges");
         assert!((root.x - 2.0_f64.sqrt()).abs() < 1e-10);
         let tangents = root.tangents;
@@ -415,7 +425,7 @@ mod tests {
     fn a_vanishing_correction_is_no_licence_for_the_next_solutions() {
         let mut root = Root::new(2.0_f64.sqrt(), 2.0 * 2.0_f64.sqrt());
         let mut memory = Memory { has_tangent: true, contraction: Some(0.5), ..Memory::default() };
-        let limits = Limits { tolerance: 1e-12, max_iterations: 30 };
+        let limits = Limits { tolerance: 1e-12, max_iterations: 30, ..Limits::default() };
         // Nearly solved already: the corrections soon vanish.
         for _ in 0..3 {
             root.x += 1e-15;
@@ -431,7 +441,8 @@ mod tests {
     fn a_small_slow_part_is_not_hidden_by_a_large_fast_one() {
         let mut pair = Pair { large: 0.0, small: 0.0, rate: 0.9 };
         let mut memory = Memory { has_tangent: true, ..Memory::default() };
-        solve(&mut pair, &Limits { tolerance: 1e-10, max_iterations: 30 }, &mut memory).expect("converges");
+        solve(&mut pair, &Limits { tolerance: 1e-10, max_iterations: 30, ..Limits::default() }, &mut memory)
+            .expect("converges");
         assert!((pair.small - 1e-6).abs() < 1e-9, "{}", pair.small);
     }
 
@@ -439,7 +450,8 @@ mod tests {
     fn a_tangent_that_leads_astray_is_renewed_from_the_first_guess() {
         let mut root = Root::new(1.0, 0.5);
         let mut memory = Memory { has_tangent: true, ..Memory::default() };
-        solve(&mut root, &Limits { tolerance: 1e-10, max_iterations: 30 }, &mut memory).expect("converges");
+        solve(&mut root, &Limits { tolerance: 1e-10, max_iterations: 30, ..Limits::default() }, &mut memory)
+            .expect("converges");
         assert!((root.x - 2.0_f64.sqrt()).abs() < 1e-9);
         assert!(root.tangents >= 1);
     }

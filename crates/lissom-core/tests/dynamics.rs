@@ -23,7 +23,7 @@ fn simulation((system, state): (System, State), scheme: Scheme, step_size: f64) 
         step_size,
         control: None,
         scaling: ScalingChoice::default(),
-        limits: Limits { tolerance: 1e-10, max_iterations: 25 },
+        limits: Limits { tolerance: 1e-10, ..Limits::default() },
         solver: lissom_solver::kind("sparse").expect("registered"),
         threads: 1,
         from_equilibrium: false,

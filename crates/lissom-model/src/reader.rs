@@ -163,7 +163,7 @@ impl<'c, 'a> Reader<'c, 'a> {
     }
 
     /// Some of the words its key allows, each at most once.
-    fn choices(&self, key: &str) -> Option<Vec<String>> {
+    pub(crate) fn choices(&self, key: &str) -> Option<Vec<String>> {
         let node = self.node(key)?;
         let (context, words) = (self.context, self.words(key));
         let Shape::Choices(known) = *self.shape(key) else { return None };

@@ -95,6 +95,38 @@ fn an_impact_has_the_restitution_asked_for() {
     assert!(forces.iter().any(|force| *force < -500.0));
 }
 
+/// With steps of given size a stiff contact may be over before anybody looks: Radau IIA then keeps a fraction of the velocity.
+#[test]
+fn a_contact_that_steps_do_not_resolve_is_told() {
+    let is_told = |run: &Session| {
+        run.simulation().warnings().iter().any(|warning| warning.code() == "contact-too-short")
+    };
+    let (mut told, mut lost) = (0, 0);
+    for scheme in SCHEMES {
+        for stiffness in ["1e5", "1e6", "1e7", "1e8", "1e9"] {
+            for step in ["1.1e-3", "3e-4", "1e-4", "3.3e-5", "1e-5"] {
+                let analysis = format!("scheme = \"{scheme}\"\nstep = {step}\nenergy_check = false");
+                let run = finished(&bounce(&format!("stiffness = {stiffness}"), &analysis));
+                let error = (run.value("slide.velocity").unwrap() - 1.0).abs();
+                told += usize::from(is_told(&run));
+                lost += usize::from(error > 0.1);
+                assert!(error < 0.05 || is_told(&run), "{scheme}, {stiffness} N/m, {step} s: {error:.3}");
+                // A contact of 31 steps: nothing to tell.
+                let is_resolved =
+                    stiffness.parse::<f64>().unwrap() * step.parse::<f64>().unwrap().powi(2) < 0.02;
+                assert!(!(is_resolved && is_told(&run)), "{scheme}, {stiffness} N/m, {step} s");
+            }
+        }
+    }
+    assert!(told >= 30 && lost >= 15, "{told} told, {lost} of them lose a tenth of the velocity");
+    let run = finished(&bounce("stiffness = 1e8", "scheme = \"radau-iia\"\nstep = 1e-3"));
+    let text = run.simulation().warnings()[0].to_string();
+    assert!(
+        text.contains("the force on `slide.displacement` stops") && text.contains("relative_tolerance"),
+        "{text}"
+    );
+}
+
 /// A ball falls by 5 cm; the height of the bounce is e² of that.
 #[test]
 fn a_bounce_has_the_height_of_its_restitution() {

@@ -21,6 +21,7 @@ use super::equations::{StepEquations, joint_changes};
 use super::phase::Phase;
 use super::workspace::Workspace;
 use crate::elements::passage::{Passage, Variation};
+use crate::mechanisms::Mechanism;
 use crate::scaling::Scaled;
 use crate::schemes::Tableau;
 use crate::system::{Chart, Course, LOCKED, Linearization, System};
@@ -219,7 +220,7 @@ impl Workspace {
     /// Goes over to the tangent of both stages, unless it is in use already.
     pub(super) fn begin_coupling(&mut self, system: &System) -> bool {
         // Constraints that yield do so in the other tangent only.
-        if self.coupled_steps > 0 || self.yielding.is_some() {
+        if self.coupled_steps > 0 || self.yielding.is_some() || !self.without.has(Mechanism::CoupledTangent) {
             return false;
         }
         if self.coupled.is_none() {

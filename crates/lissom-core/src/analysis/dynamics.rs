@@ -18,7 +18,7 @@ use crate::judge::{self, Judge, Ledger, Warning};
 use crate::newton::{self, Equations, Failure, Limits, Memory, Outcome};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Coupling, Scheme, Tableau};
-use crate::stepping::{Controller, MethodMemory, Parts, StepControl, Watch};
+use crate::stepping::{Controller, Impacts, MethodMemory, Parts, StepControl, Watch};
 use crate::system::{Kinematics, Layout, Linearization, MotionChange, State, System, Threads};
 
 /// What a simulation is told besides system and state.
@@ -138,6 +138,8 @@ pub struct Simulation {
     pub(super) stable_at: Option<f64>,
     /// Numbers that may change their sign within a step.
     pub(crate) watch: Watch,
+    /// How fast forces switch in steps of planned size.
+    pub(crate) impacts: Impacts,
     /// Whether the workspace still holds the step that led to the state.
     pub(crate) is_last_step_known: bool,
 }
@@ -199,6 +201,7 @@ impl Simulation {
         let equilibrated = settings.scaling.equilibrates();
         let mut work =
             Workspace::new(&system, &state, &settings.scheme, &representative, settings.solver, equilibrated);
+        work.without = settings.limits.without;
         work.threads = Threads::new(&system, settings.threads);
         work.factorization.set_threads(settings.threads);
         work.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
@@ -229,6 +232,8 @@ impl Simulation {
             Watch::of_nothing(&state)
         };
         watch.hold_sides(&system, &mut state.kinematics);
+        let is_planned = settings.scheme.dynamic && controller.is_none();
+        let impacts = if is_planned { Impacts::new(&system, &state.kinematics) } else { Impacts::default() };
         Ok(Self {
             origin: state.kinematics.clone(),
             previous: state.clone(),
@@ -254,6 +259,7 @@ impl Simulation {
             warnings,
             stable_at: None,
             watch,
+            impacts,
             is_last_step_known: false,
         })
     }
@@ -507,7 +513,7 @@ impl Simulation {
 }
 
 /// Adds a warning of a kind that was not told before.
-pub(super) fn warn(warnings: &mut Vec<Warning>, warning: Warning) {
+pub(crate) fn warn(warnings: &mut Vec<Warning>, warning: Warning) {
     if warnings.iter().all(|known| known.code() != warning.code()) {
         warnings.push(warning);
     }

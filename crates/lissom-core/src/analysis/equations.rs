@@ -10,6 +10,7 @@ use super::workspace::Workspace;
 use crate::joints::blocks::JointStarts;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::{Quantity, attached};
+use crate::mechanisms::Mechanism;
 use crate::newton::{Correction, Equations, Failure};
 use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
 use crate::schemes::{Coupling, Increments, Scheme};
@@ -177,7 +178,7 @@ impl StepEquations<'_> {
 
     /// Whether the iterate is far from equilibrium.
     pub(super) fn is_far(&self) -> bool {
-        self.work.correction > FAR
+        self.work.correction > FAR && self.work.without.has(Mechanism::StartStresses)
     }
 
     /// Tangent operators of the nodes' increments since the start of the step, straight motion included.
@@ -370,7 +371,9 @@ impl Equations for StepEquations<'_> {
                     work.processor.dispatch(Multiply { values, factors });
                 }
             }
-            work.secants.improve(&mut work.residuals);
+            if work.without.has(Mechanism::Secants) {
+                work.secants.improve(&mut work.residuals);
+            }
         }
         self.watch.begin(Phase::Rest);
         let correction = self.add_corrections();

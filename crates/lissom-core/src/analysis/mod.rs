@@ -24,6 +24,7 @@ mod step_error;
 mod workspace;
 
 pub use conditioning::{Condition, ConditionMethod};
+pub(crate) use dynamics::warn;
 pub use dynamics::{Settings, Simulation, StepReport, Totals};
 pub use held_values::InputError;
 pub use initial::InitialError;

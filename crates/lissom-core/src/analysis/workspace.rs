@@ -13,6 +13,7 @@ use crate::equilibration::Equilibration;
 use crate::joints::Quantity;
 use crate::joints::blocks::JointStarts;
 use crate::joints::derivatives::IncrementTangent;
+use crate::mechanisms::{Mechanism, Without};
 use crate::scaling::{Representative, Scaled, StageMotion, UnitStart};
 use crate::schemes::{Increments, Scheme};
 use crate::system::{Layout, Scratch, State, System, Threads};
@@ -92,6 +93,8 @@ pub(crate) struct Workspace {
     pub(crate) threads: Option<Threads>,
     pub(crate) report: Option<FactorReport>,
     pub(crate) secants: Secants,
+    /// Mechanisms that are left out.
+    pub(crate) without: Without,
 }
 
 impl Workspace {
@@ -150,11 +153,15 @@ impl Workspace {
             length: representative.length,
             threads: None,
             report: None,
+            without: Without::default(),
         }
     }
 
     /// Takes note of what the scheme's first guess has missed; `multipliers` are those at the start of the step.
     pub(crate) fn learn(&mut self, scheme: &Scheme, multipliers: &[f64]) {
+        if !self.without.has(Mechanism::Prediction) {
+            return;
+        }
         for (stage, predicted) in scheme.stages.iter().zip(&mut self.predicted) {
             self.unit.predict(&stage.prediction, predicted);
         }

@@ -72,6 +72,18 @@ pub enum Warning {
         /// Largest relative speed of neighbouring nodes over their distance [1/s].
         rate: f64,
     },
+    /// What meets a contact is stopped by it faster than steps resolve.
+    #[error(
+        "at t = {time:.6e} s {what} stops what meets it within two steps: a contact so short is not resolved, and its \
+         energy may be lost or won; take steps of at most a tenth of the contact, or set `relative_tolerance` instead of \
+         `step`, which ends steps where contacts begin"
+    )]
+    ContactTooShort {
+        /// When it was seen first [s].
+        time: f64,
+        /// What switches.
+        what: String,
+    },
     /// A warning from the model file.
     #[error("{message}")]
     Model {
@@ -89,6 +101,7 @@ impl Warning {
             Self::Jump { .. } => "jump",
             Self::VelocityReplaced { .. } => "velocity-replaced",
             Self::StartsWithJolt { .. } => "starts-with-jolt",
+            Self::ContactTooShort { .. } => "contact-too-short",
             Self::Model { .. } => "model",
         }
     }

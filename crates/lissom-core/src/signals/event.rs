@@ -76,6 +76,16 @@ impl Graph {
         }
     }
 
+    /// What each switch of a signal belongs to, in the order of the switches.
+    pub(crate) fn names_of_switches(&self) -> Vec<String> {
+        let sampled_apart = self.signals.iter().filter(|signal| signal.sampling.is_none());
+        let names = |signal: &super::Signal| {
+            let name = format!("{} = {}", signal.name, signal.text);
+            std::iter::repeat_n(name, signal.function.switch_count())
+        };
+        sampled_apart.flat_map(names).collect()
+    }
+
     /// Appends numbers that change their sign where a signal has a kink or a jump, in the order of the sides.
     pub(crate) fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
         if self.first_sides.last() == self.first_sides.first() {

@@ -1,7 +1,8 @@
 //! Steps that end at events and where forces switch.
 
 use super::watch::Located;
-use crate::analysis::{Simulation, StepError, StepReport, Stopwatch};
+use crate::analysis::{Simulation, StepError, StepReport, Stopwatch, warn};
+use crate::judge::Warning;
 use crate::newton::Outcome;
 use crate::signals::event::Occurrence;
 
@@ -115,10 +116,23 @@ impl Simulation {
         self.change_held_values(at).map_err(|error| StepError::Velocities { time, error })
     }
 
+    /// After a step of planned size that was accepted.
+    pub(super) fn note_impacts(&mut self) {
+        if let Some(which) = self.impacts.accept(&self.system, &self.state.kinematics) {
+            let time = self.state.kinematics.time;
+            warn(
+                &mut self.warnings,
+                Warning::ContactTooShort { time, what: self.system.name_of_switch(which) },
+            );
+        }
+    }
+
     fn chatters(&self, which: usize) -> StepError {
-        let event = self.system.signals().events().get(which);
-        let what = event
-            .map_or("a force with a kink or a jump".to_owned(), |event| format!("event `{}`", event.name));
+        let events = self.system.signals().events();
+        let what = events.get(which).map_or_else(
+            || self.system.name_of_switch(which - events.len()),
+            |event| format!("event `{}`", event.name),
+        );
         StepError::Chatters { time: self.state.kinematics.time, what }
     }
 }

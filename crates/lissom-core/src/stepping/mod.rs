@@ -9,6 +9,7 @@ mod controller;
 mod dense;
 mod error_estimate;
 mod events;
+mod impacts;
 mod method_memory;
 mod parts;
 mod samples;
@@ -18,6 +19,7 @@ mod watch;
 pub(crate) use arc::ArcControl;
 pub(crate) use controller::Controller;
 pub use controller::StepControl;
+pub(crate) use impacts::Impacts;
 pub(crate) use method_memory::MethodMemory;
 pub(crate) use parts::Parts;
 pub use snapshot::{Snapshot, SnapshotError};
@@ -25,6 +27,7 @@ pub(crate) use watch::{Watch, Watched};
 
 use crate::analysis::{Phase, Simulation, StepError, StepReport, Stopwatch, Unwatched};
 use crate::judge::Ledger;
+use crate::mechanisms::Mechanism;
 use crate::newton::{Memory, Outcome};
 use crate::scaling::ScaleBy;
 use crate::system::State;
@@ -112,6 +115,7 @@ impl Simulation {
                         start = Some((self.state.clone(), self.ledger));
                     }
                     self.accept_step();
+                    self.note_impacts();
                     note(report, &outcome);
                     report.parts += 1;
                     self.is_last_step_known = true;
@@ -127,7 +131,9 @@ impl Simulation {
                     }
                 }
                 Err(error) => {
-                    let may_help = error.may_need_a_smaller_step() && report.rejected < MOST_REJECTED;
+                    let may_help = error.may_need_a_smaller_step()
+                        && report.rejected < MOST_REJECTED
+                        && self.settings.limits.without.has(Mechanism::Parts);
                     // The first failure tells more than those of its parts.
                     let first = first_error.get_or_insert(error);
                     if watch.is_cancelled() {

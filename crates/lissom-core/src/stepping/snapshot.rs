@@ -9,7 +9,7 @@ use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
-use super::{Controller, MethodMemory, Parts, Watched};
+use super::{Controller, Impacts, MethodMemory, Parts, Watched};
 use crate::analysis::snapshot_parts::{Learned, TangentNumbers};
 use crate::analysis::{Settings, Simulation, Totals};
 use crate::judge::{Ledger, Warning};
@@ -18,7 +18,7 @@ use crate::scaling::Scaled;
 use crate::system::{CoordinateMotion, Kinematics, NodeMotion, State};
 
 /// Changes whenever what a snapshot holds does.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -40,6 +40,7 @@ pub struct Snapshot {
     ledger: Ledger,
     warnings: Vec<Warning>,
     watched: Watched,
+    impacts: Impacts,
     learned: Learned,
 }
 
@@ -168,6 +169,7 @@ impl Simulation {
             ledger: self.ledger,
             warnings: self.warnings.clone(),
             watched: self.watch.known.clone(),
+            impacts: self.impacts.clone(),
             learned: self.work.learned(),
         }
     }
@@ -204,6 +206,7 @@ impl Simulation {
         self.ledger = from.ledger;
         self.warnings.clone_from(&from.warnings);
         self.watch.known.clone_from(&from.watched);
+        self.impacts.clone_from(&from.impacts);
         self.work.note_scales(self.system.layout(), &self.scaled);
         self.is_last_step_known = false;
         Ok(())

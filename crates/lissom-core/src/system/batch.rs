@@ -81,6 +81,8 @@ pub(crate) trait AnyBatch: Send + Sync {
     fn hold_sides(&mut self, first: usize) -> usize;
     /// Appends numbers that change their sign where forces have a kink or a jump.
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>);
+    /// Appends where each switch acts, in words.
+    fn name_switches(&self, layout: &Layout, out: &mut Vec<String>);
     /// The largest rate at which an element deforms [1/s], with one of its nodes.
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)>;
     /// The two nodes of an element that are turned most against each other, and the cosine of half that angle.
@@ -335,6 +337,16 @@ impl<E: Element> AnyBatch for Batch<E> {
 
     fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
         self.items.iter().for_each(|item| item.switches(at, out));
+    }
+
+    fn name_switches(&self, layout: &Layout, out: &mut Vec<String>) {
+        for item in &self.items {
+            let coordinates = item.coordinates().iter().map(|&own| layout.coordinate_names[own].as_str());
+            let places: Vec<&str> =
+                coordinates.chain(item.nodes().iter().map(|&node| layout.name_of_node(node))).collect();
+            let name = format!("the force on `{}`", places.join("` and `"));
+            out.extend(std::iter::repeat_n(name, item.switch_count()));
+        }
     }
 
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {

@@ -377,6 +377,8 @@ impl AnyBatch for Arc<Feedback> {
         // Those of signals are watched with their sides.
     }
 
+    fn name_switches(&self, _: &Layout, _: &mut Vec<String>) {}
+
     fn deformation_rate(&self, _: &Kinematics) -> Option<(f64, NodeId)> {
         None
     }

@@ -192,6 +192,13 @@ impl System {
         self.batches.iter().for_each(|batch| batch.switches(at, out));
     }
 
+    /// What changes where the switch of this index has its zero, in words: those of signals come first.
+    pub(crate) fn name_of_switch(&self, which: usize) -> String {
+        let mut names = self.signals().names_of_switches();
+        self.batches.iter().for_each(|batch| batch.name_switches(self.layout(), &mut names));
+        names.get(which).cloned().unwrap_or_else(|| "a force with a kink or a jump".to_owned())
+    }
+
     /// The largest rate at which an element deforms [1/s], with one of its nodes; none where nothing can be bent.
     pub fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
         let rates = self.batches.iter().filter_map(|batch| batch.deformation_rate(at));

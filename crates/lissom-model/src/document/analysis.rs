@@ -1,5 +1,6 @@
 //! What a model file wants computed, and how.
 
+use lissom_core::mechanisms::Without;
 use lissom_core::registry::{Parameter, Parameters};
 
 use super::decode::of_kind;
@@ -129,6 +130,8 @@ pub struct Analysis {
     pub tolerance: f64,
     /// Most iterations of a step.
     pub max_iterations: usize,
+    /// What is left out of the search for a step's solution, for studies.
+    pub without: Without,
     /// Steps from one record to the next.
     pub output_every: usize,
     /// Frames of the motion file per second of simulated time; none for a number that suits the run [1/s].
@@ -206,6 +209,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         solver,
         tolerance: tolerance?.value,
         max_iterations: count("max_iterations", 40),
+        without: without(&reader),
         output_every: if is_run { count("output_every", 1) } else { 1 },
         frames_per_second: if is_run {
             reader.number("frames_per_second").map(|rate| rate.value)
@@ -222,6 +226,11 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     check_times(context, &analysis, end?.span);
     check_frames(&reader, &analysis);
     Some(analysis)
+}
+
+fn without(reader: &Reader<'_, '_>) -> Without {
+    let words = reader.choices("without").unwrap_or_default();
+    Without::of_words(words.iter().map(String::as_str)).unwrap_or_default()
 }
 
 fn path(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {

@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use lissom_core::joints::Quantity;
+use lissom_core::mechanisms::WORDS;
 
 use super::part_tables::{initial, part, placed_in};
 use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
@@ -458,6 +459,12 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
                 "of Newton's iteration, in scaled units, default 1e-8",
             ),
             optional("max_iterations", Shape::Count(1, 10_000), "", "of Newton's iteration, default 40"),
+            optional(
+                "without",
+                Shape::Choices(&WORDS),
+                "",
+                "mechanisms left out of the search for a step's solution, for studies; default none",
+            ),
             optional(
                 "output_every",
                 Shape::Count(1, 1_000_000_000),

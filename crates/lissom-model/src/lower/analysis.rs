@@ -62,7 +62,11 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
             augmented: analysis.augmented,
             penalty: analysis.penalty,
         },
-        limits: Limits { tolerance: analysis.tolerance, max_iterations: analysis.max_iterations },
+        limits: Limits {
+            tolerance: analysis.tolerance,
+            max_iterations: analysis.max_iterations,
+            without: analysis.without,
+        },
         solver,
         threads: 1,
         from_equilibrium,

@@ -1,0 +1,135 @@
+//! Steps of planned size do not end where forces switch. Where a motion runs into a contact that is shorter than the steps,
+//! a scheme takes its energy away without a word; this is noticed by how fast switches are passed.
+//!
+//! Legend: g number that changes its sign where a force has a kink or a jump (a gap), ω frequency of what it meets, h step.
+//!
+//! A contact that is resolved slows an approach ġ like cos ωt. An approach that has lost half of its rate two steps after g
+//! has passed through zero belongs to ωh > π/6, and one that turns back without having passed it was stopped within a step.
+
+use serde::{Deserialize, Serialize};
+
+use crate::system::{Kinematics, System};
+
+/// Steps after a passage at whose ends the rate is looked at.
+const STEPS: u8 = 2;
+/// Part of its rate that an approach keeps there if the contact is resolved.
+const KEPT: f64 = 0.5;
+/// Approaches slower than this part of the fastest one of the same switch hold no energy worth telling: a hundredth.
+const SLOW: f64 = 0.1;
+
+/// What is known of one switch.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+struct Approach {
+    value: f64,
+    rate: Option<f64>,
+    fastest: f64,
+    /// Rate with which zero was passed last, and steps since then.
+    passed: Option<(f64, u8)>,
+}
+
+/// How fast the switches of one simulation are passed.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Impacts {
+    time: f64,
+    approaches: Vec<Approach>,
+    #[serde(skip)]
+    values: Vec<f64>,
+}
+
+impl Impacts {
+    /// At the start of a motion with steps of planned size.
+    pub(crate) fn new(system: &System, at: &Kinematics) -> Self {
+        let mut impacts = Self { time: at.time, ..Self::default() };
+        values_at(system, at, &mut impacts.values);
+        let of = |&value: &f64| Approach { value, ..Approach::default() };
+        impacts.approaches = impacts.values.iter().map(of).collect();
+        impacts
+    }
+
+    /// After a step that was accepted: the first switch that stopped what passed it faster than steps resolve.
+    pub(crate) fn accept(&mut self, system: &System, at: &Kinematics) -> Option<usize> {
+        if self.approaches.is_empty() {
+            return None;
+        }
+        values_at(system, at, &mut self.values);
+        let duration = at.time - self.time;
+        self.time = at.time;
+        let mut found = None;
+        for (which, (approach, &value)) in self.approaches.iter_mut().zip(&self.values).enumerate() {
+            if approach.is_stopped(value, duration) {
+                found.get_or_insert(which);
+            }
+        }
+        found
+    }
+}
+
+impl Approach {
+    /// Takes note of the value after a step of this duration [s], and says whether the motion was stopped too fast.
+    fn is_stopped(&mut self, value: f64, duration: f64) -> bool {
+        let before = std::mem::replace(&mut self.value, value);
+        let rate = (value - before) / duration;
+        let Some(last) = self.rate.replace(rate) else { return false };
+        self.fastest = self.fastest.max(last.abs());
+        let is_slow = last.abs() < SLOW * self.fastest;
+        if before != 0.0 && (before > 0.0) != (value > 0.0) {
+            self.passed = (!is_slow).then_some((last, 0));
+        } else if (before > 0.0) != (before + last * duration > 0.0) {
+            // It should have passed.
+            return before != 0.0 && !is_slow && rate * last < -SLOW * last * last;
+        }
+        let Some((entry, steps)) = &mut self.passed else { return false };
+        *steps += 1;
+        let is_stopped = rate / *entry < KEPT;
+        // The passage itself belongs to two motions.
+        let is_over = *steps > STEPS || is_stopped;
+        if is_over {
+            self.passed = None;
+        }
+        is_stopped
+    }
+}
+
+fn values_at(system: &System, at: &Kinematics, out: &mut Vec<f64>) {
+    out.clear();
+    system.signals().switches(at, out);
+    system.switches(at, out);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whether the gap of a body that meets a spring of ω at a rate of 1 at the time 0 is told, with steps of `step` the
+    /// first of which ends at `first`; the body goes on through the spring and back.
+    fn is_told(omega: f64, step: f64, first: f64, restitution: f64) -> bool {
+        let contact = std::f64::consts::PI / omega;
+        let gap = |time: f64| match time {
+            time if time <= 0.0 => -time,
+            time if time < contact => -(omega * time).sin() / omega,
+            time => restitution * (time - contact),
+        };
+        let mut approach = Approach { value: gap(first - step), ..Approach::default() };
+        (0..60).any(|k| approach.is_stopped(gap(first + f64::from(k) * step), step))
+    }
+
+    #[test]
+    fn contacts_shorter_than_steps_are_told_whatever_the_phase_and_long_ones_are_not() {
+        for phase in 0..10 {
+            let first = -2.0 - 0.1 * f64::from(phase);
+            for omega in [1.0, 2.0, 10.0, 1e3] {
+                for restitution in [1.0, 0.5, 0.15] {
+                    assert!(is_told(omega, 1.0, first, restitution), "{omega} {first} {restitution}");
+                }
+            }
+            assert!(!is_told(0.3, 1.0, first, 1.0), "{first}");
+            assert!(!is_told(0.1, 1.0, first, 1.0), "{first}");
+        }
+    }
+
+    #[test]
+    fn passing_on_is_not_told() {
+        let mut approach = Approach { value: 1.0, ..Approach::default() };
+        assert!(!(0..50).any(|k| approach.is_stopped((0.2 * f64::from(k)).cos(), 0.1)));
+    }
+}
