@@ -139,7 +139,7 @@ fn run(scene: &Scene, overrides: &[Override]) -> Result<Measured, BenchError> {
 
 /// Time for which this thread had a processor, where the system tells. It is brought up to date at every tick of some
 /// milliseconds, and when the processor is offered to others.
-fn processor_time() -> Option<Duration> {
+pub(crate) fn processor_time() -> Option<Duration> {
     std::thread::yield_now();
     let text = std::fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     text.split_whitespace().next()?.parse().ok().map(Duration::from_nanos)

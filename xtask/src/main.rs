@@ -1,5 +1,6 @@
 //! Chores of the project, as `cargo xtask verify`. Knows no mechanics: it runs models and compares numbers.
 
+mod ablate;
 mod bench;
 mod blade;
 mod book;
@@ -55,6 +56,8 @@ enum Chore {
     },
     /// Run scenes without outputs and print where their time goes
     Bench(BenchArguments),
+    /// Leave out one mechanism of the search for a step's solution at a time and print what that costs
+    Ablate(AblateArguments),
     /// Write the reference of the model file, and the types of its entries for models built in Rust and Python
     Reference {
         /// Write nothing; tell whether it is old
@@ -128,6 +131,16 @@ impl BenchArguments {
     }
 }
 
+/// What is left out of what.
+#[derive(clap::Args)]
+struct AblateArguments {
+    /// Parts of the names of models to run; all if none is given
+    names: Vec<String>,
+    /// Runs of each model, of which the fastest counts
+    #[arg(long, default_value_t = 1)]
+    repeat: usize,
+}
+
 /// What is verified.
 #[derive(clap::Args)]
 struct VerifyArguments {
@@ -163,6 +176,7 @@ fn main() -> ExitCode {
         Chore::Bytes { name } => bench::print_bytes(&name).map(|()| true).map_err(|error| error.to_string()),
         Chore::Steps { name } => count::steps(&name).map(|()| true).map_err(|error| error.to_string()),
         Chore::Bench(arguments) => bench::bench(&arguments).map(|()| true).map_err(|error| error.to_string()),
+        Chore::Ablate(arguments) => ablate::ablate(&arguments).map_err(|error| error.to_string()),
         Chore::Reference { check } => reference::reference(check).map_err(|error| error.to_string()),
         Chore::Figures(arguments) => book::figures(&arguments).map_err(|error| error.to_string()),
     };

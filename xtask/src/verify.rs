@@ -78,13 +78,19 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<bool, VerifyError> {
     Ok(failed == 0 && other_digits.is_empty())
 }
 
-fn cases(folder: &Path, arguments: &VerifyArguments) -> Result<Vec<Case>, VerifyError> {
+/// Folders of the cases, in order.
+pub(crate) fn folders(folder: &Path) -> Result<Vec<PathBuf>, VerifyError> {
     let entries = std::fs::read_dir(folder).map_err(VerifyError::file(folder))?;
     let mut folders: Vec<PathBuf> = entries
         .filter_map(|entry| entry.ok().map(|entry| entry.path()))
         .filter(|path| path.join("case.toml").is_file())
         .collect();
     folders.sort();
+    Ok(folders)
+}
+
+fn cases(folder: &Path, arguments: &VerifyArguments) -> Result<Vec<Case>, VerifyError> {
+    let folders = folders(folder)?;
     let named = |path: &Path, name: &str| path.file_name().is_some_and(|file| file == name);
     if let Some(name) = arguments.names.iter().find(|name| !folders.iter().any(|path| named(path, name))) {
         return Err(VerifyError::Unknown(name.clone()));

@@ -163,21 +163,13 @@ const CREDIBLE: f64 = 0.05;
 const MOST_HALVINGS: usize = 12;
 /// Corrections that shrink by less than this are round-off, once they are small.
 const STALLED: f64 = 0.5;
-/// A stalled correction below this part of the tolerance, within limits, is round-off whatever the reference.
-const ROUND_OFF: f64 = 1e-4;
-/// Its limits [-].
-const ROUND_OFF_WITHIN: (f64, f64) = (1e-13, 1e-12);
-/// Round-off that is remembered, so that later solutions stop there at once, is smaller than this [-].
-const MOST_REMEMBERED: f64 = 1e-13;
+/// Corrections below this are round-off: some hundred roundings of numbers of the size of one [-].
+const ROUND_OFF: f64 = 1e-13;
 /// A stalled correction below this fraction of the reference is good enough to go on.
 const STALLED_FRACTION: f64 = 1e-6;
 
-/// Corrections below this are round-off even where the solution is wanted exactly [-].
-const EXACT_ROUND_OFF: f64 = 1e-13;
-/// And larger ones than this are slow convergence [-].
+/// Where the solution is wanted exactly, stalled corrections above this are slow convergence [-].
 const EXACT_STALLED: f64 = 1e-11;
-/// Then smaller round-off than this is remembered [-].
-const EXACT_REMEMBERED: f64 = 1e-17;
 /// Where the solution is wanted exactly, so many new tangents are made for corrections that stall.
 const MOST_STALLS: usize = 2;
 
@@ -217,7 +209,7 @@ pub fn solve<E: Equations>(
                 memory.keep_account(&outcome, limits.without);
                 return Ok(outcome);
             }
-            Verdict::Stalled if stalls > 0 && correction.size > EXACT_ROUND_OFF => {
+            Verdict::Stalled if stalls > 0 && correction.size > ROUND_OFF => {
                 stalls -= 1;
                 halvings = 0;
                 memory.forget_tangent();
@@ -229,7 +221,7 @@ pub fn solve<E: Equations>(
             }
             Verdict::Stalled => {
                 if equations.is_wanted_exactly() {
-                    memory.round_off = memory.round_off.min(EXACT_REMEMBERED);
+                    memory.round_off = 0.0;
                 }
                 outcome.stagnated = true;
                 memory.keep_account(&outcome, limits.without);
@@ -319,10 +311,10 @@ fn judge(
         memory.contraction = memory.contraction.map(|worst| worst.max(BEST_REMEMBERED));
         return Verdict::Converged;
     }
-    let round_off = (ROUND_OFF * limits.tolerance).clamp(ROUND_OFF_WITHIN.0, ROUND_OFF_WITHIN.1);
-    let near_round_off = size <= round_off || size <= STALLED_FRACTION * reference;
+    // Stiff members and large places have more of it.
+    let near_round_off = size <= 10.0 * ROUND_OFF || size <= STALLED_FRACTION * reference;
     if contraction > STALLED && near_round_off && fresh {
-        if size <= MOST_REMEMBERED {
+        if size <= ROUND_OFF {
             memory.round_off = memory.round_off.max(size);
         }
         return Verdict::Stalled;

@@ -217,11 +217,6 @@ impl Scaled {
         self.dynamic
     }
 
-    /// Factor p s of the augmented Lagrangian term.
-    pub(crate) fn augmented_factor(&self) -> f64 {
-        self.augmented
-    }
-
     /// From a scaled multiplier to λ [N, N m].
     pub fn multiplier_factor(&self) -> f64 {
         self.s / self.dynamic

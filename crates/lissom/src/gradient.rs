@@ -108,7 +108,7 @@ pub enum GradientError {
     Feedback,
     /// A step was not solved as one.
     #[error(
-        "the step to t = {0:.6e} s was taken in parts, or with the tangent of both stages, along which nothing is differentiated; \
+        "the step to t = {0:.6e} s was taken in parts, along which nothing is differentiated; \
          choose a smaller step"
     )]
     InParts(f64),

@@ -342,7 +342,7 @@ impl Simulation {
     /// Estimates the condition number of the tangent factored last, in the 1-norm, if it is still in use.
     pub(super) fn factored_condition(&mut self) -> Option<f64> {
         let pattern = &self.system.structure().pattern;
-        let value = self.memory.has_tangent.then(|| self.work.condition_estimate(pattern));
+        let value = self.memory.has_tangent.then(|| self.work.factorization.condition_estimate(pattern));
         value.map(|value| value.max(1.0))
     }
 
@@ -379,12 +379,7 @@ impl Simulation {
             }
             other => other,
         };
-        let mut result = sufficient(newton::solve(&mut equations, &limits, &mut self.memory));
-        if self.controller.is_none() && may_be_coupled(&result) && equations.couple() {
-            self.memory = Memory::default();
-            equations.restart();
-            result = sufficient(newton::solve(&mut equations, &limits, &mut self.memory));
-        }
+        let result = sufficient(newton::solve(&mut equations, &limits, &mut self.memory));
         self.scaled = equations.scaled;
         let outcome = result.map_err(|failure| {
             self.memory = Memory::default();
@@ -486,9 +481,6 @@ impl Simulation {
         if self.settings.scheme.dynamic {
             work.learn(&self.settings.scheme, &self.state.multipliers);
         }
-        if work.end_step() {
-            self.memory = Memory::default();
-        }
         std::mem::swap(&mut self.previous, &mut self.state);
         std::mem::swap(&mut self.state, &mut self.next);
         if let Some(memory) = &mut self.method_memory {
@@ -523,11 +515,6 @@ pub(crate) fn warn(warnings: &mut Vec<Warning>, warning: Warning) {
 fn pivoting_unless(settings: &Settings) -> &'static SolverKind {
     let pivoting = lissom_solver::kind("pivoting").unwrap_or(settings.solver);
     if settings.scaling.augmented { settings.solver } else { pivoting }
-}
-
-/// Whether a tangent of both stages might find the solution.
-fn may_be_coupled(result: &Result<Outcome, Failure>) -> bool {
-    matches!(result, Err(failure) if !matches!(failure, Failure::Factor(_)))
 }
 
 fn copy_motion(from: &Kinematics, to: &mut Kinematics) {

@@ -7,14 +7,15 @@ use super::compliance::Compliance;
 use super::corrections::{Add, Measure, Multiply};
 use super::phase::{Phase, Stopwatch};
 use super::workspace::Workspace;
+use crate::elements::passage::Passage;
 use crate::joints::blocks::JointStarts;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::{Quantity, attached};
 use crate::mechanisms::Mechanism;
 use crate::newton::{Correction, Equations, Failure};
 use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
-use crate::schemes::{Coupling, Increments, Scheme};
-use crate::system::{Chart, Kinematics, LOCKED, Point, Receiver, State, System};
+use crate::schemes::{Increments, Scheme, Tableau};
+use crate::system::{Chart, Course, Kinematics, LOCKED, Point, Receiver, State, System};
 
 /// Corrections of rotations larger than this are cut short [rad].
 const LARGEST_ROTATION: f64 = 1.0;
@@ -85,6 +86,30 @@ impl StepEquations<'_> {
             );
         }
         self.watch.begin(Phase::Rest);
+    }
+
+    /// The step as those see it whose strains and violations are integrated.
+    pub(super) fn course(&self, tableau: &Tableau) -> Option<Course<'_>> {
+        let work = &*self.work;
+        let [first, second, end] = &work.motions[..] else { return None };
+        let (durations, lasting) = self.scaled.durations(tableau);
+        let start = &self.start.kinematics;
+        Some(Course {
+            passage: Passage {
+                start,
+                stages: [&first.at, &second.at],
+                end: &end.at,
+                changes: &end.changes,
+                durations,
+                lasting,
+                reached: tableau.reached,
+                length: work.length,
+            },
+            increments: [first, second, end].map(|motion| joint_changes(start, motion, &work.joint_starts)),
+            multipliers: [&work.multipliers[0], &work.multipliers[1]],
+            violations: &self.start.violations,
+            augmentation: self.scaled.augmentation(),
+        })
     }
 
     pub(super) fn point(&self, stage: usize) -> Point<'_> {
@@ -289,11 +314,6 @@ impl StepEquations<'_> {
         self.work.note_scales(self.system.layout(), &self.scaled);
     }
 
-    /// Goes over to a tangent that knows more, and says whether there is one.
-    pub(crate) fn couple(&mut self) -> bool {
-        matches!(self.scheme.coupling, Coupling::Pair { .. }) && self.work.begin_coupling(self.system)
-    }
-
     /// A failure that a pivoting solver could not help, as the vanished pivot that called for it.
     pub(crate) fn unforgiven(&self, failure: Failure) -> Failure {
         match self.work.fell_back {
@@ -349,31 +369,20 @@ impl Equations for StepEquations<'_> {
                 compliance.relax(factor, multipliers, &mut residual[layout.multiplier_rows()]);
             }
         }
-        if work.coupled_steps > 0
-            && let Some(coupled) = &mut work.coupled
-        {
-            for residual in &mut work.residuals {
-                self.scaled.scale_residual(layout, residual);
-            }
-            self.watch.begin(Phase::Solve);
-            coupled.solve(&mut work.residuals);
-            work.secants.forget();
-        } else {
+        for values in &mut work.residuals {
+            work.processor.dispatch(Multiply { values, factors: &work.row_factors });
+        }
+        self.watch.begin(Phase::Solve);
+        work.factorization.solve(&self.scheme.coupling, &mut work.residuals);
+        self.watch.begin(Phase::Rest);
+        if let Some(equilibration) = &work.equilibration {
+            let factors = equilibration.factors();
             for values in &mut work.residuals {
-                work.processor.dispatch(Multiply { values, factors: &work.row_factors });
+                work.processor.dispatch(Multiply { values, factors });
             }
-            self.watch.begin(Phase::Solve);
-            work.factorization.solve(&self.scheme.coupling, &mut work.residuals);
-            self.watch.begin(Phase::Rest);
-            if let Some(equilibration) = &work.equilibration {
-                let factors = equilibration.factors();
-                for values in &mut work.residuals {
-                    work.processor.dispatch(Multiply { values, factors });
-                }
-            }
-            if work.without.has(Mechanism::Secants) {
-                work.secants.improve(&mut work.residuals);
-            }
+        }
+        if work.without.has(Mechanism::Secants) {
+            work.secants.improve(&mut work.residuals);
         }
         self.watch.begin(Phase::Rest);
         let correction = self.add_corrections();
@@ -385,13 +394,6 @@ impl Equations for StepEquations<'_> {
         self.work.effort.factorizations += 1;
         let (choice, representative) = self.scaling;
         self.scaled = Scaled::new(choice, representative, self.scaled.step_size());
-        if self.work.coupled_steps > 0
-            && let Some(mut coupled) = self.work.coupled.take()
-        {
-            let result = self.renew_coupled_tangent(&mut coupled);
-            self.work.coupled = Some(coupled);
-            return result;
-        }
         self.watch.begin(Phase::Linearisation);
         self.work.secants.forget();
         self.linearize();

@@ -3,8 +3,6 @@
 pub(crate) mod compliance;
 pub mod conditioning;
 mod corrections;
-mod coupled;
-mod coupled_joints;
 pub mod dynamics;
 mod equations;
 pub mod equilibrium;

@@ -27,12 +27,12 @@ const FOUND: f64 = 1e-9;
 
 impl Simulation {
     /// Makes the tangent of the last step anew, at its solution, and keeps it in use. Gives false if there is no such step: before
-    /// the first one, after one that failed, one that was taken in parts, or with the tangent of both stages.
+    /// the first one, after one that failed, one that was taken in parts.
     ///
     /// # Errors
     /// If the tangent has no factors.
     pub fn renew_at_solution(&mut self) -> Result<bool, StepError> {
-        if !self.is_last_step_known || self.work.is_coupled() {
+        if !self.is_last_step_known {
             return Ok(false);
         }
         self.system.begin_step(&self.previous.kinematics, &mut self.work.joint_starts);

@@ -4,7 +4,6 @@ use lissom_solver::FactorError;
 use serde::{Deserialize, Serialize};
 
 use super::compliance::Compliance;
-use super::coupled::Coupled;
 use super::guess::Guess;
 use super::secants::Secants;
 use super::workspace::{Effort, Workspace};
@@ -32,10 +31,6 @@ pub(crate) struct Learned {
     force_round_off: f64,
     yielding: Option<(Compliance, usize)>,
     fell_back: Option<(usize, f64)>,
-    /// Values of the tangent of both stages, if it is in use, and for how many steps it is and will be.
-    coupled: Option<Vec<f64>>,
-    coupled_steps: usize,
-    coupled_next: usize,
 }
 
 impl Workspace {
@@ -50,13 +45,6 @@ impl Workspace {
             force_round_off: self.force_round_off,
             yielding: self.yielding.clone(),
             fell_back: self.fell_back,
-            coupled: self
-                .coupled
-                .as_ref()
-                .filter(|_| self.coupled_steps > 0)
-                .map(|coupled| coupled.values.clone()),
-            coupled_steps: self.coupled_steps,
-            coupled_next: self.coupled_next,
         }
     }
 
@@ -85,15 +73,6 @@ impl Workspace {
         if let Some(tangent) = &from.tangent {
             self.factorization.set_numbers(tangent);
             self.report = Some(self.factorization.factor()?);
-        }
-        self.coupled_steps = from.coupled_steps;
-        self.coupled_next = from.coupled_next;
-        if let Some(values) = &from.coupled {
-            let mut coupled =
-                self.coupled.take().unwrap_or_else(|| Box::new(Coupled::new(system, self.solver)));
-            coupled.values.copy_from_slice(values);
-            self.report = Some(coupled.factor()?);
-            self.coupled = Some(coupled);
         }
         Ok(())
     }

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 
 use super::compliance::Compliance;
 use super::corrections::processor;
-use super::coupled::{Coupled, FIRST_COUPLED};
 use super::factorization::Factorization;
 use super::guess::Guess;
 use super::secants::Secants;
@@ -65,11 +64,6 @@ pub(crate) struct Workspace {
     pub(crate) force_round_off: f64,
     /// Where constraints repeat each other: what lets them yield, and the multiplier whose pivot vanished.
     pub(crate) yielding: Option<(Compliance, usize)>,
-    /// The tangent of both stages, once it was needed.
-    pub(super) coupled: Option<Box<Coupled>>,
-    /// For how many more steps it is used, and for how many it will be when it is needed again.
-    pub(super) coupled_steps: usize,
-    pub(super) coupled_next: usize,
     /// The solver that factors.
     pub(super) solver: &'static lissom_solver::SolverKind,
     /// What joints see at the start of the step.
@@ -136,9 +130,6 @@ impl Workspace {
             fell_back: None,
             force_round_off: 0.0,
             yielding: None,
-            coupled: None,
-            coupled_steps: 0,
-            coupled_next: FIRST_COUPLED,
             solver,
             joint_starts: JointStarts::default(),
             scratch: Some(Box::default()),
@@ -181,11 +172,6 @@ impl Workspace {
         for (size, &quantity) in self.multiplier_sizes.iter_mut().zip(quantities) {
             *size = 1.0 / scaled.unit(quantity);
         }
-    }
-
-    /// Whether the tangent of both stages is in use.
-    pub(crate) fn is_coupled(&self) -> bool {
-        self.coupled_steps > 0
     }
 
     /// Makes the next first guess from the scheme alone.

@@ -27,7 +27,7 @@ use crate::registry::{Parameter, ParameterError, Parameters};
 use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
 use blocks::Blocks;
 use lissom_motion::Vector3;
-use passage::{Passage, STAGES, Variation};
+use passage::{Passage, STAGES};
 use serde::{Deserialize, Serialize};
 
 /// Most local unknowns an element may have: four nodes and two coordinates.
@@ -170,31 +170,6 @@ pub trait Element: Send + Sync + 'static {
     /// those of an iterate are no guide, see `Point::stressed`.
     fn linearize_stressed(&self, at: &Kinematics, _stressed: &Kinematics, out: &mut Tangents) {
         self.linearize(at, out);
-    }
-
-    /// Adds the derivatives of the forces at a stage of `passage` by places, twists and accelerations, integrated
-    /// strains being constant, with the stresses of another configuration in the geometric stiffness if there is
-    /// one. Default, for strains that the stages integrate exactly. Rare.
-    fn linearize_stage(
-        &self,
-        passage: &Passage<'_>,
-        stage: usize,
-        stressed: Option<&Kinematics>,
-        out: &mut Tangents,
-    ) {
-        let at = passage.stages[stage];
-        self.linearize_stressed(at, stressed.unwrap_or(at), out);
-    }
-
-    /// Adds the derivatives of the forces by integrated strains: `out[i][k]`, row-major over the local unknowns,
-    /// those at stage i by the unknowns of stage k, for nodes that vary as `variations` tell, by node. Default:
-    /// none.
-    fn linearize_integrated(
-        &self,
-        _passage: &Passage<'_>,
-        _variations: &[[Variation; STAGES]],
-        _out: &mut [[Vec<f64>; STAGES]; STAGES],
-    ) {
     }
 
     /// Kinetic, elastic and potential energy.

@@ -12,7 +12,7 @@
 
 use std::ops::{Add, Mul};
 
-use lissom_motion::{Matrix6, Vector6};
+use lissom_motion::Vector6;
 
 use crate::system::{Kinematics, MotionChange};
 
@@ -38,22 +38,6 @@ pub struct Passage<'a> {
     pub reached: [f64; STAGES],
     /// A length of the system, to compare translations with rotations [m].
     pub length: f64,
-}
-
-/// How a node's place and twist at a stage vary with its unknowns.
-#[derive(Clone, Copy, Debug)]
-pub struct Variation {
-    /// Body variation by the unknowns of the stage.
-    pub place: Matrix6,
-    /// Twist by the unknowns of each stage.
-    pub rate: [Matrix6; STAGES],
-}
-
-impl Variation {
-    /// None.
-    pub(crate) fn none() -> Self {
-        Self { place: Matrix6::zeros(), rate: [Matrix6::zeros(); STAGES] }
-    }
 }
 
 impl Passage<'_> {

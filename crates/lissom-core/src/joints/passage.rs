@@ -21,10 +21,6 @@ pub(crate) const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 pub(crate) struct Visit {
     /// B̃.
     pub(crate) rows: LocalGradient,
-    /// B.
-    pub(crate) plain: LocalGradient,
-    /// Share of what the rates miss [1/s].
-    pub(crate) share: f64,
     /// Integrated violation.
     pub(crate) violation: SVector<f64, MOST_EQUATIONS>,
 }
@@ -83,8 +79,6 @@ impl AttachedJoint {
             .at_stages(SVector::zeros(), [0, 1].map(|j| rates[j] + shares[j] * missed + before / whole));
         [0, 1].map(|j| Visit {
             rows: rows[j] + inverse * known * weights[j].transpose(),
-            plain: rows[j],
-            share: shares[j],
             violation: violations[j],
         })
     }

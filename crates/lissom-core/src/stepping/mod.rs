@@ -249,7 +249,7 @@ impl Simulation {
         }
         self.scaled = self.scaled.resized(&settings.scaling, size);
         // Scaled tangents of motions hardly depend on the step size, those of load steps and unscaled ones do.
-        if !settings.scheme.dynamic || settings.scaling.by == ScaleBy::None || work.is_coupled() {
+        if !settings.scheme.dynamic || settings.scaling.by == ScaleBy::None {
             self.memory = Memory::default();
         }
         work.note_scales(system.layout(), &self.scaled);

@@ -12,14 +12,11 @@ use super::receiver::{Place, Receiver};
 use super::state::{Kinematics, NodeId, NodeMotion};
 use super::threads::Threads;
 use crate::elements::blocks::Blocks;
-use crate::elements::passage::{Passage, STAGES, Variation};
+use crate::elements::passage::{Passage, STAGES};
 use crate::elements::sides::Sides;
 use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
 use crate::joints::derivatives::IncrementTangent;
 use crate::lanes::processor_for;
-
-/// Most nodes of an element.
-const MOST_NODES: usize = 4;
 
 /// All elements of one kind.
 pub(crate) struct Batch<E> {
@@ -55,21 +52,6 @@ pub(crate) trait AnyBatch: Send + Sync {
         out: &mut Receiver<'_>,
     );
     fn passage_forces(&self, passage: &Passage<'_>, out: &mut [Vec<f64>]);
-    fn linearize_stage(
-        &self,
-        passage: &Passage<'_>,
-        stage: usize,
-        stressed: Option<&Kinematics>,
-        scratch: &mut Tangents,
-        out: &mut Receiver<'_>,
-    );
-    fn linearize_integrated(
-        &self,
-        passage: &Passage<'_>,
-        variations: &[[Variation; STAGES]],
-        scratch: &mut [[Vec<f64>; STAGES]; STAGES],
-        add: &mut dyn FnMut(usize, usize, usize, f64),
-    );
     fn energy(&self, at: &Kinematics) -> Energy;
     /// Work of loads between two configurations [J].
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64;
@@ -225,50 +207,6 @@ impl<E: Element> AnyBatch for Batch<E> {
             item.passage_forces(passage, &mut local);
             for (local, out) in local.iter().zip(out.iter_mut()) {
                 scatter(rows, local, out);
-            }
-        }
-    }
-
-    fn linearize_stage(
-        &self,
-        passage: &Passage<'_>,
-        stage: usize,
-        stressed: Option<&Kinematics>,
-        scratch: &mut Tangents,
-        out: &mut Receiver<'_>,
-    ) {
-        for (index, item) in self.items.iter().enumerate() {
-            scratch.clear(self.item_rows(index).len());
-            item.linearize_stage(passage, stage, stressed, scratch);
-            out.add_element(self.place(index), scratch);
-        }
-    }
-
-    fn linearize_integrated(
-        &self,
-        passage: &Passage<'_>,
-        variations: &[[Variation; STAGES]],
-        scratch: &mut [[Vec<f64>; STAGES]; STAGES],
-        add: &mut dyn FnMut(usize, usize, usize, f64),
-    ) {
-        let none = [[Variation::none(); STAGES]; MOST_NODES];
-        for (index, item) in self.items.iter().enumerate() {
-            let size = self.item_rows(index).len();
-            for values in scratch.iter_mut().flatten() {
-                values.clear();
-                values.resize(size * size, 0.0);
-            }
-            let mut own = none;
-            for (own, &node) in own.iter_mut().zip(item.nodes()) {
-                *own = variations[node];
-            }
-            item.linearize_integrated(passage, &own[..item.nodes().len()], scratch);
-            for (stage, row) in scratch.iter().enumerate() {
-                for (other, values) in row.iter().enumerate() {
-                    for (position, i, j) in self.places.of(index).iter().flat_map(|run| run.entries()) {
-                        add(position, stage, other, values[i * size + j]);
-                    }
-                }
             }
         }
     }

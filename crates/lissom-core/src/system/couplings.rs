@@ -12,8 +12,6 @@ use crate::joints::passage::ROUND_OFF;
 pub(crate) struct CouplingVisit {
     /// B̃.
     pub(crate) rows: Coupled,
-    /// Share of what the rates miss [1/s].
-    pub(crate) share: f64,
     /// Integrated violation.
     pub(crate) violation: f64,
 }
@@ -151,7 +149,7 @@ impl System {
                 rows[j][k] += inverse * known * weights[j][k];
             }
         }
-        [0, 1].map(|j| CouplingVisit { rows: rows[j], share: shares[j], violation: violations[j] })
+        [0, 1].map(|j| CouplingVisit { rows: rows[j], violation: violations[j] })
     }
 }
 

@@ -20,7 +20,7 @@ use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
 use super::state::{CoordinateId, Kinematics, NodeId};
 use super::threads::Threads;
-use crate::elements::passage::{Passage, STAGES, Variation};
+use crate::elements::passage::Passage;
 use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
 use crate::signals::measurement::Measurement;
 use crate::signals::{Argument, Graph, HeldId, SignalId};
@@ -326,26 +326,6 @@ impl AnyBatch for Arc<Feedback> {
         for (at, out) in passage.stages.iter().zip(out) {
             self.add_forces(at, out);
         }
-    }
-
-    fn linearize_stage(
-        &self,
-        passage: &Passage<'_>,
-        stage: usize,
-        _: Option<&Kinematics>,
-        scratch: &mut Tangents,
-        out: &mut Receiver<'_>,
-    ) {
-        self.hand_derivatives(passage.stages[stage], Chart::Body, scratch, out);
-    }
-
-    fn linearize_integrated(
-        &self,
-        _: &Passage<'_>,
-        _: &[[Variation; STAGES]],
-        _: &mut [[Vec<f64>; STAGES]; STAGES],
-        _: &mut dyn FnMut(usize, usize, usize, f64),
-    ) {
     }
 
     fn energy(&self, _: &Kinematics) -> Energy {

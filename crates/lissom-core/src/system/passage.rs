@@ -4,8 +4,8 @@
 use nalgebra::SVector;
 
 use super::layout::LOCKED;
-use super::{Augmentation, Chart, Drive, Kinematics, Linearization, Point, Receiver, System};
-use crate::elements::passage::{Passage, STAGES, Variation};
+use super::{Augmentation, Drive, System};
+use crate::elements::passage::{Passage, STAGES};
 use crate::joints::attached::{AttachedJoint, Increments};
 use crate::joints::derivatives::LOCAL;
 use crate::joints::{Equations, MOST_EQUATIONS};
@@ -26,50 +26,6 @@ pub struct Course<'a> {
 }
 
 impl System {
-    /// Linearisation at a stage of `course` with respect to body variations, integrated strains and violations being
-    /// constant; `stressed`, if given, has the stresses of the geometric stiffness.
-    pub fn linearize_stage(
-        &self,
-        course: &Course<'_>,
-        stage: usize,
-        stressed: Option<&Kinematics>,
-        out: &mut Linearization,
-    ) {
-        let mut scratch = out.scratch.take().unwrap_or_default();
-        let mut receiver = Receiver::Apart(out);
-        receiver.clear();
-        for batch in &self.batches {
-            batch.linearize_stage(&course.passage, stage, stressed, &mut scratch.local, &mut receiver);
-        }
-        let at = course.passage.stages[stage];
-        let point = Point {
-            at,
-            stressed: at,
-            increments: course.increments[stage],
-            multipliers: course.multipliers[stage],
-            violations: course.violations,
-            augmentation: course.augmentation,
-        };
-        self.linearize_constraints(&point, Chart::Body, &mut scratch.joint, &mut receiver);
-        out.scratch = Some(scratch);
-        out.constraint.fill(0.0);
-        out.gram.fill(0.0);
-    }
-
-    /// Hands the derivatives of the forces by integrated strains to `add`: position in the tangent's pattern, stage
-    /// of the row, stage of the column, value. `variations` tell how the nodes vary.
-    pub fn linearize_integrated(
-        &self,
-        course: &Course<'_>,
-        variations: &[[Variation; STAGES]],
-        add: &mut dyn FnMut(usize, usize, usize, f64),
-    ) {
-        let mut scratch = std::array::from_fn(|_| std::array::from_fn(|_| Vec::new()));
-        for batch in &self.batches {
-            batch.linearize_integrated(&course.passage, variations, &mut scratch, add);
-        }
-    }
-
     /// Residuals at the stages of `course`: left-hand sides of the equations of motion in the rows of the
     /// coordinates, integrated violations in the rows of the multipliers.
     pub fn course_residuals(&self, course: &Course<'_>, out: &mut [Vec<f64>]) {

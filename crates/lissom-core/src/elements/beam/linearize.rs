@@ -3,10 +3,10 @@
 
 use super::{
     Beam, Kinematics, Matrix6, Motion, Relative, Station, Tangents, Vector6, add_block, coadjoint_matrix,
-    combine, inverse_tangent, inverse_tangent_derivative, inverse_tangent_times,
-    inverse_tangent_transpose_derivative, inverse_tangent_transpose_times, lie_bracket_matrix, tangent,
-    tangent_derivative, tangent_derivative_transpose_times, tangent_hessian, tangent_rate_times,
-    tangent_transpose_derivative, tangent_transpose_times,
+    combine, inverse_tangent, inverse_tangent_derivative, inverse_tangent_transpose_derivative,
+    inverse_tangent_transpose_times, lie_bracket_matrix, tangent, tangent_derivative,
+    tangent_derivative_transpose_times, tangent_hessian, tangent_rate_times, tangent_transpose_derivative,
+    tangent_transpose_times,
 };
 
 type Blocks<const N: usize> = [[Matrix6; N]; N];
@@ -18,8 +18,6 @@ pub(in crate::elements) struct Linearization<const N: usize> {
     damping: Blocks<N>,
     conjugate: [Vector6; N],
     damped: bool,
-    /// Whether strains are integrated: then what their changes do is not among the stiffness.
-    integrated: bool,
 }
 
 /// ∂ε̇/∂d at constant node twists, for the strains' derivatives and those of the rates ḋ.
@@ -39,69 +37,6 @@ fn rate_by_coordinates<const N: usize>(
     std::array::from_fn(|k| shape[k] * by_d + slope[k] * by_slope + strains[k] * changes[k])
 }
 
-/// What the strains of a beam depend on at one place and with its twists there.
-pub(in crate::elements) struct Gradients<const N: usize> {
-    relative: Relative<N>,
-    rates: Relative<N>,
-    changes: [Matrix6; N],
-    inverse: [Matrix6; N],
-    adjoints: [Matrix6; N],
-    /// Twist of the reference node, seen from each node.
-    carried: Relative<N>,
-}
-
-impl<const N: usize> Gradients<N> {
-    pub(in crate::elements) fn new(beam: &Beam<N>, at: &Kinematics) -> Self {
-        let relative = beam.relative(at);
-        let twists = beam.relative_twists(at, &relative);
-        let reference = beam.section_twist(at, Beam::<N>::REFERENCE);
-        let inverse_motions = relative.map(|d| Motion::exponential(&d).inverse());
-        Self {
-            rates: std::array::from_fn(|i| inverse_tangent_times(&relative[i], &twists[i])),
-            changes: rate_changes(beam, at, &relative),
-            inverse: relative.map(|d| inverse_tangent(&d)),
-            adjoints: inverse_motions.map(|motion| motion.adjoint()),
-            carried: inverse_motions.map(|motion| motion.adjoint_times(&reference)),
-            relative,
-        }
-    }
-
-    /// ∂ε/∂h = ∂ε̇/∂V and ∂ε̇/∂h of a station, by node.
-    pub(in crate::elements) fn of_station(&self, beam: &Beam<N>, station: &Station<N>) -> [[Matrix6; N]; 2] {
-        let d = combine(&station.shape, &self.relative);
-        let d_slope = combine(&station.slope, &self.relative);
-        let (t, turned) = (tangent(&d), tangent_derivative(&d, &d_slope));
-        let strains: [Matrix6; N] = std::array::from_fn(|i| station.slope[i] * t + station.shape[i] * turned);
-        let rates = rate_by_coordinates(station, (&d, &d_slope), &strains, &self.rates, &self.changes);
-        [strains, rates].map(|blocks| {
-            let mut by_node = [Matrix6::zeros(); N];
-            for i in (0..N).filter(|&i| i != Beam::<N>::REFERENCE) {
-                self.add_relative(beam, i, &(blocks[i] * self.inverse[i]), &mut by_node);
-            }
-            by_node
-        })
-    }
-
-    /// ∂σ/∂V and ∂σ/∂h of the relative twist σ of node `i`, by node: δσ = ad_η Ad(exp(-d)) V_r at constant twists.
-    pub(in crate::elements) fn of_twist(&self, beam: &Beam<N>, i: usize) -> [[Matrix6; N]; 2] {
-        [Matrix6::identity(), -lie_bracket_matrix(&self.carried[i])].map(|factor| {
-            let mut by_node = [Matrix6::zeros(); N];
-            self.add_relative(beam, i, &factor, &mut by_node);
-            by_node
-        })
-    }
-
-    /// Adds `factor` η_i, η_i = δh_i - A_i δh_r, with the offsets of the sections.
-    fn add_relative(&self, beam: &Beam<N>, i: usize, factor: &Matrix6, by_node: &mut [Matrix6; N]) {
-        let seen = |node: usize, block: Matrix6| {
-            beam.offsets[node].as_ref().map_or(block, |offset| block * offset.inverse().adjoint())
-        };
-        by_node[i] += seen(i, *factor);
-        let r = Beam::<N>::REFERENCE;
-        by_node[r] -= seen(r, factor * self.adjoints[i]);
-    }
-}
-
 impl<const N: usize> Linearization<N> {
     pub(super) fn new(beam: &Beam<N>, at: &Kinematics, stressed: &Kinematics) -> Self {
         let relative = beam.relative(at);
@@ -115,36 +50,11 @@ impl<const N: usize> Linearization<N> {
             damping: zeros,
             conjugate: [Vector6::zeros(); N],
             damped: rates.is_some(),
-            integrated: false,
         };
         let rate_changes = rates.as_ref().map(|_| rate_changes(beam, at, &relative));
         for station in &beam.stations {
             let stress = station.weight * station.stress(&relative_stressed, rates_stressed.as_ref());
             result.add_station(station, &stress, rates.as_ref(), rate_changes.as_ref());
-        }
-        result
-    }
-
-    /// With the stresses of integrated strains at a stage, by station.
-    pub(in crate::elements) fn of_stage(
-        beam: &Beam<N>,
-        at: &Kinematics,
-        stress: impl Fn(usize) -> Vector6,
-    ) -> Self {
-        let relative = beam.relative(at);
-        let rates = beam.rates(at, &relative);
-        let changes = rates.as_ref().map(|_| rate_changes(beam, at, &relative));
-        let zeros = [[Matrix6::zeros(); N]; N];
-        let mut result = Self {
-            relative,
-            stiffness: zeros,
-            damping: zeros,
-            conjugate: [Vector6::zeros(); N],
-            damped: rates.is_some(),
-            integrated: true,
-        };
-        for (index, station) in beam.stations.iter().enumerate() {
-            result.add_station(station, &stress(index), rates.as_ref(), changes.as_ref());
         }
         result
     }
@@ -174,10 +84,8 @@ impl<const N: usize> Linearization<N> {
             let left = weight * strains[i].transpose() * station.law.stiffness;
             for k in (0..N).filter(|&k| k != Beam::<N>::REFERENCE) {
                 let stiffness = &mut self.stiffness[i][k];
-                if !self.integrated {
-                    *stiffness += left * strains[k];
-                }
-                *stiffness += slope[i] * shape[k] * turn
+                *stiffness += left * strains[k]
+                    + slope[i] * shape[k] * turn
                     + shape[i] * slope[k] * turn.transpose()
                     + shape[i] * shape[k] * bend;
                 if let Some(viscous) = &viscous {

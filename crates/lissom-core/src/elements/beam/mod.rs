@@ -20,7 +20,6 @@
 
 mod blocks;
 mod forces;
-mod integrated;
 pub mod line;
 mod linearize;
 mod passage;
@@ -37,7 +36,7 @@ use blocks::BeamBlocks;
 use forces::{Constants, forces};
 
 use super::blocks::Blocks;
-use super::passage::{Passage, STAGES, Variation};
+use super::passage::{Passage, STAGES};
 use super::quadrature::gauss_legendre;
 use super::shape::lagrange;
 use super::{Element, Energy, MOST_UNKNOWNS, Tangents, add_block};
@@ -337,25 +336,6 @@ impl<const N: usize> Element for Beam<N> {
 
     fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
         linearize::Linearization::new(self, at, stressed).assemble(self, out);
-    }
-
-    fn linearize_stage(
-        &self,
-        passage: &Passage<'_>,
-        stage: usize,
-        stressed: Option<&Kinematics>,
-        out: &mut Tangents,
-    ) {
-        self.linearize_passage(passage, stage, stressed, out);
-    }
-
-    fn linearize_integrated(
-        &self,
-        passage: &Passage<'_>,
-        variations: &[[Variation; STAGES]],
-        out: &mut [[Vec<f64>; STAGES]; STAGES],
-    ) {
-        self.add_integrated(passage, variations, out);
     }
 
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {

@@ -6,10 +6,9 @@ use lissom_motion::{
     tangent_derivative_transpose_times, tangent_rate_times, tangent_times, tangent_transpose_times,
 };
 
-use super::linearize::Linearization;
 use super::{Beam, Relative, Station, combine};
+use crate::elements::MOST_UNKNOWNS;
 use crate::elements::passage::{Passage, STAGES, above_round_off, weigh};
-use crate::elements::{MOST_UNKNOWNS, Tangents};
 use crate::system::Kinematics;
 
 /// Changes of relative coordinates below this [rad, element lengths] lose digits in a difference; for these the
@@ -74,32 +73,6 @@ impl<const N: usize> Beam<N> {
             let motions = visit.relative.map(|d| Motion::exponential(&d));
             self.add_relative_forces(&motions, &forces, out);
         }
-    }
-
-    /// Adds the derivatives of the forces at a stage, but those of the remainders.
-    pub(super) fn linearize_passage(
-        &self,
-        passage: &Passage<'_>,
-        stage: usize,
-        stressed: Option<&Kinematics>,
-        out: &mut Tangents,
-    ) {
-        let mut stresses = [Vector6::zeros(); N];
-        let mut index = 0;
-        let relative = stressed.map(|at| self.relative(at));
-        let mut visits = passage.stages.map(|at| self.visit(at));
-        self.integrate(passage, &mut visits, |_, station, strains| {
-            let strain = match &relative {
-                Some(relative) => {
-                    station.strain(&combine(&station.shape, relative), &combine(&station.slope, relative))
-                }
-                None => strains.stressing[stage],
-            };
-            stresses[index] = station.weight * (station.law.stiffness * strain);
-            index += 1;
-        });
-        let linearization = Linearization::of_stage(self, passage.stages[stage], |k| stresses[k]);
-        linearization.assemble(self, out);
     }
 
     pub(super) fn visit(&self, at: &Kinematics) -> Visit<N> {
