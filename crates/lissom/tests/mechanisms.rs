@@ -48,7 +48,8 @@ step = 2e-3
 /// Where the end is at last, and how many iterations that took.
 fn end(without: &str) -> ([f64; 3], usize) {
     let overrides = [("analysis.without".to_owned(), without.to_owned())];
-    let mut session = Model::from_text("model", MODEL).session(&overrides).unwrap_or_else(|e| panic!("{e}"));
+    let overrides = if without.is_empty() { &[][..] } else { &overrides[..] };
+    let mut session = Model::from_text("model", MODEL).session(overrides).unwrap_or_else(|e| panic!("{e}"));
     let (_, report) = session.record();
     assert!(report.is_complete(), "{without}: {report:?}");
     (
@@ -59,7 +60,7 @@ fn end(without: &str) -> ([f64; 3], usize) {
 
 #[test]
 fn results_do_not_depend_on_them() {
-    let (with_all, fewest) = end("[]");
+    let (with_all, fewest) = end("");
     assert!(with_all[1] < -0.5, "{with_all:?}");
     for word in WORDS {
         let (places, iterations) = end(&format!("[\"{word}\"]"));
@@ -67,7 +68,7 @@ fn results_do_not_depend_on_them() {
             assert!((one - other).abs() < 1e-6, "without {word}: {places:?}, {with_all:?}");
         }
         assert!(iterations >= fewest, "without {word}: {iterations}, {fewest} with all");
-        if ["prediction", "secants", "single-correction"].contains(&word) {
+        if ["prediction", "secants"].contains(&word) {
             assert!(iterations > fewest, "without {word} nothing has changed");
         }
     }
