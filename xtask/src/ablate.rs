@@ -202,7 +202,9 @@ fn subjects() -> Result<Vec<Subject>, VerifyError> {
         };
         add(&mut all, None);
         if SHORT.contains(name) {
-            FURTHER_SCHEMES.iter().for_each(|scheme| add(&mut all, Some(scheme)));
+            for scheme in FURTHER_SCHEMES {
+                add(&mut all, Some(scheme));
+            }
         }
     }
     let root = root();

@@ -28,6 +28,8 @@ entry! {
     tolerance: f64 = "tolerance";
     /// Of Newton's iteration, default 40.
     max_iterations: usize = "max_iterations";
+    /// Mechanisms left out of the search for a step's solution, for studies; default none.
+    without: Vec<words::Without> = "without";
     /// Steps from record to record, default 1.
     output_every: usize = "output_every";
     /// Of the motion that `lissom view` shows, per simulated second; default at most 600 over the run \[1/s\].
@@ -72,6 +74,8 @@ entry! {
     tolerance: f64 = "tolerance";
     /// Of Newton's iteration, default 40.
     max_iterations: usize = "max_iterations";
+    /// Mechanisms left out of the search for a step's solution, for studies; default none.
+    without: Vec<words::Without> = "without";
     /// Steps from record to record, default 1.
     output_every: usize = "output_every";
     /// Of the motion that `lissom view` shows, per simulated second; default at most 600 over the run \[1/s\].
@@ -106,6 +110,8 @@ entry! {
     tolerance: f64 = "tolerance";
     /// Of Newton's iteration, default 40.
     max_iterations: usize = "max_iterations";
+    /// Mechanisms left out of the search for a step's solution, for studies; default none.
+    without: Vec<words::Without> = "without";
     /// Load factor at which the path ends, default 1.
     end: f64 = "end";
     /// First step of the load factor, default a fiftieth of `end`.
@@ -136,6 +142,8 @@ entry! {
     tolerance: f64 = "tolerance";
     /// Of Newton's iteration, default 40.
     max_iterations: usize = "max_iterations";
+    /// Mechanisms left out of the search for a step's solution, for studies; default none.
+    without: Vec<words::Without> = "without";
     /// Number of load factors, default 5.
     count: usize = "count";
 }
@@ -162,6 +170,8 @@ entry! {
     tolerance: f64 = "tolerance";
     /// Of Newton's iteration, default 40.
     max_iterations: usize = "max_iterations";
+    /// Mechanisms left out of the search for a step's solution, for studies; default none.
+    without: Vec<words::Without> = "without";
     /// Number of modes, default 20.
     count: usize = "count";
     /// About static equilibrium under the loads of the time `start` (default), or about the places of the file without loads and gravity.

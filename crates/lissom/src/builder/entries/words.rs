@@ -86,3 +86,15 @@ words! {
     Pivoting = "pivoting";
     Dense = "dense";
 }
+
+words! {
+    /// One of `prediction`, `secants`, `single-correction`, `account`, `back-off`, `start-stresses`, `parts`.
+    Without;
+    Prediction = "prediction";
+    Secants = "secants";
+    SingleCorrection = "single-correction";
+    Account = "account";
+    BackOff = "back-off";
+    StartStresses = "start-stresses";
+    Parts = "parts";
+}
