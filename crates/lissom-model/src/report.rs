@@ -411,6 +411,27 @@ impl Report {
         self.problems().any(|problem| problem.severity == Severity::Error)
     }
 
+    /// Every problem for programs: severity, message, help, and the file with line and column, counted from one, where it
+    /// is known.
+    pub fn to_value(&self) -> serde_json::Value {
+        let of = |shown: &Shown| {
+            let problem = &shown.problem;
+            let severity = if problem.severity == Severity::Error { "error" } else { "warning" };
+            let mut value =
+                serde_json::json!({ "severity": severity, "message": problem.message, "help": problem.help });
+            if let Some(piece) = &shown.piece {
+                let place = problem.span.start.saturating_sub(piece.start);
+                let before = piece.source.inner().get(..place).unwrap_or_default();
+                let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+                value["file"] = piece.source.name().into();
+                value["line"] = (before.matches('\n').count() + 1).into();
+                value["column"] = column.into();
+            }
+            value
+        };
+        self.shown.iter().map(of).collect()
+    }
+
     /// Every problem with file, line, underlined text and remedy, as a text for a terminal.
     pub fn render(&self, colour: bool) -> String {
         let theme = if colour { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };

@@ -6,12 +6,13 @@ use std::path::{Path, PathBuf};
 
 use lissom_model::files::{self, FileError};
 use lissom_model::output::{
-    BodePlot, CampbellPlot, CsvWriter, FigureError, Record, RecordError, Summary, figures,
+    BodePlot, CampbellPlot, CsvWriter, Figure, FigureError, Record, RecordError, Summary, figures,
 };
 use lissom_model::scene::{Scene, SceneError};
 use serde_json::Value;
 
 use crate::checkpoint::Checkpoint;
+use crate::export;
 use crate::motion::{Motion, MotionError};
 
 /// Name of the table in the folder.
@@ -160,6 +161,7 @@ impl ResultFolder {
                 stale.extend(["svg", "png"].map(|kind| self.path.join(format!("{}.{kind}", figure.name))));
             }
         }
+        stale.extend(self.asked_for());
         for file in stale {
             match std::fs::remove_file(&file) {
                 Err(error) if error.kind() != ErrorKind::NotFound => {
@@ -169,6 +171,17 @@ impl ResultFolder {
             }
         }
         Ok(())
+    }
+
+    /// Plots that were asked for of a former run, and what was handed to other programs.
+    fn asked_for(&self) -> Vec<PathBuf> {
+        let paths = std::fs::read_dir(&self.path).into_iter().flatten().flatten().map(|entry| entry.path());
+        let is_plot = |path: &PathBuf| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            let ending = path.extension().unwrap_or_default();
+            name.starts_with("plot-") && (ending == "svg" || ending == "png")
+        };
+        paths.filter(is_plot).chain(export::files_in(&self.path)).collect()
     }
 
     /// Removes what a former run left and gives a writer of the table: a run has started well.
@@ -331,6 +344,22 @@ impl ResultFolder {
     pub fn write_campbell_plot(&self, plot: &CampbellPlot) -> Result<(), FolderError> {
         files::write(&self.path.join("campbell.svg"), plot.svg()?.as_bytes())?;
         Ok(files::write(&self.path.join("campbell.png"), &plot.png()?)?)
+    }
+
+    /// Draws figures that were asked for into a folder, as SVG and as PNG, and tells where they are.
+    ///
+    /// # Errors
+    /// If the folder or a figure cannot be made.
+    pub fn write_figures(folder: &Path, figures: &[Figure]) -> Result<Vec<PathBuf>, FolderError> {
+        files::create_folder(folder)?;
+        let mut written = Vec::new();
+        for figure in figures {
+            let path = |kind: &str| folder.join(format!("{}.{kind}", figure.name));
+            files::write(&path("svg"), figure.svg()?.as_bytes())?;
+            files::write(&path("png"), &figure.png()?)?;
+            written.extend([path("svg"), path("png")]);
+        }
+        Ok(written)
     }
 
     /// Draws every output of `record`, as SVG and as PNG. What can be drawn is drawn, even when something

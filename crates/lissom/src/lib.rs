@@ -111,11 +111,13 @@
 //! folder has programs that check themselves: a pendulum, an arm that is driven from outside, a thousand copies on all cores.
 
 mod about;
+mod archive;
 pub mod buckling;
 pub mod builder;
 
 pub mod campbell;
 mod checkpoint;
+pub mod export;
 pub mod fmu;
 mod folder;
 mod folder_page;

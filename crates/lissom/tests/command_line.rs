@@ -2,6 +2,8 @@
 
 #[path = "command_line/data_file.rs"]
 mod data_file;
+#[path = "command_line/export.rs"]
+mod export;
 #[path = "command_line/fmu.rs"]
 mod fmu;
 #[path = "command_line/live.rs"]
@@ -18,6 +20,8 @@ mod outputs;
 mod parts;
 #[path = "command_line/path.rs"]
 mod path;
+#[path = "command_line/plot.rs"]
+mod plot;
 #[path = "command_line/silent.rs"]
 mod silent;
 #[path = "command_line/snapshot.rs"]

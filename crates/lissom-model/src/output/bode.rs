@@ -2,8 +2,6 @@
 
 use std::f64::consts::PI;
 
-use kuva::backend::png::PngBackend;
-use kuva::backend::svg::SvgBackend;
 use kuva::plot::LinePlot;
 use kuva::plot::legend::LegendPosition;
 use kuva::render::figure::Figure as Panels;
@@ -14,6 +12,7 @@ use kuva::render::theme::Theme;
 
 use super::FigureError;
 use super::plot::COLOURS;
+use super::render;
 
 /// Width of a figure, and height of each of its two panels.
 const CELL: (f64, f64) = (760.0, 340.0);
@@ -37,7 +36,7 @@ impl BodePlot {
     /// # Errors
     /// If there is nothing to draw.
     pub fn svg(&self) -> Result<String, FigureError> {
-        Ok(SvgBackend.render_scene(&self.draw()?))
+        Ok(render::svg(&self.draw()?))
     }
 
     /// The drawing as the bytes of a PNG file.
@@ -46,7 +45,7 @@ impl BodePlot {
     /// If there is nothing to draw, or the drawing library fails.
     pub fn png(&self) -> Result<Vec<u8>, FigureError> {
         let failure = |reason| FigureError { figure: self.name.clone(), reason };
-        PngBackend::new().with_scale(2.0).render_scene(&self.draw()?).map_err(failure)
+        render::png(self.draw()?).map_err(failure)
     }
 
     fn draw(&self) -> Result<Scene, FigureError> {

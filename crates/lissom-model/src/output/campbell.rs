@@ -1,7 +1,5 @@
 //! Campbell diagrams: frequencies over a parameter, with the multiples of the rotation.
 
-use kuva::backend::png::PngBackend;
-use kuva::backend::svg::SvgBackend;
 use kuva::plot::LinePlot;
 use kuva::plot::legend::LegendPosition;
 use kuva::render::layout::Layout;
@@ -11,6 +9,7 @@ use kuva::render::theme::Theme;
 
 use super::FigureError;
 use super::plot::COLOURS;
+use super::render;
 
 /// Lines of frequencies and rays.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -31,7 +30,7 @@ impl CampbellPlot {
     /// # Errors
     /// If there is nothing to draw.
     pub fn svg(&self) -> Result<String, FigureError> {
-        Ok(SvgBackend.render_scene(&self.draw()?))
+        Ok(render::svg(&self.draw()?))
     }
 
     /// The drawing as the bytes of a PNG file.
@@ -40,7 +39,7 @@ impl CampbellPlot {
     /// If there is nothing to draw, or the drawing library fails.
     pub fn png(&self) -> Result<Vec<u8>, FigureError> {
         let failure = |reason| FigureError { figure: "campbell".to_owned(), reason };
-        PngBackend::new().with_scale(2.0).render_scene(&self.draw()?).map_err(failure)
+        render::png(self.draw()?).map_err(failure)
     }
 
     fn draw(&self) -> Result<Scene, FigureError> {

@@ -2,12 +2,10 @@
 
 use std::fmt::Write;
 
-use kuva::backend::png::PngBackend;
-use kuva::backend::svg::SvgBackend;
 use kuva::render::color::Color;
 use kuva::render::render::{PathData, Primitive, Scene, TextAnchor};
 
-use super::FigureError;
+use super::{FigureError, render};
 
 /// Red, green and blue as screens take them, 0 to 255.
 pub type Shade = [u8; 3];
@@ -71,7 +69,7 @@ impl Drawing {
     /// # Errors
     /// If a place is not a finite number.
     pub fn svg(&self) -> Result<String, FigureError> {
-        Ok(SvgBackend.render_scene(&self.scene()?))
+        Ok(render::svg(&self.scene()?))
     }
 
     /// The drawing as the bytes of a PNG file, two pixels for each of the drawing.
@@ -79,7 +77,7 @@ impl Drawing {
     /// # Errors
     /// If a place is not a finite number, or the drawing library fails.
     pub fn png(&self) -> Result<Vec<u8>, FigureError> {
-        PngBackend::new().with_scale(2.0).render_scene(&self.scene()?).map_err(|reason| self.failure(&reason))
+        render::png(self.scene()?).map_err(|reason| self.failure(&reason))
     }
 
     fn failure(&self, reason: &str) -> FigureError {

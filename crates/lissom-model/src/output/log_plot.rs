@@ -7,10 +7,12 @@ use kuva::plot::scatter::MarkerShape;
 use kuva::plot::{LinePlot, ScatterPlot};
 use kuva::render::layout::{Layout, TickFormat};
 use kuva::render::plots::Plot;
+use kuva::render::render::{Primitive, Scene, render_multiple};
 use kuva::render::theme::Theme;
 
 use super::FigureError;
 use super::plot::COLOURS;
+use super::render;
 
 /// Marks, so that curves that coincide in colour or on paper are still told apart.
 const MARKS: [MarkerShape; 4] =
@@ -38,7 +40,7 @@ impl LogFigure {
     /// If there is nothing to draw.
     pub fn svg(&self) -> Result<String, FigureError> {
         let (plots, layout) = self.draw()?;
-        Ok(kuva::render_to_svg(plots, layout))
+        Ok(render::svg(&whole_marks(render_multiple(plots, layout))))
     }
 
     /// The drawing as the bytes of a PNG file.
@@ -47,7 +49,7 @@ impl LogFigure {
     /// If there is nothing to draw, or the drawing library fails.
     pub fn png(&self) -> Result<Vec<u8>, FigureError> {
         let (plots, layout) = self.draw()?;
-        kuva::render_to_png(plots, layout, 2.0).map_err(|reason| self.failure(reason))
+        render::png(whole_marks(render_multiple(plots, layout))).map_err(|reason| self.failure(reason))
     }
 
     fn failure(&self, reason: impl Into<String>) -> FigureError {
@@ -91,6 +93,12 @@ impl LogFigure {
             .with_legend_position(LegendPosition::OutsideRightTop);
         Ok((plots, layout))
     }
+}
+
+/// Axes span all points: what is cut at them are only halves of marks.
+fn whole_marks(mut scene: Scene) -> Scene {
+    scene.elements.retain(|element| !matches!(element, Primitive::ClipStart { .. } | Primitive::ClipEnd));
+    scene
 }
 
 #[cfg(test)]

@@ -3,11 +3,14 @@
 mod bode;
 mod campbell;
 mod csv;
+mod curves;
 mod drawing;
 mod log_plot;
 mod matrix_market;
 mod plot;
 mod record;
+mod render;
+mod spectrum;
 mod summary;
 
 use std::io;
@@ -15,11 +18,13 @@ use std::io;
 pub use bode::BodePlot;
 pub use campbell::CampbellPlot;
 pub use csv::{CsvWriter, number_text, quoted};
+pub use curves::{CurveError, Over, Plots, Source, plots};
 pub use drawing::{Align, Drawing, Shade};
 pub use log_plot::LogFigure;
 pub use matrix_market::{full_matrix, sparse_matrix};
 pub use plot::{Figure, FigureError, figures};
 pub use record::{Record, RecordError};
+pub use spectrum::Spectrum;
 pub use summary::Summary;
 
 /// What a column of results holds.

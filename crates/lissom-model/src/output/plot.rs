@@ -1,8 +1,5 @@
-//! Plots of results over time: one figure per output, with a panel for each unit. The drawing itself is done by
-//! kuva; only this module knows it.
+//! Plots of results: one figure per output, with a panel for each unit. The drawing itself is done by kuva.
 
-use kuva::backend::png::PngBackend;
-use kuva::backend::svg::SvgBackend;
 use kuva::plot::LinePlot;
 use kuva::plot::legend::LegendPosition;
 use kuva::render::figure::Figure as Panels;
@@ -11,10 +8,13 @@ use kuva::render::plots::Plot;
 use kuva::render::render::{Scene, render_multiple};
 use kuva::render::theme::Theme;
 
-use super::Record;
+use super::{Column, Record, render};
 
 /// Most points of a drawn curve.
 const POINTS: usize = 2000;
+
+/// Smallest amplitude that is drawn, relative to the largest.
+const DECADES: f64 = 1e-8;
 
 /// Curves of a panel that are drawn without dashes.
 const SOLID: usize = 3;
@@ -47,19 +47,77 @@ pub struct Figure {
     /// Name, fit for a file.
     pub name: String,
     title: String,
+    axis: Axis,
     panels: Vec<Panel>,
+}
+
+/// What curves are drawn over.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Axis {
+    label: String,
+    /// Whether values are drawn over decades.
+    is_decadic: bool,
+    /// Whether points follow each other along the axis.
+    is_ordered: bool,
+}
+
+impl Axis {
+    /// Time.
+    pub(super) fn time() -> Self {
+        Self { label: "time [s]".to_owned(), is_decadic: false, is_ordered: true }
+    }
+
+    /// Frequency, with amplitudes over decades.
+    pub(super) fn frequency() -> Self {
+        Self { label: "frequency [Hz]".to_owned(), is_decadic: true, is_ordered: true }
+    }
+
+    /// Another column.
+    pub(super) fn column(label: &str) -> Self {
+        Self { label: label.to_owned(), is_decadic: false, is_ordered: false }
+    }
 }
 
 /// Curves with a common unit.
 #[derive(Clone, Debug, PartialEq)]
-struct Panel {
-    quantity: String,
-    unit: String,
-    curves: Vec<Curve>,
+pub(super) struct Panel {
+    /// Quantity in words.
+    pub(super) quantity: String,
+    /// Unit, empty for none.
+    pub(super) unit: String,
+    /// Columns that are in it.
+    pub(super) names: Vec<String>,
+    /// Its curves.
+    pub(super) curves: Vec<Curve>,
 }
 
 /// A name and points (time, value).
 type Curve = (String, Vec<(f64, f64)>);
+
+/// A name that files can have.
+pub(super) fn file_name(name: &str) -> String {
+    name.replace(|c: char| !c.is_alphanumeric() && c != '-' && c != '.', "_")
+}
+
+/// What stands beside an axis: some kinds of output record several quantities, which their units tell apart.
+pub(super) fn quantity_of(column: &Column) -> String {
+    let quantity = column.quantity.as_str();
+    let word = match (quantity, column.unit.as_str()) {
+        ("relative" | "relative motion", "rad") => "relative rotation",
+        ("relative" | "relative motion", "m") => "relative displacement",
+        ("relative", "rad/s") => "relative angular velocity",
+        ("relative", "m/s") => "relative velocity",
+        ("momentum", "N m s") => "angular momentum",
+        ("spring", "N") => "force of spring",
+        ("spring", "N m") => "moment of spring",
+        ("spring", "m") => "elongation",
+        ("spring", "rad") => "rotation",
+        ("spring", "m/s") => "rate of elongation",
+        ("spring", "rad/s") => "rate of rotation",
+        _ => quantity,
+    };
+    word.to_owned()
+}
 
 /// The figures of a record: one per output.
 pub fn figures(record: &Record, title: &str) -> Vec<Figure> {
@@ -76,16 +134,18 @@ pub fn figures(record: &Record, title: &str) -> Vec<Figure> {
                 .find(|name| !alike(name))
                 .unwrap_or(name);
             let title = if title.is_empty() { output.to_owned() } else { format!("{title}: {output}") };
-            figures.push((output, Figure { name, title, panels: Vec::new() }));
+            figures.push((output, Figure { name, title, axis: Axis::time(), panels: Vec::new() }));
             figures.len() - 1
         });
         let panels = &mut figures[index].1.panels;
-        let curve = (column.component.clone(), thinned(&record.times, values));
+        let points = record.times.iter().copied().zip(values.iter().copied()).collect();
+        let curve = (column.component.clone(), thinned(points));
         match panels.iter_mut().find(|panel| panel.unit == column.unit) {
             Some(panel) => panel.curves.push(curve),
             None => panels.push(Panel {
-                quantity: column.quantity.clone(),
+                quantity: quantity_of(column),
                 unit: column.unit.clone(),
+                names: vec![column.name()],
                 curves: vec![curve],
             }),
         }
@@ -94,9 +154,8 @@ pub fn figures(record: &Record, title: &str) -> Vec<Figure> {
 }
 
 /// At most [`POINTS`] points of a curve: both extremes of every stretch of time, and both ends.
-fn thinned(times: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
-    let finite = |point: &(f64, f64)| point.0.is_finite() && point.1.is_finite();
-    let points: Vec<(f64, f64)> = times.iter().copied().zip(values.iter().copied()).filter(finite).collect();
+fn thinned(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    points.retain(|point| point.0.is_finite() && point.1.is_finite());
     if points.len() <= POINTS {
         return points;
     }
@@ -116,13 +175,42 @@ fn thinned(times: &[f64], values: &[f64]) -> Vec<(f64, f64)> {
     kept
 }
 
+/// The points of a path at which it has moved by a fifth of a percent of its extent since the last, and both ends.
+fn thinned_path(mut points: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+    points.retain(|point| point.0.is_finite() && point.1.is_finite());
+    let extent = |of: fn(&(f64, f64)) -> f64| {
+        let all = || points.iter().map(of);
+        all().fold(f64::NEG_INFINITY, f64::max) - all().fold(f64::INFINITY, f64::min)
+    };
+    let least = [extent(|point| point.0), extent(|point| point.1)].map(|extent| 0.002 * extent);
+    let mut kept: Vec<(f64, f64)> = Vec::new();
+    for (index, point) in points.iter().enumerate() {
+        let is_far = kept.last().is_none_or(|last: &(f64, f64)| {
+            (point.0 - last.0).abs() > least[0] || (point.1 - last.1).abs() > least[1]
+        });
+        if is_far || index + 1 == points.len() {
+            kept.push(*point);
+        }
+    }
+    kept
+}
+
 impl Figure {
+    /// A figure of panels whose curves hold all their points.
+    pub(super) fn of(name: &str, title: &str, axis: Axis, mut panels: Vec<Panel>) -> Self {
+        for (_, points) in panels.iter_mut().flat_map(|panel| &mut panel.curves) {
+            let all = std::mem::take(points);
+            *points = if axis.is_ordered { thinned(all) } else { thinned_path(all) };
+        }
+        Self { name: name.to_owned(), title: title.to_owned(), axis, panels }
+    }
+
     /// The drawing as an SVG text.
     ///
     /// # Errors
     /// If there is nothing to draw.
     pub fn svg(&self) -> Result<String, FigureError> {
-        Ok(SvgBackend.render_scene(&self.draw()?))
+        Ok(render::svg(&self.draw()?))
     }
 
     /// The drawing as the bytes of a PNG file.
@@ -130,7 +218,7 @@ impl Figure {
     /// # Errors
     /// If there is nothing to draw, or the drawing library fails.
     pub fn png(&self) -> Result<Vec<u8>, FigureError> {
-        PngBackend::new().with_scale(2.0).render_scene(&self.draw()?).map_err(|reason| self.failure(reason))
+        render::png(self.draw()?).map_err(|reason| self.failure(reason))
     }
 
     fn failure(&self, reason: impl Into<String>) -> FigureError {
@@ -138,7 +226,8 @@ impl Figure {
     }
 
     fn draw(&self) -> Result<Scene, FigureError> {
-        let mut panels: Vec<(Vec<Plot>, Layout)> = self.panels.iter().filter_map(Panel::draw).collect();
+        let mut panels: Vec<(Vec<Plot>, Layout)> =
+            self.panels.iter().filter_map(|panel| panel.draw(&self.axis)).collect();
         if panels.len() > 1 {
             let (plots, layouts): (Vec<_>, Vec<_>) = panels.into_iter().unzip();
             let figure = Panels::new(plots.len(), 1)
@@ -157,14 +246,17 @@ impl Figure {
 
 impl Panel {
     /// Curves and axes, if there is anything to draw.
-    fn draw(&self) -> Option<(Vec<Plot>, Layout)> {
-        let points = || self.curves.iter().flat_map(|(_, points)| points);
-        let &(first, _) = points().next()?;
-        let last = points().map(|point| point.0).fold(first, f64::max);
-        let (factor, unit) = prefixed(points().fold(0.0, |most, point| point.1.abs().max(most)), &self.unit);
+    fn draw(&self, axis: &Axis) -> Option<(Vec<Plot>, Layout)> {
+        let all = || self.curves.iter().flat_map(|(_, points)| points);
+        let largest = all().fold(0.0, |most: f64, point| point.1.abs().max(most));
+        // Decades far below the largest value are round-off.
+        let is_shown = |point: &&(f64, f64)| !axis.is_decadic || point.1 > DECADES * largest;
+        let points = || all().filter(is_shown);
+        points().next()?;
+        let (factor, unit) = prefixed(largest, &self.unit);
         let curve = |(index, (name, points)): (usize, &Curve)| {
             let line = LinePlot::new()
-                .with_data(points.iter().map(|(time, value)| (*time, value / factor)))
+                .with_data(points.iter().filter(is_shown).map(|(x, value)| (*x, value / factor)))
                 .with_color(COLOURS[index % COLOURS.len()])
                 .with_stroke_width(1.6);
             // From the fourth on dashes, through which a curve below still shows: a sum below its parts.
@@ -177,19 +269,33 @@ impl Panel {
             .with_width(WIDTH)
             .with_height(PANEL_HEIGHT)
             .with_theme(theme)
-            .with_x_label("time [s]")
+            .with_x_label(axis.label.as_str())
             .with_y_label(format!("{}{unit}", self.quantity))
             .with_legend_position(LegendPosition::OutsideRightTop);
-        if last > first {
+        let bounds = |of: fn(&(f64, f64)) -> f64| {
+            points()
+                .map(of)
+                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
+        };
+        let (first, last) = bounds(|point| point.0);
+        if axis.is_decadic {
+            return Some((plots, layout.with_log_y()));
+        }
+        if last > first && axis.is_ordered {
             layout = layout.with_x_axis_min(first).with_x_axis_max(last + 1e-9 * (last - first));
         }
-        let (low, high) = points().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| {
-            (low.min(point.1 / factor), high.max(point.1 / factor))
-        });
         // A constant would have an axis without extent.
-        if high - low <= 1e-12 * high.abs().max(low.abs()) {
-            let room = if high == 0.0 { 1.0 } else { 0.1 * high.abs() };
+        let room = |(low, high): (f64, f64)| {
+            let is_constant = high - low <= 1e-12 * high.abs().max(low.abs());
+            is_constant.then(|| if high == 0.0 { 1.0 } else { 0.1 * high.abs() })
+        };
+        let (low, high) = bounds(|point| point.1);
+        let (low, high) = (low / factor, high / factor);
+        if let Some(room) = room((low, high)) {
             layout = layout.with_y_axis_min(low - room).with_y_axis_max(high + room);
+        }
+        if let Some(room) = room((first, last)).filter(|_| !axis.is_ordered) {
+            layout = layout.with_x_axis_min(first - room).with_x_axis_max(last + room);
         }
         Some((plots, layout))
     }
@@ -264,7 +370,7 @@ mod tests {
     fn thinning_keeps_extremes_and_ends() {
         let value = |t: f64| vec![if (t - 1.2345).abs() < 1e-5 { 9.0 } else { (50.0 * t).sin() }; 3];
         let record = record(100_000, value, &displacement());
-        let points = thinned(&record.times, &record.values[0]);
+        let points = thinned(record.times.iter().copied().zip(record.values[0].iter().copied()).collect());
         assert!(points.len() <= POINTS && points.len() > POINTS / 2, "{}", points.len());
         assert!(points.iter().any(|point| point.1 == 9.0));
         assert_eq!(points.first().unwrap().0, 0.0);

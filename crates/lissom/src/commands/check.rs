@@ -3,10 +3,12 @@
 use std::fmt::Write;
 
 use clap::Args;
-use lissom::{Document, Session};
+use lissom::{Document, Model, Report, Session};
 use lissom_core::analysis::mobility::{Mobility, Redundant, mobility};
+use lissom_core::judge::Warning;
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, lower};
+use serde_json::{Value, json};
 
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
@@ -17,15 +19,23 @@ use crate::terminal;
 Examples:
   lissom check examples/four-bar.toml
   lissom check examples/tip-crank.toml --set beams.beam.elements=16
+  lissom check model.toml --json               for programs: counts, redundant constraints, problems with their lines
 
 Exit code: 0 the model can be run, 2 it cannot. Redundant constraints are a warning.")]
 pub(super) struct Check {
     #[command(flatten)]
     model: ModelArguments,
+
+    /// Print one JSON object instead of words; problems of the model are in it, too.
+    #[arg(long)]
+    json: bool,
 }
 
 impl Check {
     pub(super) fn run(self) -> Result<Exit, Failure> {
+        if self.json {
+            return self.run_for_programs();
+        }
         let (model, document) = self.model.read()?;
         show_warnings(&document);
         let lowered = lower(&document)?;
@@ -40,6 +50,69 @@ impl Check {
             terminal::complain(&format!("warning: {warning}\n"));
         }
         Ok(Exit::Done)
+    }
+}
+
+impl Check {
+    fn run_for_programs(&self) -> Result<Exit, Failure> {
+        let (told, exit) = self.facts()?;
+        terminal::print(&format!("{told:#}\n"));
+        Ok(exit)
+    }
+
+    /// What is known of the model, and whether it can be run.
+    fn facts(&self) -> Result<(Value, Exit), Failure> {
+        let model = Model::read(&self.model.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let wrong = |report: &Report| (json!({ "ok": false, "problems": report.to_value() }), Exit::BadModel);
+        let document = match model.document(&self.model.set) {
+            Ok(document) => document,
+            Err(report) => return Ok(wrong(&report)),
+        };
+        let lowered = match lower(&document) {
+            Ok(lowered) => lowered,
+            Err(report) => return Ok(wrong(&report)),
+        };
+        let freedom = mobility(&lowered.system, &lowered.state);
+        let redundant = |redundant: &Redundant| json!({ "joint": redundant.joint, "equation": redundant.equation, "among": redundant.among });
+        let layout = lowered.system.layout();
+        let mut facts = json!({
+            "name": model.name(),
+            "title": document.title,
+            "analysis": document.analysis.kind.name(),
+            "bodies": document.bodies.len(),
+            "point_masses": document.point_masses.len(),
+            "beams": document.beams.len(),
+            "elements": document.beams.iter().map(|beam| beam.elements.value).sum::<usize>(),
+            "nodes": layout.node_count() - 1,
+            "joints": document.joints.len(),
+            "springs": document.springs.len(),
+            "loads": document.loads.len(),
+            "unknowns": layout.size(),
+            "states": layout.state_count(),
+            "freedoms": freedom.freedoms,
+            "coordinates": freedom.coordinates,
+            "constraints": freedom.constraints,
+            "independent_constraints": freedom.rank,
+            "redundant": freedom.redundant.iter().map(redundant).collect::<Vec<_>>(),
+            "outputs": lowered.channels.iter().map(|channel| channel.name.as_str()).collect::<Vec<_>>(),
+            "problems": document.warnings.to_value(),
+        });
+        // What a run would refuse before its first step is refused here.
+        let exit = match Session::start(lowered) {
+            Ok(session) => {
+                let told =
+                    |warning: &Warning| json!({ "code": warning.code(), "message": warning.to_string() });
+                facts["ok"] = json!(true);
+                facts["warnings"] = session.warnings().map(told).collect();
+                Exit::Done
+            }
+            Err(error) => {
+                facts["ok"] = json!(false);
+                facts["error"] = json!(error.to_string());
+                Exit::BadModel
+            }
+        };
+        Ok((facts, exit))
     }
 }
 

@@ -6,8 +6,9 @@ use clap::Args;
 use lissom_core::joints::Quantity;
 use lissom_core::registry::{Parameter, ParameterType};
 use lissom_model::lower::registry::registry;
-use lissom_model::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry};
+use lissom_model::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry, Registry};
 use lissom_model::{topic, topics};
+use serde_json::{Value, json};
 
 use super::{Exit, Failure};
 use crate::terminal;
@@ -18,16 +19,24 @@ use crate::terminal;
 Examples:
   lissom kinds                    everything
   lissom kinds revolute           one kind
+  lissom kinds --json             joints, springs, loads, schemes and solvers for programs
   lissom kinds output             all kinds of outputs and their keys; also section, beam, part, function …")]
 pub(super) struct Kinds {
     /// Only kinds whose name contains this, or the tables and functions of this name.
     name: Option<String>,
+
+    /// Print kinds, schemes and solvers with their parameters as one JSON object.
+    #[arg(long)]
+    json: bool,
 }
 
 impl Kinds {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let registry = registry();
         let wanted = self.name.as_deref().unwrap_or_default();
+        if self.json {
+            return for_programs(&registry, wanted);
+        }
         let mut text = String::new();
         let parts =
             [("joints", &registry.joints), ("springs", &registry.springs), ("loads", &registry.loads)];
@@ -58,6 +67,51 @@ impl Kinds {
         terminal::print(&text);
         Ok(Exit::Done)
     }
+}
+
+/// All kinds whose name contains `wanted`, as JSON.
+fn for_programs(registry: &Registry, wanted: &str) -> Result<Exit, Failure> {
+    let parameter = |parameter: &Parameter| {
+        json!({
+            "name": parameter.name,
+            "holds": holds(parameter.holds),
+            "unit": parameter.unit,
+            "required": parameter.required,
+            "summary": parameter.summary,
+        })
+    };
+    let list = |parameters: &[Parameter]| parameters.iter().map(parameter).collect::<Value>();
+    let mut all = json!({});
+    let mut count = 0;
+    for (table, kinds) in
+        [("joints", &registry.joints), ("springs", &registry.springs), ("loads", &registry.loads)]
+    {
+        let kind = |kind: &KindEntry| {
+            json!({
+                "name": kind.name,
+                "summary": kind.summary,
+                "acts_on": place(kind.acts_on).0,
+                "parameters": list(kind.parameters),
+                "sample": kind.sample,
+            })
+        };
+        let found: Vec<Value> = kinds.iter().filter(|kind| kind.name.contains(wanted)).map(kind).collect();
+        count += found.len();
+        all[table] = found.into();
+    }
+    for (word, choices) in [("schemes", &registry.schemes), ("solvers", &registry.solvers)] {
+        let choice = |choice: &ChoiceEntry| json!({ "name": choice.name, "summary": choice.summary, "parameters": list(choice.parameters) });
+        let found: Vec<Value> =
+            choices.iter().filter(|choice| choice.name.contains(wanted)).map(choice).collect();
+        count += found.len();
+        all[word] = found.into();
+    }
+    if count == 0 {
+        let message = format!("there is no kind whose name contains `{wanted}`; see `lissom kinds`");
+        return Err(Failure::new(Exit::BadModel, message));
+    }
+    terminal::print(&format!("{all:#}\n"));
+    Ok(Exit::Done)
 }
 
 fn section(text: &mut String, heading: &str, entries: impl Iterator<Item = String>) {

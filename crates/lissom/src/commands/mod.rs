@@ -4,6 +4,8 @@ mod buckling;
 mod campbell;
 mod check;
 mod completions;
+mod explain;
+mod export;
 mod fmu;
 mod gradient;
 mod kinds;
@@ -127,6 +129,8 @@ enum Command {
     Schema(schema::Schema),
     Plot(plot::Plot),
     Snapshot(snapshot::Snapshot),
+    Export(export::Export),
+    Explain(explain::Explain),
     Study(study::Study),
     View(view::View),
     Sweep(sweep::SweepCommand),
@@ -153,6 +157,8 @@ impl Line {
             Command::Schema(command) => command.run(),
             Command::Plot(command) => command.run(),
             Command::Snapshot(command) => command.run(),
+            Command::Export(command) => command.run(),
+            Command::Explain(command) => command.run(),
             Command::Study(command) => command.run(),
             Command::View(command) => command.run(),
             Command::Sweep(command) => command.run(),

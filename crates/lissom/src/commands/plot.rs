@@ -1,28 +1,116 @@
-//! `lissom plot`: draws the plots of a folder of results anew.
+//! `lissom plot`: plots of folders of results: over time, over another column, over frequency, several results in one.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use lissom::ResultFolder;
+use lissom::{FolderError, Record, ResultFolder};
+use lissom_model::output::{Over, Source, plots};
 
 use super::{Exit, Failure};
+use crate::terminal;
 
-/// Draw the plots of a folder of results anew, from its `history.csv`.
+/// Draw plots of one or several folders of results, from their `history.csv`.
+///
+/// Without options the plots of one folder are drawn anew, as `lissom run` draws them. Otherwise the plots are called
+/// `plot-….svg` and `plot-….png`.
 #[derive(Args)]
 #[command(after_help = "\
-Example:
-  lissom plot out/pendulum")]
+Examples:
+  lissom plot out/pendulum                                  all outputs over time
+  lissom plot out/pendulum --of bob.y --over bob.x          a path: out/pendulum/plot-bob.y-over-bob.x.svg
+  lissom plot out/tip-crank --of midspan --spectrum         amplitudes over frequency
+  lissom plot out/coarse out/fine --out out/compared        outputs of both, in one plot each
+
+Exit code: 0 all is done; 2 a folder, output or column that is not there.")]
 pub(super) struct Plot {
-    /// The folder of results.
-    #[arg(value_name = "DIR")]
-    folder: PathBuf,
+    /// Folders of results.
+    #[arg(value_name = "RESULT", required = true)]
+    folders: Vec<PathBuf>,
+
+    /// Outputs or columns, as `tip` or `tip.u3`; all that the results share by default.
+    #[arg(long, value_name = "NAME", value_delimiter = ',')]
+    of: Vec<String>,
+
+    /// Draw them over this column instead of time.
+    #[arg(long, value_name = "COLUMN", conflicts_with = "spectrum")]
+    over: Option<String>,
+
+    /// Draw amplitudes over frequency.
+    #[arg(long)]
+    spectrum: bool,
+
+    /// Folder for the plots [default: the first folder of results].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
 }
 
 impl Plot {
     pub(super) fn run(self) -> Result<Exit, Failure> {
-        let (folder, record, title) =
-            ResultFolder::open(&self.folder).map_err(|error| Failure::folder(Exit::BadModel, &error))?;
-        folder.write_plots(&record, &title).map_err(|error| Failure::folder(Exit::Failed, &error))?;
+        let bad = |error: FolderError| Failure::folder(Exit::BadModel, &error);
+        let failed = |error: FolderError| Failure::folder(Exit::Failed, &error);
+        let found: Vec<(ResultFolder, Record, String)> = self
+            .folders
+            .iter()
+            .map(|folder| ResultFolder::open(folder).map_err(bad))
+            .collect::<Result<_, _>>()?;
+        let is_plain = self.of.is_empty() && self.over.is_none() && !self.spectrum && self.out.is_none();
+        let [(first, record, title), others @ ..] = &*found else {
+            return Err(Failure::new(Exit::BadModel, "name a folder of results"));
+        };
+        if is_plain && others.is_empty() {
+            first.write_plots(record, title).map_err(failed)?;
+            return Ok(Exit::Done);
+        }
+        let names = names(&self.folders);
+        let is_one = others.is_empty();
+        let sources: Vec<Source<'_>> = (names.iter().zip(&found))
+            .map(|(name, (_, record, _))| Source { name: if is_one { "" } else { name }, record })
+            .collect();
+        let over = match &self.over {
+            Some(column) => Over::Column(column),
+            None if self.spectrum => Over::Frequency,
+            None => Over::Time,
+        };
+        let drawn =
+            plots(&sources, &self.of, over, title).map_err(|error| Failure::new(Exit::BadModel, error))?;
+        for words in &drawn.left_out {
+            terminal::complain(&format!("note: {words}\n"));
+        }
+        let target = self.out.as_deref().unwrap_or_else(|| first.path());
+        for file in ResultFolder::write_figures(target, &drawn.figures).map_err(failed)? {
+            terminal::print(&format!("{}\n", file.display()));
+        }
         Ok(Exit::Done)
+    }
+}
+
+/// The last parts of the folders' names, as many as tell them apart.
+fn names(folders: &[PathBuf]) -> Vec<String> {
+    let last = |folder: &Path, count: usize| -> String {
+        let parts: Vec<String> =
+            folder.components().map(|part| part.as_os_str().to_string_lossy().into_owned()).collect();
+        parts[parts.len().saturating_sub(count)..].join("/")
+    };
+    let most = folders.iter().map(|folder| folder.components().count()).max().unwrap_or(1);
+    for count in 1..=most {
+        let names: Vec<String> = folders.iter().map(|folder| last(folder, count)).collect();
+        if (1..names.len()).all(|k| !names[..k].contains(&names[k])) {
+            return names;
+        }
+    }
+    // One folder twice: numbers tell the curves apart.
+    folders.iter().enumerate().map(|(k, folder)| format!("{} ({})", last(folder, 1), k + 1)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_as_long_as_they_must_be() {
+        let of = |folders: &[&str]| names(&folders.iter().map(PathBuf::from).collect::<Vec<_>>());
+        assert_eq!(of(&["out/coarse", "out/fine"]), ["coarse", "fine"]);
+        assert_eq!(of(&["a/crank", "b/crank"]), ["a/crank", "b/crank"]);
+        assert_eq!(of(&["crank", "crank"]), ["crank (1)", "crank (2)"]);
     }
 }

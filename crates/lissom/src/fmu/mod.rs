@@ -1,7 +1,6 @@
 //! Models as functional mock-up units (FMI 3.0, co-simulation): which variables they have, and the archive that holds model,
 //! description and the shared library that simulates it. The library itself is made in `crates/lissom-fmi`.
 
-mod archive;
 mod description;
 
 use std::collections::BTreeMap;
@@ -199,7 +198,7 @@ pub fn export(model: &Model, overrides: &[Override], library: &[u8]) -> Result<V
     let (resource, text) = (format!("resources/{MODEL_FILE}"), packed.to_json());
     let files =
         [("modelDescription.xml", description.as_bytes()), (&resource, text.as_bytes()), (&binary, library)];
-    Ok(archive::zip(&files)?)
+    Ok(crate::archive::zip(&files)?)
 }
 
 /// The folder of this machine's platform, as FMI 3.0 calls it.

@@ -6,5 +6,6 @@ mod model;
 mod sweep;
 
 pub use mesh::{Mesh, turn_to};
+pub(crate) use model::span;
 pub use model::{Carrier, Colour, Geometry, Piece, Role, poses_at};
 pub use sweep::Sweep;

@@ -9,6 +9,8 @@ use crate::motion::Motion;
 
 /// Thinnest half of a section in a picture, relative to the model.
 const LEAST: f64 = 0.0045;
+/// The same where lengths are to be true: sections without extent have no surface.
+const LEAST_TRUE: f64 = 1e-4;
 /// Turns of the coil of a spring.
 const TURNS: f64 = 9.0;
 
@@ -154,13 +156,13 @@ pub struct Geometry {
 }
 
 impl Geometry {
-    /// The pieces of a scene that moves so. Sections too thin to be seen are drawn thicker if `is_picture`, and loads are
-    /// drawn then alone.
+    /// The pieces of a scene that moves so. If `is_picture`, sections too thin to be seen are drawn thicker and loads are
+    /// drawn; otherwise sections are true down to 2e-4 of the model.
     pub fn new(scene: &Scene, motion: &Motion, is_picture: bool) -> Self {
         let (low, high) = bounds(scene, motion);
         let size = (high - low).norm();
         let mut geometry = Self { pieces: Vec::new(), low, high, size, up: scene.up() };
-        geometry.parts(scene, motion, if is_picture { LEAST * size } else { 0.0 });
+        geometry.parts(scene, motion, if is_picture { LEAST * size } else { LEAST_TRUE * size });
         geometry.symbols(scene);
         geometry.springs(scene, motion);
         if is_picture {

@@ -12,6 +12,8 @@ use serde_json::Value;
 
 use crate::motion::{Motion, MotionError};
 
+pub(crate) use packed::base64;
+
 /// The page without results, as `viewer/build.js` has made it.
 const PAGE: &str = include_str!("viewer.html");
 /// Most numbers of the table that go into a page; of longer ones rows are left out.

@@ -19,6 +19,14 @@ fn results(page: &str) -> Value {
 }
 
 fn inflated(text: &str) -> Vec<u8> {
+    let packed = decoded(text);
+    let mut bytes = Vec::new();
+    ZlibDecoder::new(&*packed).read_to_end(&mut bytes).unwrap();
+    bytes
+}
+
+/// Bytes from letters.
+pub(crate) fn decoded(text: &str) -> Vec<u8> {
     const LETTERS: &str = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     let (mut bits, mut count, mut packed) = (0_u32, 0, Vec::new());
     for letter in text.trim_end_matches('=').chars() {
@@ -30,9 +38,7 @@ fn inflated(text: &str) -> Vec<u8> {
             bits &= (1 << count) - 1;
         }
     }
-    let mut bytes = Vec::new();
-    ZlibDecoder::new(&*packed).read_to_end(&mut bytes).unwrap();
-    bytes
+    packed
 }
 
 /// Reads a packed motion as the page does.

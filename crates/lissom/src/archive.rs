@@ -1,4 +1,4 @@
-//! A ZIP archive in memory, as units are packed: deflated files, without dates.
+//! A ZIP archive in memory, as co-simulation units and arrays are packed: deflated files, without dates.
 
 use std::io::{self, Write};
 
@@ -34,7 +34,7 @@ fn facts(name: &str, content: &[u8], packed: &[u8]) -> io::Result<Vec<u8>> {
 }
 
 /// An archive of files by their names.
-pub(super) fn zip(files: &[(&str, &[u8])]) -> io::Result<Vec<u8>> {
+pub(crate) fn zip(files: &[(&str, &[u8])]) -> io::Result<Vec<u8>> {
     let (mut archive, mut central) = (Vec::new(), Vec::new());
     for (name, content) in files {
         let mut encoder = DeflateEncoder::new(Vec::new(), Compression::default());

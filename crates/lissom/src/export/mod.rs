@@ -1,0 +1,102 @@
+//! Results for other programs. A format is a file here and a line in [`FORMATS`].
+
+mod buffer;
+mod gltf;
+mod npy;
+mod npz;
+mod vtk;
+
+use std::path::{Path, PathBuf};
+
+use lissom_model::files::FileError;
+use lissom_motion::Motion as Pose;
+
+use crate::folder_page::RecordedRun;
+use crate::motion::Motion;
+
+/// Takes a file by its name below the target and its bytes.
+pub type Sink<'a> = dyn FnMut(&str, &[u8]) -> Result<(), FileError> + 'a;
+
+/// Results that cannot be handed over.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ExportError {
+    /// A file cannot be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The motion has no frames.
+    #[error("the motion holds no frame: run the model again")]
+    Empty,
+    /// An archive cannot be packed.
+    #[error("the archive cannot be packed: {0}; ask for fewer frames or outputs")]
+    Archive(#[from] std::io::Error),
+    /// It is more than the format takes.
+    #[error("the results are larger than this format takes, 4 GB: ask for fewer frames or outputs")]
+    TooLarge,
+}
+
+/// A format of other programs.
+pub struct Format {
+    /// Its word on the command line.
+    pub name: &'static str,
+    /// What it is, and who reads it.
+    pub summary: &'static str,
+    /// Name of its one file, or of the folder of its files, below the folder of results.
+    pub target: &'static str,
+    /// Whether there are several files.
+    pub is_folder: bool,
+    /// How the names of its files begin and end, where there are several.
+    pub files: &'static [(&'static str, &'static str)],
+    /// Hands over a run by so many frames of its motion at most.
+    pub write: fn(&RecordedRun, usize, &mut Sink<'_>) -> Result<(), ExportError>,
+}
+
+/// All formats.
+pub static FORMATS: &[Format] = &[gltf::FORMAT, npz::FORMAT, vtk::FORMAT];
+
+/// Files that exports have left in a folder of results.
+pub(crate) fn files_in(folder: &Path) -> Vec<PathBuf> {
+    let of = |format: &Format| -> Vec<PathBuf> {
+        let target = folder.join(format.target);
+        if !format.is_folder {
+            return vec![target];
+        }
+        // What others have put there stays.
+        let is_own = |path: &PathBuf| {
+            let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+            format.files.iter().any(|(start, end)| name.starts_with(start) && name.ends_with(end))
+        };
+        let entries = std::fs::read_dir(&target).into_iter().flatten().flatten().map(|entry| entry.path());
+        entries.filter(is_own).collect()
+    };
+    FORMATS.iter().flat_map(of).collect()
+}
+
+/// At most so many frames of a motion, its first and last among them, at equal distances.
+fn chosen_frames(motion: &Motion, most: usize) -> Vec<usize> {
+    let count = motion.times().len();
+    if count <= most || most < 2 {
+        return if most < 2 { (count.saturating_sub(1)..count).collect() } else { (0..count).collect() };
+    }
+    (0..most).map(|k| k * (count - 1) / (most - 1)).collect()
+}
+
+/// Poses of all nodes in a frame.
+fn poses(motion: &Motion, frame: usize) -> Vec<Pose> {
+    (0..motion.reference().len()).map(|node| motion.pose(frame, node)).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_are_told_apart() {
+        for (k, format) in FORMATS.iter().enumerate() {
+            assert!(!format.summary.is_empty());
+            for other in &FORMATS[..k] {
+                assert!(format.name != other.name && format.target != other.target);
+            }
+        }
+    }
+}

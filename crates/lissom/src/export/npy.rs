@@ -1,0 +1,60 @@
+//! Arrays as NumPy stores them: version 1.0 of the format `.npy`, little-endian, by rows.
+
+/// An array of numbers.
+pub(super) fn numbers(shape: &[usize], values: &[f64]) -> Vec<u8> {
+    with_header("<f8", shape, values.iter().flat_map(|value| value.to_le_bytes()))
+}
+
+/// An array of numbers in half the bytes.
+pub(super) fn short_numbers(shape: &[usize], values: &[f32]) -> Vec<u8> {
+    with_header("<f4", shape, values.iter().flat_map(|value| value.to_le_bytes()))
+}
+
+/// A list of texts.
+pub(super) fn texts(values: &[String]) -> Vec<u8> {
+    let longest = values.iter().map(|text| text.chars().count()).max().unwrap_or(0).max(1);
+    let padded = |text: &String| -> Vec<u8> {
+        let letters = text.chars().map(u32::from).chain(std::iter::repeat(0)).take(longest);
+        letters.flat_map(u32::to_le_bytes).collect()
+    };
+    with_header(&format!("<U{longest}"), &[values.len()], values.iter().flat_map(padded))
+}
+
+fn with_header(kind: &str, shape: &[usize], content: impl Iterator<Item = u8>) -> Vec<u8> {
+    let sizes: Vec<String> = shape.iter().map(|size| format!("{size},")).collect();
+    let mut header =
+        format!("{{'descr': '{kind}', 'fortran_order': False, 'shape': ({}), }}", sizes.join(" "));
+    // The content begins at a multiple of 64 bytes; the header ends with a line end.
+    let whole = (10 + header.len() + 1).next_multiple_of(64);
+    header.extend(std::iter::repeat_n(' ', whole - 10 - header.len() - 1));
+    header.push('\n');
+    let mut bytes = b"\x93NUMPY\x01\x00".to_vec();
+    bytes.extend((header.len() as u16).to_le_bytes());
+    bytes.extend(header.as_bytes());
+    bytes.extend(content);
+    bytes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_are_as_the_format_has_them() {
+        let array = numbers(&[2, 1], &[1.0, -2.0]);
+        assert!(array.starts_with(b"\x93NUMPY\x01\x00"));
+        let length = usize::from(u16::from_le_bytes([array[8], array[9]]));
+        assert_eq!((10 + length) % 64, 0);
+        let header = std::str::from_utf8(&array[10..10 + length]).unwrap();
+        assert!(
+            header.starts_with("{'descr': '<f8', 'fortran_order': False, 'shape': (2, 1,), }")
+                && header.ends_with('\n')
+        );
+        assert_eq!(&array[10 + length..], [1.0_f64.to_le_bytes(), (-2.0_f64).to_le_bytes()].concat());
+        let words = texts(&["N m²".to_owned(), String::new()]);
+        assert!(
+            words.windows(4).any(|part| part == b"<U4'") && words.len() == 128 + 2 * 4 * 4
+                || words.len() == 64 + 64 + 32
+        );
+    }
+}
