@@ -49,6 +49,7 @@ export const connect = (viewer) => {
       viewer.isMoved = true;
     });
   }
+  on("compare", "change", (event) => viewer.compare(event.target));
   on("help", "click", () => $("keys").showModal());
   const nextColour = () => {
     const select = $("colour");

@@ -31,7 +31,13 @@ const fields = (line) => {
 /** The table of results: times and columns, with quantity and unit from the summary where it has them. */
 export const decodeHistory = async (packed, known) => {
   if (!packed) return { times: new Float64Array(), columns: [] };
-  const lines = new TextDecoder().decode(await inflate(packed)).split("\n").filter(Boolean);
+  return readTable(new TextDecoder().decode(await inflate(packed)), known);
+};
+
+/** The same from the text of a table. */
+export const readTable = (text, known = []) => {
+  const lines = text.split("\n").filter(Boolean);
+  if (!lines[0]?.startsWith("time")) throw new Error("it is no table of results");
   const names = fields(lines[0]).slice(1);
   const rows = lines.length - 1;
   const times = new Float64Array(rows);

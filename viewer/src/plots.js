@@ -2,6 +2,8 @@
 
 import uPlot from "uplot";
 
+import { PathPlot } from "./path.js";
+import { spectrum } from "./spectrum.js";
 import { curves } from "./theme.js";
 import { spelled } from "./words.js";
 
@@ -26,6 +28,10 @@ export class Plots {
     this.time = 0;
     this.range = null;
     this.plots = [];
+    /** What plots are drawn over where that is not time, by output and unit. */
+    this.over = new Map();
+    /** Another result on top of this one. */
+    this.other = null;
     new ResizeObserver(() => this.resize()).observe(holder);
   }
 
@@ -34,6 +40,18 @@ export class Plots {
     this.isStatic = isStatic;
     this.range = null;
     this.draw();
+  }
+
+  /** Draws the columns of another result, dashed, into the plots of those that have their names; none for nothing. */
+  compare(history, name) {
+    this.other = history && { ...history, name };
+    this.draw();
+  }
+
+  /** The same columns of the other result. */
+  others(columns) {
+    const found = this.other?.columns ?? [];
+    return columns.map((column) => found.find((other) => other.name === column.name && (!other.unit || !column.unit || other.unit === column.unit)));
   }
 
   draw() {
@@ -55,8 +73,20 @@ export class Plots {
     const isOne = columns.length === 1 && component;
     const measured = quantity && quantity !== output ? ` ${isOne ? component : quantity}` : "";
     heading.append(output, Object.assign(document.createElement("span"), { textContent: `${measured}${unit ? ` [${unit}]` : ""}` }));
+    const key = `${output}\n${unit}`;
+    const choice = this.choice(key);
+    heading.append(choice);
     card.append(heading);
     this.holder.append(card);
+    const over = this.over.get(key) ?? "time";
+    const others = this.others(columns);
+    if (over === "frequency") {
+      const drawn = this.spectrum(columns, others, card);
+      if (drawn) return { plot: drawn, card, output, isFree: true };
+    } else if (over !== "time") {
+      const drawn = this.path(columns, over, card);
+      if (drawn) return { plot: drawn, card, output, isFree: true };
+    }
     const axis = { stroke: css("--faint"), grid: { stroke: css("--line"), width: 1 }, ticks: { stroke: css("--line"), width: 1 }, font: "11px system-ui" };
     const series = columns.map((column, k) => ({
       label: column.component || column.output,
@@ -65,6 +95,15 @@ export class Plots {
       points: { show: false },
       value: (_, value) => (value == null ? "" : spelled(value)),
     }));
+    others.forEach((column, k) => {
+      if (!column) return;
+      series.push({ ...series[k], label: `${series[k].label}, ${this.other.name}`, dash: [6, 4], spanGaps: true });
+    });
+    const own = [this.history.times, ...columns.map((column) => column.values)];
+    const known = others.filter(Boolean);
+    // Rows of both results, in the order of time; a curve goes on between its own rows.
+    const table = known.length ? uPlot.join([own, [this.other.times, ...known.map((column) => column.values)]]) : own;
+    if (known.length) series.forEach((each) => (each.spanGaps = true));
     const options = {
       width: 300,
       height: 170,
@@ -81,8 +120,68 @@ export class Plots {
         setScale: [(plot, key) => key === "x" && this.share(plot)],
       },
     };
-    const plot = new uPlot(options, [this.history.times, ...columns.map((column) => column.values)], card);
-    return { plot, card, output };
+    const plot = new uPlot(options, table, card);
+    return { plot, card, output, isJoined: known.length > 0 };
+  }
+
+  /** What a plot is drawn over. */
+  choice(key) {
+    const select = document.createElement("select");
+    select.className = "over";
+    select.setAttribute("aria-label", "drawn over");
+    const names = this.history.columns.map((column) => column.name);
+    const options = this.isStatic ? [["time", "over load"]] : [["time", "over time"], ["frequency", "spectrum"]];
+    select.append(...[...options, ...names.map((name) => [`column ${name}`, `over ${name}`])].map(([value, text]) => new Option(text, value)));
+    select.value = this.over.get(key) ?? "time";
+    select.addEventListener("change", () => {
+      this.over.set(key, select.value);
+      this.draw();
+      this.setTime(this.time);
+    });
+    return select;
+  }
+
+  /** Amplitudes over frequency. */
+  spectrum(columns, others, card) {
+    const found = spectrum(this.history.times, columns.map((column) => column.values));
+    if (!found) return null;
+    const axis = { stroke: css("--faint"), grid: { stroke: css("--line"), width: 1 }, ticks: { stroke: css("--line"), width: 1 }, font: "11px system-ui" };
+    const series = columns.map((column, k) => ({ label: column.component || column.output, stroke: curves[k % curves.length], width: 1.4, points: { show: false }, value: (_, value) => (value == null ? "" : spelled(value)) }));
+    const lists = [...found.amplitudes];
+    const known = this.other ? others.filter(Boolean) : [];
+    const other = known.length ? spectrum(this.other.times, known.map((column) => column.values)) : null;
+    let table = [found.frequencies, ...lists];
+    if (other) {
+      known.forEach((column, k) => series.push({ ...series[columns.findIndex((own) => own.name === column.name)], label: `${column.component || column.output}, ${this.other.name}`, dash: [6, 4], value: (_, value) => (value == null ? "" : spelled(value)), index: k }));
+      table = uPlot.join([table, [other.frequencies, ...other.amplitudes]]);
+      series.forEach((each) => (each.spanGaps = true));
+    }
+    const options = {
+      width: 300,
+      height: 170,
+      cursor: { points: { size: 6 } },
+      scales: { x: { time: false }, y: { distr: 3 } },
+      axes: [
+        { ...axis, size: 28, values: (_, ticks) => ticks.map((tick) => spelled(tick, 5)) },
+        { ...axis, size: 58, values: (_, ticks) => ticks.map((tick) => (tick == null ? "" : spelled(tick, 2))) },
+      ],
+      series: [{ label: found.isCut ? "f [Hz], the lowest" : "f [Hz]", value: (_, value) => (value == null ? "" : spelled(value)) }, ...series],
+    };
+    return new uPlot(options, table, card);
+  }
+
+  /** Columns over another one. */
+  path(columns, over, card) {
+    const name = over.replace(/^column /, "");
+    const of = (history) => history?.columns.find((column) => column.name === name);
+    const x = of(this.history);
+    if (!x) return null;
+    const all = columns.map((column, k) => ({ x: x.values, y: column.values, stroke: curves[k % curves.length] }));
+    const otherX = of(this.other);
+    this.others(columns).forEach((column, k) => {
+      if (column && otherX) all.push({ x: otherX.values, y: column.values, stroke: curves[k % curves.length], dash: [6, 4] });
+    });
+    return new PathPlot(card, all, { line: css("--line"), faint: css("--faint") });
   }
 
   /** A click sets the time, a drag zooms, a double click shows all. */
@@ -103,8 +202,8 @@ export class Plots {
     if (this.isSharing) return;
     const { min, max } = from.scales.x;
     this.isSharing = true;
-    for (const { plot } of this.plots) {
-      if (plot !== from && (plot.scales.x.min !== min || plot.scales.x.max !== max)) plot.setScale("x", { min, max });
+    for (const { plot, isFree } of this.plots) {
+      if (!isFree && plot !== from && (plot.scales.x.min !== min || plot.scales.x.max !== max)) plot.setScale("x", { min, max });
     }
     this.isSharing = false;
   }
@@ -127,11 +226,15 @@ export class Plots {
   setTime(time) {
     this.time = time;
     const row = this.row();
-    for (const { plot, card } of this.plots) {
+    for (const { plot, card, isFree, isJoined } of this.plots) {
       if (!this.isSeen(card)) continue;
+      if (isFree) {
+        plot.mark?.(row);
+        continue;
+      }
       plot.redraw(false, false);
       // Where no pointer asks for others, the legend tells the values now.
-      if (!(plot.cursor.left >= 0)) plot.setLegend({ idx: row }, false);
+      if (!(plot.cursor.left >= 0)) plot.setLegend({ idx: isJoined ? plot.valToIdx(this.time) : row }, false);
     }
   }
 

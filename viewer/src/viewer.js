@@ -2,7 +2,7 @@
 
 import * as THREE from "three";
 
-import { decodeHistory, decodeMotion } from "./decode.js";
+import { decodeHistory, decodeMotion, readTable } from "./decode.js";
 import { fields } from "./fields.js";
 import { Kinematics } from "./kinematics.js";
 import { ModelView } from "./model.js";
@@ -10,6 +10,7 @@ import { Modes } from "./modes.js";
 import { Panel } from "./panel.js";
 import { Player } from "./player.js";
 import { Plots } from "./plots.js";
+import { spectrum } from "./spectrum.js";
 import { Stage } from "./stage.js";
 import { gradient, themeOf } from "./theme.js";
 import { factor, spelled } from "./words.js";
@@ -24,6 +25,9 @@ const ICONS = {
 const VIEWS = { iso: [1, -1.35, 0.75], front: [0, -1, 0], side: [1, 0, 0], top: [0, 0, 1] };
 
 export class Viewer {
+  /** For tests. */
+  spectrum = spectrum;
+
   constructor() {
     this.themeName = this.storedTheme();
     document.documentElement.dataset.theme = this.themeName;
@@ -98,6 +102,34 @@ export class Viewer {
     this.select(selected);
     $("scrub").disabled = $("play").disabled = !this.player.canPlay;
     this.isMoved = true;
+  }
+
+  /** Lays the plots of other results over these: those of a page, or a table. */
+  async compare(input) {
+    const [file] = input.files;
+    input.value = "";
+    if (!file) return;
+    try {
+      const text = await file.text();
+      let [history, name] = [null, file.name.replace(/\.[a-z]+$/, "")];
+      if (text.trimStart().startsWith("<")) {
+        const page = new DOMParser().parseFromString(text, "text/html");
+        const held = page.getElementById("result");
+        if (!held) throw new Error("it is no page of results");
+        const result = JSON.parse(held.textContent);
+        history = await decodeHistory(result.history, result.columns ?? []);
+        name = result.name || name;
+      } else {
+        history = readTable(text);
+      }
+      const own = new Set(this.history.columns.map((column) => column.name));
+      if (!history.columns.some((column) => own.has(column.name))) throw new Error("it has no column of these results");
+      this.plots.compare(history, name);
+      this.plots.compared = file.name;
+      this.isMoved = true;
+    } catch (error) {
+      this.notices([...(this.result.notices ?? []), { kind: "error", text: `${file.name} cannot be compared: ${error.message}` }]);
+    }
   }
 
   /** Shows another mode, from the first to the last. */

@@ -163,6 +163,35 @@ const tests = {
     await draws(page);
     assert.deepEqual(complaints(), []);
   },
+  "paths, spectra and other results in the plots": async (browser) => {
+    const out = view("examples/pendulum.toml");
+    const other = view("examples/pendulum.toml", "springs.spring.stiffness=14", "analysis.step=7e-3");
+    const { page, complaints } = await open(browser, join(out, "view.html"));
+    const choices = page.locator(".plot .over");
+    assert.equal(await choices.count(), 6);
+    await choices.nth(0).selectOption("column bob.x");
+    assert.equal(await page.locator(".plot canvas").count() > 0, true);
+    await choices.nth(1).selectOption("frequency");
+    // The amplitude of a sine of 5 Hz, by unequal rows.
+    const amplitude = await page.evaluate(() => {
+      const times = Float64Array.from({ length: 2001 }, (_, k) => 1e-3 * k + 0.1 * Math.sin(Math.PI * 1e-3 * k) ** 2);
+      const found = lissom.spectrum(times, [times.map((t) => 3 + 0.5 * Math.sin(10 * Math.PI * t))]);
+      return found.amplitudes[0][found.frequencies.findIndex((f) => Math.abs(f - 5) < 0.1)];
+    });
+    assert.ok(Math.abs(amplitude - 0.5) < 5e-3, `${amplitude}`);
+    for (const [file, series] of [["view.html", 3], ["history.csv", 3]]) {
+      await page.setInputFiles("#compare input", join(other, file));
+      await page.waitForFunction((file) => lissom.plots.other?.name !== undefined && lissom.plots.compared === file, file, { timeout: 60000 });
+      const count = await page.evaluate(() => lissom.plots.plots.map(({ plot }) => plot.series?.length));
+      assert.equal(count[1], series, "one curve of each");
+      assert.equal(count[5], 9, "four energies of each");
+    }
+    await page.evaluate(() => lissom.player.seek(0.5));
+    await page.waitForTimeout(200);
+    assert.deepEqual(complaints(), []);
+    await page.setInputFiles("#compare input", join(root, "README.md"));
+    await page.waitForFunction(() => document.querySelector("#notices .error")?.textContent.includes("cannot be compared"), null, { timeout: 60000 });
+  },
   "statics": async (browser) => {
     const out = view("verification/right-angle-frame/model.toml");
     const { page, complaints } = await open(browser, join(out, "view.html"));
