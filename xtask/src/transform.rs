@@ -29,7 +29,7 @@ const TURN: [[f64; 3]; 3] = [
 ];
 
 /// Keys whose three numbers are a place or direction in global axes.
-const DIRECTED: [&str; 16] = [
+const DIRECTED: [&str; 18] = [
     "gravity",
     "from",
     "to",
@@ -40,6 +40,8 @@ const DIRECTED: [&str; 16] = [
     "at_tip",
     "axis",
     "second_axis",
+    "axis_at_tip",
+    "second_axis_at_tip",
     "vector",
     "point",
     "position",

@@ -244,6 +244,16 @@ impl Parameters {
         self.values.insert(name.to_owned(), value);
     }
 
+    /// The same but for some.
+    #[must_use]
+    pub fn without<'n>(&self, names: impl IntoIterator<Item = &'n str>) -> Self {
+        let mut rest = self.clone();
+        for name in names {
+            rest.values.remove(name);
+        }
+        rest
+    }
+
     /// Whether `name` was given.
     pub fn has(&self, name: &str) -> bool {
         self.values.contains_key(name)

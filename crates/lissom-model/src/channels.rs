@@ -276,11 +276,12 @@ fn cardan_angles(rotation: &Matrix3) -> Vector3 {
     Vector3::new(alpha, beta, (-rotation[(0, 1)]).atan2(rotation[(0, 0)]))
 }
 
-/// Where the numbers of an output come from that is no expression.
+/// Where the numbers of an output come from that is no expression. Places are given as the model is drawn; the motion
+/// starts from another state where the model was assembled.
 pub(crate) fn source(
     output: &Output,
     system: &System,
-    state: &State,
+    (drawn, state): (&State, &State),
     names: &Resolver<'_>,
 ) -> Result<Source, Problem> {
     Ok(match &output.source {
@@ -305,7 +306,7 @@ pub(crate) fn source(
         }
         OutputSource::Joint(name) => joint_source(output, name, system, names)?,
         OutputSource::Node { node, point } => {
-            let place = place(output, node, point.as_ref(), state, names)?;
+            let place = place(output, node, point.as_ref(), drawn, names)?;
             let start = place.frame(&state.kinematics);
             Source::Place(place, start)
         }

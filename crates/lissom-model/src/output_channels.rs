@@ -14,12 +14,12 @@ use crate::suggest;
 pub(crate) fn of(
     document: &Document,
     system: &System,
-    state: &State,
+    (drawn, state): (&State, &State),
     names: &Resolver<'_>,
     problems: &mut Vec<Problem>,
 ) -> Vec<Channel> {
     let mut channels = Vec::new();
-    let made = Made { document, system, state, names };
+    let made = Made { document, system, drawn, state, names };
     for output in &document.outputs {
         match made.channel(output, &mut Vec::new()) {
             Ok(channel) => channels.push(channel),
@@ -33,6 +33,9 @@ pub(crate) fn of(
 struct Made<'a> {
     document: &'a Document,
     system: &'a System,
+    /// As the model describes it.
+    drawn: &'a State,
+    /// From which the motion starts.
     state: &'a State,
     names: &'a Resolver<'a>,
 }
@@ -40,10 +43,10 @@ struct Made<'a> {
 impl Made<'_> {
     /// The channel of an output; `path` are the expressions that led to it.
     fn channel(&self, output: &Output, path: &mut Vec<String>) -> Result<Channel, Problem> {
-        let Self { system, state, names, .. } = *self;
+        let Self { system, drawn, state, names, .. } = *self;
         let source = match &output.source {
             OutputSource::Expression(formula) => self.expression(output, formula, path)?,
-            _ => source(output, system, state, names)?,
+            _ => source(output, system, (drawn, state), names)?,
         };
         let (components, units) = components(output.kind, &source, system);
         let source = self.observed(output, source)?;

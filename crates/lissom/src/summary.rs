@@ -1,9 +1,10 @@
 //! The facts of `summary.json`: what was asked for, and what it came to. Scripts read these names.
 
+use lissom_core::analysis::assembly::Gap;
 use lissom_core::elements::Energy;
 use lissom_core::scaling::Representative;
 use lissom_model::Document;
-use lissom_model::lower::Lowered;
+use lissom_model::lower::{Assembly, Brought, Lowered, MovedPart, lower};
 use lissom_model::output::Summary;
 use lissom_model::sweep::{Accumulator, STATISTICS};
 use serde_json::{Value, json};
@@ -27,6 +28,11 @@ pub fn of_request(analysis: &str, name: &str, overrides: &[Override], document: 
     tell("set", overrides.iter().map(|(path, value)| (path.clone(), json!(value))).collect());
     tell("stopped", json!("failed"));
     tell("warnings", document.warnings.problems().map(|problem| json!(problem.message)).collect());
+    if document.assembly.is_some()
+        && let Ok(Lowered { assembly: Some(assembly), .. }) = lower(document)
+    {
+        tell("assembly", of_assembly(&assembly));
+    }
     summary
 }
 
@@ -76,7 +82,26 @@ pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered
     tell("columns", columns.iter().map(column).collect());
     let warnings = document.warnings.problems().map(|problem| json!(problem.message));
     tell("warnings", warnings.collect());
+    if let Some(assembly) = &lowered.assembly {
+        tell("assembly", of_assembly(assembly));
+    }
     summary
+}
+
+/// What was moved so that joints close.
+pub(crate) fn of_assembly(assembly: &Assembly) -> Value {
+    let gap = |gap: &Gap| json!({ "joint": gap.joint, "distance": gap.distance, "angle": gap.angle });
+    let moved =
+        |moved: &MovedPart| json!({ "part": moved.part, "distance": moved.distance, "turn": moved.turn });
+    let brought =
+        |own: &Brought| json!({ "coordinate": own.coordinate, "value": own.value, "unit": own.unit });
+    json!({
+        "closed": assembly.closed.iter().map(gap).collect::<Vec<_>>(),
+        "moved": assembly.moved.iter().map(moved).collect::<Vec<_>>(),
+        "brought": assembly.brought.iter().map(brought).collect::<Vec<_>>(),
+        "left": assembly.left,
+        "least_change": assembly.is_least,
+    })
 }
 
 /// Says that a run has begun: what is read of one that was killed.

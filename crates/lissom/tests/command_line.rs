@@ -1,5 +1,7 @@
 //! The program, as scripts see it: exit codes, files, columns and facts.
 
+#[path = "command_line/assembly.rs"]
+mod assembly;
 #[path = "command_line/data_file.rs"]
 mod data_file;
 #[path = "command_line/export.rs"]

@@ -128,6 +128,19 @@ impl AttachedJoint {
         rows
     }
 
+    /// Derivatives of the equations with respect to the relative motion and the own coordinates.
+    pub fn own_gradient(&self, (relative, own): &(Relative, Own)) -> Gradient {
+        let mut gradient = Gradient::zeros();
+        self.joint.gradient(relative, own, &mut gradient);
+        gradient
+    }
+
+    /// A relative motion, and coordinates, that satisfy the equations: those the joint was made with.
+    pub fn as_built(&self) -> (Relative, Own) {
+        let (values, relative) = self.joint.initial();
+        (Relative::at_start(&relative), Own { value: values, ..Own::default() })
+    }
+
     /// Relative motion and own coordinates after the increments.
     pub fn configuration(&self, increments: &Increments<'_>) -> (Relative, Own) {
         self.configuration_from(self.start(increments.start), increments)

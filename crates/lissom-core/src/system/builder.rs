@@ -2,13 +2,16 @@
 //! checked without solving.
 
 mod coupling;
+mod drawn;
 
 use std::sync::Arc;
 
-use lissom_motion::{Matrix6, Motion, Rotation, Vector3, Vector6};
+use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
 use lissom_solver::{Group, Pattern, Structure};
 
 use self::coupling::rows_of_coupling;
+pub use self::drawn::PlaceOnTip;
+use self::drawn::{joint_rotation, start_values};
 use super::batch::{AnyBatch, Batch};
 use super::feedback::{Feedback, Target};
 use super::layout::{Freedoms, LOCKED, Layout};
@@ -21,7 +24,7 @@ use crate::joints::attached::{AttachedJoint, CarriedFrame};
 use crate::joints::blocks::Batches;
 use crate::joints::coupling::Coupling;
 use crate::joints::derivatives::{LOCAL, OWN, TIP};
-use crate::joints::{Build, Frames, Geometry, JointKind, Quantity};
+use crate::joints::{Build, Geometry, JointKind, Quantity};
 use crate::registry::{Function, ParameterError, Parameters};
 use crate::signals::event::Event;
 use crate::signals::measurement::Measurement;
@@ -89,6 +92,8 @@ pub struct Builder {
     driver: Option<SignalId>,
     /// The element added last.
     last: Option<ElementId>,
+    /// Where parts are given approximately: the values of coordinates at the start that joints are given.
+    start_values: Option<Vec<(CoordinateId, f64)>>,
 }
 
 impl Default for Builder {
@@ -121,6 +126,7 @@ impl Builder {
             targets: Vec::new(),
             driver: None,
             last: None,
+            start_values: None,
         }
     }
 
@@ -198,6 +204,21 @@ impl Builder {
         placement: &Placement,
         parameters: &Parameters,
     ) -> Result<Vec<CoordinateId>, ParameterError> {
+        self.add_joint_apart(name, kind, (placement, None), parameters)
+    }
+
+    /// Adds a joint whose frame on the tip lies elsewhere than its frame on the base, for parts that are given
+    /// approximately and assembled.
+    ///
+    /// # Errors
+    /// If a parameter or an axis is missing or makes no sense.
+    pub fn add_joint_apart(
+        &mut self,
+        name: &str,
+        kind: &JointKind,
+        (placement, on_tip): (&Placement, Option<&PlaceOnTip>),
+        parameters: &Parameters,
+    ) -> Result<Vec<CoordinateId>, ParameterError> {
         let Build::Relative(frames, build) = kind.build else {
             return Err(ParameterError::new("kind", "acts on another joint's coordinate"));
         };
@@ -205,9 +226,16 @@ impl Builder {
         let tip = placement.at_tip.unwrap_or(self.nodes[placement.nodes[1]].motion.frame.position);
         let span = base.inverse_transform_point(&tip);
         let geometry = Geometry { span, planar: self.moves_in_plane(placement, &base), axes: base.rotation };
-        let joint = build(parameters, &geometry)?;
+        let mut joint = build(parameters, &geometry)?;
+        let given = start_values(joint.as_ref(), parameters)?;
+        if self.start_values.is_some() && !given.is_empty() {
+            joint = build(
+                &parameters.without(given.iter().map(|&(k, _)| joint.coordinates()[k].name)),
+                &geometry,
+            )?;
+        }
         let (values, relative) = joint.initial();
-        let places = [base, base * relative];
+        let places = [base, on_tip.map_or(Ok(base), |place| place.frame(&base, placement))? * relative];
         let carried = [0, 1].map(|side| {
             let node = placement.nodes[side];
             CarriedFrame { node, offset: places[side].relative_to(&self.nodes[node].motion.frame) }
@@ -225,6 +253,9 @@ impl Builder {
                 self.coordinates.len() - 1
             })
             .collect();
+        if let Some(start) = &mut self.start_values {
+            start.extend(given.into_iter().map(|(k, value)| (coordinates[k], value)));
+        }
         let first_multiplier = self.multipliers.len();
         for (k, &equation) in joint.equations().iter().enumerate() {
             self.multipliers.push((name.to_owned(), equation));
@@ -569,35 +600,4 @@ fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
         Some(*end)
     });
     std::iter::once(0).chain(ends).collect()
-}
-
-/// Direction of the joint frames at the start.
-fn joint_rotation(frames: Frames, placement: &Placement) -> Result<Rotation, ParameterError> {
-    let missing = |name: &str| ParameterError::new(name, "is missing: it must be a direction");
-    let unusable = |name: &str, why: &str| ParameterError::new(name, why);
-    match frames {
-        Frames::Point | Frames::Span => Ok(Rotation::identity()),
-        Frames::Axis | Frames::SpanWithAxis => {
-            let third = placement.axis.ok_or_else(|| missing("axis"))?;
-            let third = third
-                .try_normalize(0.0)
-                .ok_or_else(|| unusable("axis", "has no direction: all its numbers are zero"))?;
-            // Any first axis across the third; the one nearest to a global axis, for readable results.
-            let smallest = third.iamin();
-            let mut across = Vector3::zeros();
-            across[smallest] = 1.0;
-            let first = (across - third * third.dot(&across)).normalize();
-            Rotation::from_columns(&first, &third.cross(&first), &third)
-                .ok_or_else(|| unusable("axis", "has no usable direction"))
-        }
-        Frames::GivenOrGlobalAxes if placement.axis.is_none() && placement.second_axis.is_none() => {
-            Ok(Rotation::identity())
-        }
-        Frames::TwoAxes | Frames::GivenOrGlobalAxes => {
-            let first = placement.axis.ok_or_else(|| missing("axis"))?;
-            let second = placement.second_axis.ok_or_else(|| missing("second_axis"))?;
-            Rotation::from_axis_and_reference(&first, &second)
-                .ok_or_else(|| unusable("second_axis", "is parallel to `axis`, or one of them is zero"))
-        }
-    }
 }

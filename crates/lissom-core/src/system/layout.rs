@@ -98,6 +98,11 @@ impl Layout {
         self.coordinate_rows[coordinate] as usize
     }
 
+    /// Name of an algebraic coordinate, as `joint.angle`.
+    pub fn coordinate_name(&self, coordinate: CoordinateId) -> &str {
+        &self.coordinate_names[coordinate]
+    }
+
     /// What an algebraic coordinate is.
     pub fn coordinate_quantity(&self, coordinate: CoordinateId) -> Quantity {
         self.quantities[self.row_of_coordinate(coordinate)]

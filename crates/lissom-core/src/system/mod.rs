@@ -16,7 +16,7 @@ use std::sync::Arc;
 
 pub use assembly::{Augmentation, Linearization, Point, Scratch};
 pub use batch::Chart;
-pub use builder::{BuildError, Builder, Placement};
+pub use builder::{BuildError, Builder, PlaceOnTip, Placement};
 pub use layout::{Freedoms, LOCKED, Layout};
 pub use passage::Course;
 pub use receiver::{Blend, Receiver, Sum};

@@ -5,7 +5,7 @@ use lissom_motion::{Rotation, Vector3};
 
 use super::connections::Places;
 use super::decode::each_of_kind;
-use super::{Attachment, Component, NodeReference};
+use super::{Attachment, Component, NodeReference, assembly};
 use crate::context::Context;
 use crate::keys::Shape;
 use crate::line::are_parallel;
@@ -32,9 +32,14 @@ pub(super) fn read(
         let attachment = attachment(reader, name, entry.acts_on, registry, places);
         let takes_friction = table == "joints" && !matches!(entry.acts_on, ActsOn::JointCoordinate(_));
         let friction = if takes_friction { friction(reader) } else { None };
+        let on_tip = match entry.acts_on {
+            ActsOn::TwoNodes(rule) if table == "joints" => assembly::on_tip(reader, rule),
+            _ => None,
+        };
         let kind = reader.text("kind")?.map(str::to_owned);
         let name = Located::new(name.to_owned(), reader.name);
-        Some(Component { name, kind, attachment: attachment?, parameters, parameter_spans, signal, friction })
+        let attachment = attachment?;
+        Some(Component { name, kind, attachment, parameters, parameter_spans, signal, friction, on_tip })
     })
 }
 

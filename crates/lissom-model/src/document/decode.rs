@@ -8,7 +8,8 @@ use lissom_motion::Vector3;
 
 use super::tables::{self, Holds, variants};
 use super::{
-    Document, analysis, beams, bodies, components, connections, events, initial, materials, outputs, signals,
+    Document, analysis, assembly, beams, bodies, components, connections, events, initial, materials,
+    outputs, signals,
 };
 use crate::context::{Context, singular};
 use crate::expression;
@@ -91,6 +92,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let states = signals::states(context);
     let events = events::events(context);
     let (initial, initial_of_parts) = initial::initial(context);
+    let assembly = assembly::assembly(context);
     let outputs = outputs::outputs(context, registry);
     let analysis = analysis::analysis(context, registry);
     let document = Document {
@@ -112,6 +114,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
         events,
         initial,
         initial_of_parts,
+        assembly,
         outputs,
         analysis: analysis?,
         warnings: Report::new(Vec::new(), context.sources),

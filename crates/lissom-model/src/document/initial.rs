@@ -35,7 +35,7 @@ pub(super) fn initial(context: &Context<'_>) -> (Option<InitialMotion>, BTreeMap
             continue;
         };
         let Some(motion) = motion(&reader) else { continue };
-        for (part, span) in parts(&reader) {
+        for (part, span) in parts(&reader, "parts") {
             if let Some((first, other)) = owners.insert(part.clone(), (span, motion_name)) {
                 let message = format!("`{part}` moves at the start as `{other}` and as `{motion_name}`");
                 let problem = Problem::error(span, message).label("again").also(first, "first here");
@@ -61,16 +61,16 @@ fn motion(reader: &Reader<'_, '_>) -> Option<InitialMotion> {
     Some(InitialMotion { velocity, angular_velocity, about, equilibrium })
 }
 
-/// The names of bodies, point masses and beams that the list `parts` means, each with its place.
-fn parts(reader: &Reader<'_, '_>) -> Vec<(String, Span)> {
-    let (context, what) = (reader.context, reader.words("parts"));
-    let Some(node) = reader.node("parts") else { return Vec::new() };
+/// The names of bodies, point masses and beams that the list under `key` means, each with its place.
+pub(super) fn parts(reader: &Reader<'_, '_>, key: &str) -> Vec<(String, Span)> {
+    let (context, what) = (reader.context, reader.words(key));
+    let Some(node) = reader.node(key) else { return Vec::new() };
     let Value::List(list) = &node.value else {
         context.wrong_type::<()>(node, &what, "a list of names");
         return Vec::new();
     };
     if list.is_empty() {
-        context.fail::<()>(node.span, format!("{what} is empty"), "name the parts that move in this way");
+        context.fail::<()>(node.span, format!("{what} is empty"), "name parts, or leave it out");
     }
     let mut found = Vec::new();
     for entry in list {

@@ -2,6 +2,7 @@
 //! for later complaints. Knows no system, no unknowns and no time scheme.
 
 pub(crate) mod analysis;
+mod assembly;
 mod beams;
 mod bodies;
 mod components;
@@ -31,6 +32,7 @@ use crate::sections::{Isotropic, SectionProperties, Shape};
 pub(crate) use bodies::body_axes;
 
 pub use analysis::{Analysis, AnalysisKind, DEFAULT_BUCKLING_COUNT, DEFAULT_MODE_COUNT, Scaling, StepChoice};
+pub use assembly::{AssemblyRequest, DEFAULT_ASSEMBLY_TOLERANCE, OnTip};
 pub use distributed::DistributedForce;
 pub use events::EventEntry;
 pub use outputs::{Output, OutputKind, OutputSource, ReactionAxes};
@@ -97,6 +99,8 @@ pub struct Document {
     pub initial: Option<InitialMotion>,
     /// Rigid motions at the start of parts that move otherwise, by the names of bodies, point masses and beams.
     pub initial_of_parts: BTreeMap<String, InitialMotion>,
+    /// What to do about parts that are placed approximately; none where all joints must fit.
+    pub assembly: Option<AssemblyRequest>,
     /// What is recorded.
     pub outputs: Vec<Output>,
     /// What is computed.
@@ -362,6 +366,8 @@ pub struct Component {
     pub signal: Option<(&'static str, Located<Formula>)>,
     /// Friction in a joint: the parameters of a friction element on its coordinate.
     pub friction: Option<Located<Parameters>>,
+    /// Where a joint lies on its tip, if elsewhere than on its base.
+    pub on_tip: Option<Located<OnTip>>,
 }
 
 impl Component {

@@ -38,7 +38,7 @@ const fn top(name: &'static str, holds: Holds, required: bool, summary: &'static
 pub const VERSION: usize = 1;
 
 /// All the words at the top.
-pub(crate) static TOP: [Top; 20] = [
+pub(crate) static TOP: [Top; 21] = [
     top("lissom", Holds::Value(Shape::Version), true, "Version of the file format."),
     top("title", Holds::Value(Shape::Text), false, "One line about the model."),
     top("gravity", Holds::Value(Shape::Vector), false, "Acceleration of gravity [m/s²]; none when left out."),
@@ -82,6 +82,12 @@ pub(crate) static TOP: [Top; 20] = [
         Holds::Table,
         false,
         "How the parts are and move at the start: a rigid motion of all, or of those that an entry [initial.…] names; static equilibrium.",
+    ),
+    top(
+        "assembly",
+        Holds::Table,
+        false,
+        "Parts are placed approximately: they are moved as little as possible until all joints close and have the values they are given at the start.",
     ),
     top("outputs", Holds::Entries, false, "What is recorded."),
 ];
@@ -135,6 +141,7 @@ pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
         "states" => (None, vec![single(state())]),
         "events" => (None, vec![single(super::events::keys())]),
         "initial" => (None, vec![single(initial())]),
+        "assembly" => (None, vec![single(super::assembly::keys())]),
         "outputs" => (Some("kind"), outputs()),
         "analysis" => (Some("kind"), analyses(registry)),
         _ => (None, Vec::new()),
@@ -291,6 +298,9 @@ fn joints(table: &[KindEntry]) -> Vec<Variant> {
         if !matches!(entry.acts_on, ActsOn::JointCoordinate(_)) {
             let words = "friction on its only coordinate";
             variant.keys.push(optional("friction", Shape::Friction, "", words));
+        }
+        if let ActsOn::TwoNodes(rule) = entry.acts_on {
+            variant.keys.extend(super::assembly::keys_on_tip(rule));
         }
     }
     variants

@@ -5,11 +5,11 @@ use std::sync::Arc;
 use lissom_core::elements::{self, Attached, ElementKind, LOADS, SPRINGS};
 use lissom_core::joints::{self, Build, JointKind, Quantity};
 use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Value};
-use lissom_core::system::{Builder, CoordinateId, NodeId, Placement};
+use lissom_core::system::{Builder, CoordinateId, NodeId, PlaceOnTip, Placement};
 use lissom_motion::Vector3;
 
 use super::{Names, parameter_problem};
-use crate::document::{Attachment, Component, Document};
+use crate::document::{Attachment, Component, Document, OnTip};
 use crate::functions::Ramp;
 use crate::report::{Located, Problem};
 
@@ -112,7 +112,10 @@ fn joint(
         return Err(Problem::error(component.name.span, format!("joint `{name}` joins a node with itself"))
             .help("beams that share a node are joined already"));
     }
-    let coordinates = builder.add_joint(name, kind, &placement, &component.parameters).map_err(fault)?;
+    let on_tip = component.on_tip.as_ref().map(|place| &place.value);
+    let on_tip = on_tip.map(|&OnTip { at, axis, second_axis }| PlaceOnTip { at, axis, second_axis });
+    let placed = (&placement, on_tip.as_ref());
+    let coordinates = builder.add_joint_apart(name, kind, placed, &component.parameters).map_err(fault)?;
     names.coordinates.insert(name.clone(), coordinates);
     Ok(())
 }

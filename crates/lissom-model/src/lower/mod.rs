@@ -2,6 +2,7 @@
 //! does no mechanics of its own.
 
 mod analysis;
+mod assembly;
 mod beginning;
 mod connections;
 mod couplings;
@@ -21,6 +22,7 @@ use lissom_core::judge::Warning;
 use lissom_core::registry::ParameterError;
 use lissom_core::signals::{Argument, MeasurementId};
 use lissom_core::system::{Builder, CoordinateId, ElementId, NodeId, State, System};
+use lissom_motion::Motion;
 
 use crate::channels::{self, Channel};
 use crate::document::{Component, Document, NodeReference};
@@ -29,6 +31,7 @@ use crate::output_channels;
 use crate::report::{Located, Problem, Report};
 
 pub use analysis::Plan;
+pub use assembly::{Assembly, Brought, MovedPart};
 
 /// A model ready to run. Copies share the system.
 #[derive(Clone)]
@@ -47,6 +50,16 @@ pub struct Lowered {
     pub names: Names,
     /// What is worth knowing of the model before it runs.
     pub warnings: Vec<Warning>,
+    /// What was done about parts that are placed approximately, where that was asked for.
+    pub assembly: Option<Assembly>,
+}
+
+impl Lowered {
+    /// Frame of a node as the model describes it, which an assembly may have moved.
+    pub fn drawn_frame(&self, node: NodeId) -> Motion {
+        let at_start = || self.state.kinematics.nodes[node].frame;
+        self.assembly.as_ref().map_or_else(at_start, |assembly| assembly.drawn[node])
+    }
 }
 
 /// Nodes, coordinates and signals by the names of the model.
@@ -117,6 +130,9 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
         let span = (document.analysis.start, document.analysis.end);
         builder.set_gravity_factor(Arc::new(Ramp { value: 1.0, span }));
     }
+    if document.assembly.is_some() {
+        builder.assemble_later();
+    }
     parts::add(document, &mut builder, &mut names, &mut problems);
     stop_at(document, &mut problems)?;
     connections::add(document, &mut builder, &mut names, &mut problems);
@@ -125,15 +141,26 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
         Ok(chosen) => chosen,
         Err(problem) => return Err(document.report(vec![problem])),
     };
+    let start_values = builder.start_values().to_vec();
     let built = builder
         .build(document.analysis.start)
         .map_err(|error| document.report(vec![Problem::error(document.analysis.span, error.to_string())]));
-    let (system, state) = built?;
+    let (system, mut state) = built?;
+    let drawn = state.clone();
+    let mut assembly = None;
+    if let Some(asked) = &document.assembly {
+        let model = (&system, &names);
+        match assembly::assembled(document, asked, model, &start_values, &mut state.kinematics) {
+            Ok(assembled) => assembly = Some(assembled),
+            Err(problem) => return Err(document.report(vec![problem])),
+        }
+    }
+    parts::velocities(document, &names, &system, &mut state.kinematics);
     let warnings = beginning::drives(document, &system, &state, &mut problems);
     couplings::check(document, &system, &state, &mut problems);
-    let channels = output_channels::of(document, &system, &state, &names.resolver(), &mut problems);
+    let channels = output_channels::of(document, &system, (&drawn, &state), &names.resolver(), &mut problems);
     stop_at(document, &mut problems)?;
-    Ok(Lowered { system: Arc::new(system), state, settings, plan, channels, names, warnings })
+    Ok(Lowered { system: Arc::new(system), state, settings, plan, channels, names, warnings, assembly })
 }
 
 impl Names {

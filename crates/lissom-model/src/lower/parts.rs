@@ -3,8 +3,8 @@
 use lissom_core::elements::beam::SectionLaw;
 use lissom_core::elements::beam::line::{BeamLineDescription, add_beam_line};
 use lissom_core::elements::inertia::Inertia;
-use lissom_core::system::{Builder, Freedoms, NodeId};
-use lissom_motion::{Matrix3, Matrix6, Motion, Rotation, Vector3, screw};
+use lissom_core::system::{Builder, Freedoms, Kinematics, LOCKED, NodeId, System};
+use lissom_motion::{Matrix3, Matrix6, Motion, Rotation, Vector3, Vector6, screw};
 
 use super::Names;
 use crate::document::{Beam, Document, InitialMotion, NodeReference, Plane};
@@ -28,11 +28,6 @@ fn bodies(document: &Document, builder: &mut Builder, names: &mut Names) {
         let node = builder.add_node(&body.name.value, frame, Freedoms::Full);
         builder.add_inertia(node, &Inertia::of_rigid_body(body.mass, &body.center_of_mass, &body.inertia));
         names.nodes.insert(body.name.value.clone(), node);
-        let (velocity, angular) = initial_motion(document.initial_motion(&body.name.value), &frame);
-        let velocity =
-            body.velocity.as_ref().map_or(velocity, |given| frame.rotation.apply_inverse(&given.value));
-        let angular = body.angular_velocity.as_ref().map_or(angular, |given| given.value);
-        builder.set_twist(node, screw(&velocity, &angular));
     }
 }
 
@@ -48,9 +43,40 @@ fn point_masses(document: &Document, builder: &mut Builder, names: &mut Names) {
         let node = builder.add_node(&mass.name.value, frame, freedoms);
         builder.add_inertia(node, &Inertia::of_rigid_body(mass.mass, &Vector3::zeros(), &Matrix3::zeros()));
         names.nodes.insert(mass.name.value.clone(), node);
-        let (velocity, _) = initial_motion(document.initial_motion(&mass.name.value), &frame);
-        let velocity = mass.velocity.as_ref().map_or(velocity, |given| given.value);
-        builder.set_twist(node, screw(&velocity, &Vector3::zeros()));
+    }
+}
+
+/// Gives all nodes the velocities at the start that belong to their places in `at`.
+pub(super) fn velocities(document: &Document, names: &Names, system: &System, at: &mut Kinematics) {
+    let mut set = |node: NodeId, velocities: &dyn Fn(&Motion) -> (Vector3, Vector3)| {
+        let (velocity, angular) = velocities(&at.nodes[node].frame);
+        let (rows, twist) = (system.layout().rows_of_node(node), screw(&velocity, &angular));
+        at.nodes[node].twist = Vector6::from_fn(|k, _| if rows[k] == LOCKED { 0.0 } else { twist[k] });
+    };
+    for body in &document.bodies {
+        let Some(&node) = names.nodes.get(&body.name.value) else { continue };
+        set(node, &|frame| {
+            let (velocity, angular) = initial_motion(document.initial_motion(&body.name.value), frame);
+            let given = body.velocity.as_ref().map(|given| frame.rotation.apply_inverse(&given.value));
+            let turning = body.angular_velocity.as_ref().map(|given| given.value);
+            (given.unwrap_or(velocity), turning.unwrap_or(angular))
+        });
+    }
+    for mass in &document.point_masses {
+        let Some(&node) = names.nodes.get(&mass.name.value) else { continue };
+        set(node, &|frame| {
+            let (velocity, angular) = initial_motion(document.initial_motion(&mass.name.value), frame);
+            (mass.velocity.as_ref().map_or(velocity, |given| given.value), angular)
+        });
+    }
+    for beam in &document.beams {
+        let Some(line) = names.lines.get(&beam.name.value) else { continue };
+        let (shares_start, shares_end) = (beam.shared_start.is_some(), beam.shared_end.is_some());
+        for (k, &node) in line.nodes.iter().enumerate() {
+            if (k > 0 || !shares_start) && (k + 1 < line.nodes.len() || !shares_end) {
+                set(node, &|frame| initial_motion(document.initial_motion(&beam.name.value), frame));
+            }
+        }
     }
 }
 
@@ -135,14 +161,6 @@ fn add_beam(
             ends,
         },
     );
-    for (k, &node) in line.nodes.iter().enumerate() {
-        let is_own = (k > 0 || ends[0].is_none()) && (k + 1 < line.nodes.len() || ends[1].is_none());
-        if is_own {
-            let motion = document.initial_motion(&beam.name.value);
-            let (velocity, angular) = initial_motion(motion, &builder.initial_frame(node));
-            builder.set_twist(node, screw(&velocity, &angular));
-        }
-    }
     if let Err(problem) = super::distributed::add(document, beam, &line, builder) {
         problems.push(problem);
     }

@@ -187,7 +187,7 @@ impl Places<'_> {
 
     /// Pose of a node as the model describes it.
     fn frame(&self, node: NodeId) -> Motion {
-        self.lowered.state.kinematics.nodes[node].frame
+        self.lowered.drawn_frame(node)
     }
 
     /// The place `at` of the model, carried by a node.

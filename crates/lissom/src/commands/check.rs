@@ -139,7 +139,8 @@ fn told(name: &str, document: &Document, lowered: &Lowered, freedom: &Mobility) 
         ("analysis", analysis(document, lowered)),
         ("outputs", outputs(lowered)),
     ];
-    for (name, words) in lines {
+    let assembly = lowered.assembly.as_ref().map(|assembly| ("assembly", assembly.words()));
+    for (name, words) in lines.into_iter().chain(assembly) {
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  {name:<10}{words}");
     }

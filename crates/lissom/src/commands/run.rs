@@ -15,7 +15,7 @@ use lissom::{
     ResultFolder, RunReport, Session, Stopped, Summary, Writer, summary,
 };
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::lower;
+use lissom_model::lower::{Assembly, lower};
 use lissom_model::scene::Scene;
 
 use super::results::unwritable;
@@ -132,6 +132,7 @@ impl Run {
             .plots
             .then(|| MotionRecorder::new(&lowered, document.analysis.frames_per_second, io::sink()));
         let scene = task.plots.then(|| Scene::of(&document, &lowered));
+        let assembly = lowered.assembly.as_ref().map(Assembly::words);
         let mut summary = summary::of_model(task.model.name(), &task.overrides, &document, &lowered);
         let mut session = match Session::start(lowered) {
             Ok(session) => session,
@@ -190,7 +191,7 @@ impl Run {
         let kept = self.keep(&folder, (&summary, &session), (&record, task.plots), title);
         if !self.quiet {
             let heading = if title.is_empty() { task.model.name() } else { title };
-            terminal::print(&told(heading, &session, &report, folder.path()));
+            terminal::print(&told((heading, assembly), &session, &report, folder.path()));
         }
         kept?;
         noted.map_err(unwritable)?;
@@ -311,7 +312,12 @@ impl Task {
 }
 
 /// A few lines for a person.
-fn told(heading: &str, session: &Session, report: &RunReport, folder: &Path) -> String {
+fn told(
+    (heading, assembly): (&str, Option<String>),
+    session: &Session,
+    report: &RunReport,
+    folder: &Path,
+) -> String {
     let simulation = session.simulation();
     let settings = simulation.settings();
     let (plan, totals) = (session.plan(), &report.totals);
@@ -322,6 +328,9 @@ fn told(heading: &str, session: &Session, report: &RunReport, folder: &Path) -> 
         // Writing to a string cannot fail.
         let _ = writeln!(text, "  {name:<12}{words}");
     };
+    if let Some(assembly) = assembly {
+        line("assembly", assembly);
+    }
     let stopped = match session.stopped_by() {
         Some(event) => format!(", where event `{event}` happened,"),
         None if report.is_complete() => String::new(),

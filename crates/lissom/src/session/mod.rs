@@ -122,7 +122,7 @@ impl Session {
     /// If there are no consistent initial values.
     pub fn start(lowered: Lowered) -> Result<Self, InitialError> {
         let began = Instant::now();
-        let Lowered { system, state, settings, plan, channels, names, warnings } = lowered;
+        let Lowered { system, state, settings, plan, channels, names, warnings, .. } = lowered;
         let schedule = Schedule::new(plan, settings.step_size);
         let simulation = Simulation::new(system, state, settings)?;
         let violations = vec![0.0; simulation.system().layout().multiplier_rows().len()];

@@ -126,6 +126,7 @@ ORDER = (
     "states",
     "events",
     "initial",
+    "assembly",
     "outputs",
     "analysis",
 )
@@ -315,6 +316,16 @@ class ModelTables(ModelTree):
     @initial.setter
     def initial(self, of: Initial | None) -> None:
         self._set("initial", of)
+
+    @property
+    def assembly(self) -> Any:
+        """Parts are placed approximately: they are moved as little as possible until all joints close and have the values they are given at the start."""
+        of: Any = self._value("assembly")
+        return of
+
+    @assembly.setter
+    def assembly(self, of: Any) -> None:
+        self._set("assembly", of)
 
     @property
     def outputs(self) -> dict[str, Output]:

@@ -52,6 +52,7 @@ class Clamp(Joint):
         tip: the node it leads to; a node.
         at: location; default: the tip node's place [m]; a place, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
     """
 
     _form: ClassVar[str] = "clamp"
@@ -61,6 +62,7 @@ class Clamp(Joint):
     tip: str
     at: Place | None = None
     friction: Table | None = None
+    at_tip: Place | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -75,6 +77,8 @@ class ConstantVelocity(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         tip_axis: Direction of the tip's shaft at the start, global axes; default `axis`, which is that of the base's shaft; three numbers, not all zero, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "constant_velocity"
@@ -86,6 +90,8 @@ class ConstantVelocity(Joint):
     axis: Vector
     tip_axis: Vector | None = None
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -101,6 +107,8 @@ class Cylindrical(Joint):
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "cylindrical"
@@ -113,6 +121,8 @@ class Cylindrical(Joint):
     angle: Number | None = None
     displacement: Number | None = None
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -193,6 +203,9 @@ class Generic(Joint):
         second_axis: direction of y at the start, global axes; default: global y; three numbers, not all zero, or nothing.
         locked: What cannot move: x along `axis`, y along `second_axis`, z across both; rx, ry, rz about them; a list of `"x"`, `"y"`, `"z"`, `"rx"`, `"ry"`, `"rz"`.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "generic"
@@ -205,6 +218,9 @@ class Generic(Joint):
     second_axis: Vector | None = None
     locked: list[Literal["x", "y", "z", "rx", "ry", "rz"]]
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
+    second_axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -218,6 +234,8 @@ class Inline(Joint):
         at: location; default: the tip node's place [m]; a place, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "inline"
@@ -228,6 +246,8 @@ class Inline(Joint):
     at: Place | None = None
     axis: Vector
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -242,6 +262,8 @@ class ParallelAxes(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "parallel_axes"
@@ -253,6 +275,8 @@ class ParallelAxes(Joint):
     axis: Vector
     angle: Number | None = None
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -267,6 +291,9 @@ class PerpendicularAxes(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         second_axis: second direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "perpendicular_axes"
@@ -278,6 +305,9 @@ class PerpendicularAxes(Joint):
     axis: Vector
     second_axis: Vector
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
+    second_axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -292,6 +322,8 @@ class Planar(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "planar"
@@ -303,6 +335,8 @@ class Planar(Joint):
     axis: Vector
     angle: Number | None = None
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -316,6 +350,8 @@ class PointInPlane(Joint):
         at: location; default: the tip node's place [m]; a place, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "point_in_plane"
@@ -326,6 +362,8 @@ class PointInPlane(Joint):
     at: Place | None = None
     axis: Vector
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -340,6 +378,8 @@ class PointOnLine(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "point_on_line"
@@ -351,6 +391,8 @@ class PointOnLine(Joint):
     axis: Vector
     displacement: Number | None = None
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -403,6 +445,8 @@ class Prismatic(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "prismatic"
@@ -414,6 +458,8 @@ class Prismatic(Joint):
     axis: Vector
     displacement: Number | None = None
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -428,6 +474,8 @@ class Revolute(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "revolute"
@@ -439,6 +487,8 @@ class Revolute(Joint):
     axis: Vector
     angle: Number | None = None
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -451,6 +501,7 @@ class RigidLink(Joint):
         tip: the node it leads to; a node.
         at: location; default: the tip node's place [m]; a place, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
     """
 
     _form: ClassVar[str] = "rigid_link"
@@ -460,6 +511,7 @@ class RigidLink(Joint):
     tip: str
     at: Place | None = None
     friction: Table | None = None
+    at_tip: Place | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -475,6 +527,8 @@ class Screw(Joint):
         lead: Displacement along `axis` per turn; negative for a left-handed thread [m]; a number.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "screw"
@@ -487,6 +541,8 @@ class Screw(Joint):
     lead: Number
     angle: Number | None = None
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -499,6 +555,7 @@ class Spherical(Joint):
         tip: the node it leads to; a node.
         at: location; default: the tip node's place [m]; a place, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
     """
 
     _form: ClassVar[str] = "spherical"
@@ -508,6 +565,7 @@ class Spherical(Joint):
     tip: str
     at: Place | None = None
     friction: Table | None = None
+    at_tip: Place | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -522,6 +580,8 @@ class SwingArm(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the arm's angle at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "swing_arm"
@@ -533,6 +593,8 @@ class SwingArm(Joint):
     axis: Vector
     angle: Number | None = None
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -547,6 +609,9 @@ class Universal(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         second_axis: second direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "universal"
@@ -558,3 +623,6 @@ class Universal(Joint):
     axis: Vector
     second_axis: Vector
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
+    second_axis_at_tip: Vector | None = None

@@ -38,6 +38,8 @@ entry! {
     at: [f64; 3] = "at";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
 }
 
 entry! {
@@ -56,6 +58,10 @@ entry! {
     tip_axis: [f64; 3] = "tip_axis";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -76,6 +82,10 @@ entry! {
     displacement: f64 = "displacement";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -143,6 +153,12 @@ entry! {
     second_axis: [f64; 3] = "second_axis";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
+    /// Direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`.
+    second_axis_at_tip: [f64; 3] = "second_axis_at_tip";
 }
 
 entry! {
@@ -159,6 +175,10 @@ entry! {
     at: [f64; 3] = "at";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -177,6 +197,10 @@ entry! {
     angle: f64 = "angle";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -194,6 +218,12 @@ entry! {
     at: [f64; 3] = "at";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
+    /// Direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`.
+    second_axis_at_tip: [f64; 3] = "second_axis_at_tip";
 }
 
 entry! {
@@ -212,6 +242,10 @@ entry! {
     angle: f64 = "angle";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -228,6 +262,10 @@ entry! {
     at: [f64; 3] = "at";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -246,6 +284,10 @@ entry! {
     displacement: f64 = "displacement";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -290,6 +332,10 @@ entry! {
     displacement: f64 = "displacement";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -308,6 +354,10 @@ entry! {
     angle: f64 = "angle";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -323,6 +373,8 @@ entry! {
     at: [f64; 3] = "at";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
 }
 
 entry! {
@@ -342,6 +394,10 @@ entry! {
     angle: f64 = "angle";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -357,6 +413,8 @@ entry! {
     at: [f64; 3] = "at";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
 }
 
 entry! {
@@ -375,6 +433,10 @@ entry! {
     angle: f64 = "angle";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -392,6 +454,12 @@ entry! {
     at: [f64; 3] = "at";
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
+    /// Direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`.
+    second_axis_at_tip: [f64; 3] = "second_axis_at_tip";
 }
 
 nested! {

@@ -1,0 +1,112 @@
+//! What moves as one rigid body: a node, or the nodes of beams that share nodes.
+
+use lissom_motion::{Motion, Vector3};
+
+use crate::system::{GROUND, Kinematics, LOCKED, NodeId, System};
+
+/// A rigid body of the assembly.
+pub(super) struct RigidGroup {
+    /// Its nodes, and their frames seen from the group's.
+    pub(super) nodes: Vec<(NodeId, Motion)>,
+    /// Its frame as drawn: at the centre of its points, with the axes of its first node.
+    pub(super) frame: Motion,
+    /// ρ, root mean square distance of its points from their centre [m].
+    pub(super) radius: f64,
+    /// Which translations and rotations are free, in its axes.
+    pub(super) free: [bool; 6],
+}
+
+impl RigidGroup {
+    /// Whether it cannot move.
+    pub(super) fn is_fixed(&self) -> bool {
+        self.free == [false; 6]
+    }
+}
+
+/// All rigid bodies.
+pub(super) struct Groups {
+    pub(super) all: Vec<RigidGroup>,
+    /// The group of every node, and its place there.
+    pub(super) of_node: Vec<(usize, usize)>,
+    /// Size of the model: root mean square distance of all points from their centre [m].
+    pub(super) length: f64,
+}
+
+impl Groups {
+    pub(super) fn new(system: &System, at: &Kinematics, rigid: &[&[NodeId]], fixed: &[NodeId]) -> Self {
+        let count = at.nodes.len();
+        let mut first: Vec<NodeId> = (0..count).collect();
+        for nodes in rigid {
+            for pair in nodes.windows(2) {
+                let (a, b) = (root(&first, pair[0]), root(&first, pair[1]));
+                first[a.max(b)] = a.min(b);
+            }
+        }
+        let mut points: Vec<Vec<Vector3>> = vec![Vec::new(); count];
+        for (node, motion) in at.nodes.iter().enumerate().filter(|&(node, _)| node != GROUND) {
+            points[root(&first, node)].push(motion.frame.position);
+        }
+        for frame in system.joints().iter().flat_map(|joint| joint.frames) {
+            let place = at.nodes[frame.node].frame.transform_point(&frame.offset.position);
+            points[root(&first, frame.node)].push(place);
+        }
+        let everything: Vec<Vector3> = points.concat();
+        let (_, spread) = center_and_radius(&everything);
+        let length = if spread > 0.0 { spread } else { 1.0 };
+        let mut all: Vec<RigidGroup> = Vec::new();
+        let mut of_node = vec![(0, 0); count];
+        let mut of_root = vec![usize::MAX; count];
+        for node in 0..count {
+            let own = root(&first, node);
+            if of_root[own] == usize::MAX {
+                of_root[own] = all.len();
+                all.push(group(system, at, own, &points[own], length));
+            }
+            let group = &mut all[of_root[own]];
+            of_node[node] = (of_root[own], group.nodes.len());
+            group.nodes.push((node, at.nodes[node].frame.relative_to(&group.frame)));
+        }
+        for &node in fixed.iter().chain([&GROUND]) {
+            all[of_node[node].0].free = [false; 6];
+        }
+        Self { all, of_node, length }
+    }
+
+    /// Puts the nodes of all groups that can move to their places.
+    pub(super) fn place(&self, frames: &[Motion], at: &mut Kinematics) {
+        for (group, frame) in self.all.iter().zip(frames).filter(|(group, _)| !group.is_fixed()) {
+            for &(node, place) in &group.nodes {
+                at.nodes[node].frame = *frame * place;
+            }
+        }
+    }
+}
+
+fn group(system: &System, at: &Kinematics, node: NodeId, points: &[Vector3], length: f64) -> RigidGroup {
+    let free = system.layout().rows_of_node(node).map(|row| row != LOCKED);
+    let frame = at.nodes[node].frame;
+    let (center, radius) = center_and_radius(points);
+    let turns = free[3..].iter().any(|is_free| *is_free);
+    RigidGroup {
+        nodes: Vec::new(),
+        frame: if turns { Motion::new(frame.rotation, center) } else { frame },
+        // A part of a single point turns as easily as one of the model's size.
+        radius: if radius > 0.0 { radius } else { length },
+        free,
+    }
+}
+
+fn center_and_radius(points: &[Vector3]) -> (Vector3, f64) {
+    let count = points.len().max(1) as f64;
+    let center = points.iter().sum::<Vector3>() / count;
+    let square = points.iter().map(|point| (point - center).norm_squared()).sum::<f64>() / count;
+    (center, square.sqrt())
+}
+
+/// The first of the nodes that move together with `node`.
+fn root(first: &[NodeId], mut node: NodeId) -> NodeId {
+    while first[node] != node {
+        node = first[node];
+    }
+    node
+}

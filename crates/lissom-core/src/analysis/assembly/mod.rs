@@ -1,0 +1,222 @@
+//! Assembly: positions that are given approximately are changed as little as possible until all joints close.
+//!
+//! Parts move as rigid bodies. With the displacement u of the centre of a part's points and its rotation vector θ, the
+//! change is measured by
+//!
+//! ```text
+//! Σ over parts  |u|² + ρ² |θ|²,     ρ² the mean square distance of the part's points from their centre
+//! ```
+//!
+//! which is the mean square displacement of the points, up to the direction of the axis of rotation: it needs no masses and
+//! does not depend on units or axes. The points of a part are its nodes and the places of its joints.
+
+mod closing;
+mod columns;
+mod groups;
+mod tree;
+
+use self::closing::{Closing, Pose};
+use self::groups::Groups;
+use self::tree::Tree;
+use crate::joints::attached::AttachedJoint;
+use crate::joints::{Own, Quantity, Relative};
+use crate::system::{CoordinateId, Kinematics, NodeId, System};
+
+/// Held angles are changed by no more than this between two closings [rad], so that a loop stays in its assembly mode.
+const TURN: f64 = 0.1;
+/// Held displacements likewise, relative to the size of the model.
+const SHIFT: f64 = 0.05;
+/// Most changes of held coordinates on the way to their values.
+const MOST_STAGES: f64 = 1000.0;
+/// Gaps below this part of the largest gap are not told of.
+const WORTH_TELLING: f64 = 0.05;
+/// Most joints that an error names.
+const MOST_NAMED: usize = 6;
+
+/// What is asked of an assembly.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Request<'a> {
+    /// Sets of nodes that move together as a rigid body, such as the nodes of each beam; a node may be in several.
+    pub rigid: Vec<&'a [NodeId]>,
+    /// Nodes that stay where they are.
+    pub fixed: Vec<NodeId>,
+    /// Coordinates of joints and the values they are brought to [rad, m]. Driven coordinates are brought to what their
+    /// drives prescribe at the start, unless they are named here.
+    pub values: Vec<(CoordinateId, f64)>,
+    /// Gap that counts as closed, relative to the size of the model; for angles [rad].
+    pub tolerance: f64,
+}
+
+/// A joint that does not close.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gap {
+    /// Name of the joint.
+    pub joint: String,
+    /// Its violated lengths, as one distance [m]; none where they hold.
+    pub distance: Option<f64>,
+    /// Its violated angles, as one angle [rad]; none where they hold.
+    pub angle: Option<f64>,
+}
+
+impl std::fmt::Display for Gap {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "`{}` by ", self.joint)?;
+        match (self.distance, self.angle) {
+            (Some(distance), None) => write!(f, "{distance:.3e} m"),
+            (Some(distance), Some(angle)) => write!(f, "{distance:.3e} m and {angle:.3e} rad"),
+            (None, angle) => write!(f, "{:.3e} rad", angle.unwrap_or_default()),
+        }
+    }
+}
+
+/// What an assembly came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assembled {
+    /// The gaps before, those of round-off left out.
+    pub gaps: Vec<Gap>,
+    /// The largest violation that is left [m, rad].
+    pub left: f64,
+    /// Displacement [m] and turn [rad] of every node.
+    pub moved: Vec<(f64, f64)>,
+    /// Whether no smaller change closes the joints, nearby; not looked for where coordinates were brought to values.
+    pub is_least: bool,
+}
+
+/// An assembly that does not exist.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AssemblyError {
+    /// Joints stay open.
+    #[error("the joints do not close; the least gaps that were found leave open {}", in_words(.gaps))]
+    Open {
+        /// The open joints, the widest first.
+        gaps: Vec<Gap>,
+    },
+    /// Joints close with frames that point opposite ways.
+    #[error("`{joint}` closes upside down only: the axes of base and tip point opposite ways")]
+    UpsideDown {
+        /// Name of the joint.
+        joint: String,
+    },
+}
+
+fn in_words(gaps: &[Gap]) -> String {
+    let named: Vec<String> = gaps.iter().take(MOST_NAMED).map(Gap::to_string).collect();
+    let more = gaps.len().saturating_sub(MOST_NAMED);
+    let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
+    named.join(", ") + &rest
+}
+
+/// Moves the places of `at` until all joints and relations hold and the coordinates have the values asked for.
+///
+/// # Errors
+/// If no such places are found; `at` is then as it was.
+pub fn assemble(
+    system: &System,
+    at: &mut Kinematics,
+    request: &Request<'_>,
+) -> Result<Assembled, AssemblyError> {
+    let groups = Groups::new(system, at, &request.rigid, &request.fixed);
+    let values = held_values(system, at, request);
+    let held: Vec<CoordinateId> = values.iter().map(|&(coordinate, _)| coordinate).collect();
+    let drawn = at.clone();
+    let mut closing = Closing::new(system, at, &groups, &held);
+    let drawn_pose = closing.drawn(at);
+    let gaps = closing.gaps(&drawn_pose, request.tolerance);
+    let mut pose = closing.close(drawn_pose.clone(), request.tolerance);
+    let mut is_least = false;
+    if closing.largest(&pose) <= request.tolerance
+        && let Some(nearest) = closing.nearest(pose.clone(), &drawn_pose, request.tolerance)
+    {
+        (pose, is_least) = (nearest, true);
+    }
+    let stages = stages(system, &pose, &values, closing.length());
+    if stages > 0 {
+        let tree = Tree::new(system, &groups, &held);
+        let start = pose.coordinates.clone();
+        for stage in 1..=stages {
+            let share = stage as f64 / stages as f64;
+            for &(coordinate, value) in &values {
+                let wanted = if stage == stages {
+                    value
+                } else {
+                    start[coordinate] + share * (value - start[coordinate])
+                };
+                tree.bring(system, &mut pose, coordinate, wanted, closing.length());
+            }
+            pose = closing.close(pose, request.tolerance);
+        }
+        is_least = false;
+    }
+    let left = closing.gaps(&pose, request.tolerance);
+    if !left.is_empty() {
+        return Err(AssemblyError::Open { gaps: left });
+    }
+    closing.place(&pose, at);
+    if let Some(joint) = upside_down(system, at) {
+        *at = drawn;
+        return Err(AssemblyError::UpsideDown { joint });
+    }
+    let mut violations = vec![0.0; system.layout().multiplier_count];
+    system.violations(at, &mut violations);
+    let moved = drawn.nodes.iter().zip(&at.nodes).map(|(before, after)| {
+        let turn = (before.frame.rotation.inverse() * after.frame.rotation).logarithm().norm();
+        ((after.frame.position - before.frame.position).norm(), turn)
+    });
+    Ok(Assembled {
+        gaps,
+        left: violations.iter().fold(0.0, |most: f64, value| most.max(value.abs())),
+        moved: moved.collect(),
+        is_least,
+    })
+}
+
+/// The values asked for, and those that drives prescribe at the start.
+fn held_values(system: &System, at: &Kinematics, request: &Request<'_>) -> Vec<(CoordinateId, f64)> {
+    let mut values = request.values.clone();
+    for drive in system.drives() {
+        let coordinate = drive.prescribed.coordinate;
+        if values.iter().all(|&(known, _)| known != coordinate) {
+            values.push((coordinate, drive.prescribed.value.value(at.time)));
+        }
+    }
+    values
+}
+
+/// In how many stages the coordinates are brought to their values.
+fn stages(system: &System, pose: &Pose, values: &[(CoordinateId, f64)], length: f64) -> usize {
+    let of = |&(coordinate, value): &(CoordinateId, f64)| {
+        let way = (value - pose.coordinates[coordinate]).abs();
+        match system.layout().coordinate_quantity(coordinate) {
+            Quantity::Angle => way / TURN,
+            Quantity::Length | Quantity::State => way / (SHIFT * length),
+        }
+    };
+    let most = values.iter().map(of).fold(0.0, f64::max);
+    // Counts are small and not negative; a value that is not a number asks for none and leaves a gap.
+    most.min(MOST_STAGES).ceil() as usize
+}
+
+/// A joint whose equations for angles hold only because sines of half a turn vanish: their gradient has lost its rank.
+fn upside_down(system: &System, at: &Kinematics) -> Option<String> {
+    const LOST: f64 = 1e-3;
+    let least = |joint: &AttachedJoint, configuration: &(Relative, Own)| {
+        let gradient = joint.own_gradient(configuration).relative;
+        let is_angle = |&equation: &usize| joint.joint().equation_quantity(equation) == Quantity::Angle;
+        let angles: Vec<usize> = (0..joint.equations()).filter(is_angle).collect();
+        let rows = nalgebra::DMatrix::from_fn(angles.len(), 3, |i, j| gradient[(angles[i], 3 + j)]);
+        (!angles.is_empty()).then(|| rows.singular_values().min())
+    };
+    let is_lost = |joint: &&AttachedJoint| {
+        let [found, built] = [joint.outright(at), joint.as_built()].map(|place| least(joint, &place));
+        found.zip(built).is_some_and(|(found, built)| found < LOST * built)
+    };
+    system.joints().iter().find(is_lost).map(|joint| joint.name.clone())
+}
+
+/// A gap of this distance and angle, of which counts what is beyond the tolerance; what is not a number counts.
+fn gap(joint: &str, (distance, angle): (f64, f64), (length, tolerance): (f64, f64)) -> Option<Gap> {
+    let beyond = |value: f64, unit: f64| if value <= tolerance { None } else { Some(value * unit) };
+    let (distance, angle) = (beyond(distance, length), beyond(angle, 1.0));
+    (distance.is_some() || angle.is_some()).then(|| Gap { joint: joint.to_owned(), distance, angle })
+}

@@ -1,0 +1,141 @@
+//! What hangs on a joint: joints from the ground outwards, as a tree. Bringing a coordinate to a value turns or shifts all that
+//! hangs on its joint as one rigid body.
+
+use lissom_motion::{Motion, Vector6};
+use nalgebra::{DMatrix, DVector};
+
+use super::closing::Pose;
+use super::groups::Groups;
+use crate::joints::attached::AttachedJoint;
+use crate::joints::{Own, Quantity, Relative};
+use crate::system::{CoordinateId, System};
+
+/// Iterations that put a single joint into place; a joint that needs more is closed with all others.
+const MOST_ITERATIONS: usize = 30;
+
+/// A tree of rigid groups.
+pub(super) struct Tree<'a> {
+    groups: &'a Groups,
+    /// By joint: the groups beyond it, and whether its tip is among them; none for joints that close loops.
+    beyond: Vec<Option<(Vec<usize>, bool)>>,
+}
+
+impl<'a> Tree<'a> {
+    /// Joints of the coordinates in `first` are in the tree before all others.
+    pub(super) fn new(system: &System, groups: &'a Groups, first: &[CoordinateId]) -> Self {
+        let joints = system.joints();
+        let is_first = |joint: &AttachedJoint| joint.coordinates.iter().any(|own| first.contains(own));
+        let mut order: Vec<usize> = (0..joints.len()).collect();
+        order.sort_by_key(|&index| !is_first(&joints[index]));
+        let count = groups.all.len();
+        // All that is fixed is one.
+        let mut root: Vec<usize> = (0..count).collect();
+        let fixed: Vec<usize> = (0..count).filter(|&group| groups.all[group].is_fixed()).collect();
+        for &group in &fixed {
+            root[group] = fixed[0];
+        }
+        let mut neighbours: Vec<Vec<(usize, usize)>> = vec![Vec::new(); count];
+        for index in order {
+            let [base, tip] = joints[index].frames.map(|frame| groups.of_node[frame.node].0);
+            let (from, to) = (root[base], root[tip]);
+            if from != to {
+                root.iter_mut().filter(|own| **own == to).for_each(|own| *own = from);
+                neighbours[base].push((tip, index));
+                neighbours[tip].push((base, index));
+            }
+        }
+        let mut beyond: Vec<Option<(Vec<usize>, bool)>> = vec![None; joints.len()];
+        let mut seen = vec![false; count];
+        let mut visited: Vec<(usize, usize, usize)> = Vec::new();
+        for start in fixed.iter().copied().chain(0..count) {
+            if seen[start] {
+                continue;
+            }
+            seen[start] = true;
+            let mut waiting = vec![start];
+            while let Some(group) = waiting.pop() {
+                for &(next, joint) in &neighbours[group] {
+                    if !seen[next] {
+                        seen[next] = true;
+                        visited.push((next, group, joint));
+                        waiting.push(next);
+                    }
+                }
+            }
+        }
+        // From the leaves inwards: what hangs on a group hangs on its own joint, too.
+        let mut hanging: Vec<Vec<usize>> = (0..count).map(|group| vec![group]).collect();
+        for (group, parent, joint) in visited.into_iter().rev() {
+            let own = hanging[group].clone();
+            hanging[parent].extend(&own);
+            let tip_is_beyond = groups.of_node[joints[joint].frames[1].node].0 == group;
+            beyond[joint] = Some((own, tip_is_beyond));
+        }
+        Self { groups, beyond }
+    }
+
+    /// Brings a coordinate to a value. Where its joint closes a loop the coordinate alone is changed.
+    pub(super) fn bring(
+        &self,
+        system: &System,
+        pose: &mut Pose,
+        coordinate: CoordinateId,
+        value: f64,
+        length: f64,
+    ) {
+        let owner = |joint: &AttachedJoint| joint.coordinates.contains(&coordinate);
+        let found = system.joints().iter().position(owner);
+        let before = std::mem::replace(&mut pose.coordinates[coordinate], value);
+        let Some((index, (groups, tip_is_beyond))) =
+            found.and_then(|index| Some((index, self.beyond[index].as_ref()?)))
+        else {
+            return;
+        };
+        if before == value || groups.iter().any(|&group| self.groups.all[group].is_fixed()) {
+            return;
+        }
+        let joint = &system.joints()[index];
+        let [base, tip] = joint.frames.map(|frame| {
+            let (group, place) = self.groups.of_node[frame.node];
+            pose.frames[group] * self.groups.all[group].nodes[place].1 * frame.offset
+        });
+        let mut own = Own::default();
+        for (k, &coordinate) in joint.coordinates.iter().enumerate() {
+            own.value[k] = pose.coordinates[coordinate];
+        }
+        let Some(relative) = in_place(joint, tip.relative_to(&base), &own, length) else { return };
+        let shift = if *tip_is_beyond {
+            base * relative * tip.inverse()
+        } else {
+            tip * relative.inverse() * base.inverse()
+        };
+        for &group in groups {
+            pose.frames[group] = shift * pose.frames[group];
+        }
+    }
+}
+
+/// The relative motion nearest to `start` that satisfies the equations of a joint with its coordinates at `own`.
+fn in_place(joint: &AttachedJoint, start: Motion, own: &Own, length: f64) -> Option<Motion> {
+    let equations = joint.equations();
+    let unit = |k: usize| if k < 3 { length } else { 1.0 };
+    let mut relative = start;
+    for _ in 0..MOST_ITERATIONS {
+        let configuration = (Relative::at_start(&relative), *own);
+        let scale = |equation: usize| match joint.joint().equation_quantity(equation) {
+            Quantity::Angle => 1.0,
+            Quantity::Length | Quantity::State => length.recip(),
+        };
+        let violation = joint.joint().violation(&configuration.0, own);
+        let right = DVector::from_fn(equations, |i, _| -scale(i) * violation[i]);
+        if right.amax() < 1e-14 {
+            break;
+        }
+        let gradient = joint.own_gradient(&configuration);
+        let rows = DMatrix::from_fn(equations, 6, |i, j| scale(i) * gradient.relative[(i, j)] * unit(j));
+        let step = rows.svd(true, true).solve(&right, 1e-9).ok()?;
+        let step = Vector6::from_fn(|k, _| unit(k) * step[k]);
+        relative = relative * Motion::exponential(&step);
+    }
+    relative.position.iter().all(|value| value.is_finite()).then_some(relative)
+}

@@ -1,0 +1,121 @@
+//! Parts that are placed approximately: the table `[assembly]`, and where joints lie on their tips.
+
+use lissom_motion::Vector3;
+
+use super::initial::parts;
+use crate::context::Context;
+use crate::keys::{Key, Shape, optional};
+use crate::reader::Reader;
+use crate::registry::FrameRule;
+use crate::report::{Located, Problem, Span};
+
+/// Gap that counts as closed, relative to the size of the model.
+pub const DEFAULT_ASSEMBLY_TOLERANCE: f64 = 1e-10;
+
+/// What an assembly shall keep to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AssemblyRequest {
+    /// Bodies, point masses and beams that stay where they are.
+    pub fixed: Vec<(String, Span)>,
+    /// Gap that counts as closed, relative to the size of the model; for angles [rad].
+    pub tolerance: f64,
+    /// Where it is asked for.
+    pub span: Span,
+}
+
+/// Where a joint lies on its tip, in global axes, with the tip as it is placed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OnTip {
+    /// Location [m].
+    pub at: Vector3,
+    /// Direction of the axis.
+    pub axis: Option<Vector3>,
+    /// Second direction.
+    pub second_axis: Option<Vector3>,
+}
+
+/// Keys of `[assembly]`.
+pub(super) fn keys() -> Vec<Key> {
+    vec![
+        optional(
+            "fixed",
+            Shape::Names,
+            "",
+            "bodies, point masses, beams and entries of [parts] that do not move",
+        ),
+        optional(
+            "tolerance",
+            Shape::Positive,
+            "",
+            "gap that counts as closed, relative to the size of the model; for angles [rad]; default 1e-10",
+        ),
+    ]
+}
+
+/// Keys of joints between two nodes that lie apart.
+pub(super) fn keys_on_tip(rule: FrameRule) -> Vec<Key> {
+    let mut keys = vec![optional(
+        "at_tip",
+        Shape::Place,
+        "m",
+        "location on the tip as it is placed, if elsewhere than `at`; needs [assembly]",
+    )];
+    if rule != FrameRule::None {
+        let words = "direction of `axis` on the tip as it is placed, if another; needs `at_tip`";
+        keys.push(optional("axis_at_tip", Shape::Direction, "", words));
+    }
+    if matches!(rule, FrameRule::TwoAxes | FrameRule::GivenOrGlobal) {
+        let words = "direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`";
+        keys.push(optional("second_axis_at_tip", Shape::Direction, "", words));
+    }
+    keys
+}
+
+/// The table `[assembly]`.
+pub(super) fn assembly(context: &Context<'_>) -> Option<AssemblyRequest> {
+    let (node, span) = context.top("assembly")?;
+    node.table()?;
+    let reader = Reader::open(context, node, ("[assembly]".to_owned(), span), keys())?;
+    let tolerance = match reader.node("tolerance") {
+        Some(_) => reader.number("tolerance")?.value,
+        None => DEFAULT_ASSEMBLY_TOLERANCE,
+    };
+    let fixed = if reader.has("fixed") { parts(&reader, "fixed") } else { Vec::new() };
+    Some(AssemblyRequest { fixed, tolerance, span })
+}
+
+/// Where a joint lies on its tip.
+pub(super) fn on_tip(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Located<OnTip>> {
+    let context = reader.context;
+    let known: Vec<&str> = keys_on_tip(rule).iter().map(|key| key.name).collect();
+    let direction = |key: &str| {
+        let is_given = known.contains(&key) && reader.node(key).is_some();
+        if is_given { reader.vector(key) } else { None }
+    };
+    let (axis, second_axis) = (direction("axis_at_tip"), direction("second_axis_at_tip"));
+    let needs = |key: &str, other: &str, span| {
+        let message = format!("{} has `{key}`, but not `{other}`", reader.what);
+        context.fail::<()>(span, message, format!("give `{other}`, too"));
+    };
+    if let (Some(second), None) = (&second_axis, &axis) {
+        needs("second_axis_at_tip", "axis_at_tip", second.span);
+    }
+    let Some(node) = reader.node("at_tip") else {
+        if let Some(axis) = axis {
+            needs("axis_at_tip", "at_tip", axis.span);
+        }
+        return None;
+    };
+    if !reader.has("at") {
+        needs("at_tip", "at", node.span);
+    }
+    if context.top("assembly").is_none() {
+        let message = format!("{} lies at one place on its base and at another on its tip", reader.what);
+        let problem = Problem::error(node.span, message).label("apart from `at`");
+        context.tell(problem.help("add a table [assembly], which moves the parts until their joints close"));
+    }
+    let at = context.place(node, &reader.words("at_tip"))?.value;
+    let value =
+        OnTip { at, axis: axis.map(|axis| axis.value), second_axis: second_axis.map(|axis| axis.value) };
+    Some(Located::new(value, node.span))
+}
