@@ -3,7 +3,7 @@
 #[path = "support/runs.rs"]
 mod runs;
 
-use lissom::Record;
+use lissom::{Model, Record};
 use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, run, set, told};
 
 const EVERY_KIND: &str = include_str!("../../lissom-model/tests/every_kind.toml");
@@ -427,4 +427,48 @@ step = 0.001
     }
     // The motor bears the moment of that force.
     assert!((last(&record, "motor", "moment") - coriolis * radius).abs() < 1e-2 * coriolis);
+}
+
+/// A plane across the fall bears nothing: its multiplier is round-off of how far the body goes, however it is turned.
+#[test]
+fn a_turned_body_falls_along_a_plane_that_bears_nothing() {
+    let model = |locked: &str| {
+        format!(
+            "lissom = 1\ngravity = [0, 0, -9.81]\n[bodies.a]\nmass = 1\ninertia = [0.012, 0.018, 0.019]\n\
+             position = [0, 0, 0]\nrotation = [-1.0, -0.76, -0.43]\n\
+             [joints.plane]\nkind = \"generic\"\nbase = \"ground\"\ntip = \"a\"\nlocked = {locked}\n\
+             [outputs.a]\nkind = \"position\"\nof = \"a\"\n\
+             [analysis]\nkind = \"dynamics\"\nend = 0.2\nstep = 1e-3\n"
+        )
+    };
+    for locked in ["[\"x\"]", "[\"x\", \"rx\", \"ry\", \"rz\"]", "[\"x\", \"y\"]"] {
+        for scheme in SCHEMES {
+            let text = model(locked);
+            let mut session =
+                Model::from_text("falls.toml", &text).session(&[set("analysis.scheme", scheme)]).unwrap();
+            let (record, report) = session.record();
+            assert!(report.is_complete(), "{locked} {scheme}: {:?}", report.error());
+            let fallen = last(&record, "a", "z");
+            assert!((fallen + 0.5 * 9.81 * 0.2 * 0.2).abs() < 1e-5, "{locked} {scheme}: {fallen}");
+            let factorizations = report.totals.factorizations;
+            assert!(factorizations < 40, "{locked} {scheme}: {factorizations} tangents");
+        }
+    }
+}
+
+/// Records at distances of the longest step are met without a step as long as a rounding.
+#[test]
+fn chosen_steps_are_never_round_off() {
+    let text = "lissom = 1\n[bodies.a]\nmass = 1\ninertia = [0.01, 0.02, 0.02]\nposition = [0.3, 0, 0]\n\
+                [loads.push]\nkind = \"force\"\non = \"a\"\nvector = [1e-9, 0, 0]\n\
+                [outputs.a]\nkind = \"position\"\nof = \"a\"\n\
+                [analysis]\nkind = \"dynamics\"\nend = 0.4\nrelative_tolerance = 1e-4\noutput_step = 0.02\nscheme = \"radau-iia\"\n";
+    let mut session = Model::from_text("rests.toml", text).session(&[]).unwrap();
+    let mut before = 0.0;
+    while !session.is_finished() {
+        session.advance().unwrap();
+        let time = session.progress().time;
+        assert!(time - before > 1e-9, "a step of {:e} s at {time}", time - before);
+        before = time;
+    }
 }

@@ -222,7 +222,8 @@ impl Simulation {
         });
         judge::relative_turns(&system, &state.kinematics)
             .map_err(|error| InitialError::Wrapped(Box::new(error)))?;
-        let ledger = Ledger::new(&system, &state.kinematics, &representative, settings.scheme.dynamic);
+        let interval = settings.scheme.dynamic.then_some(settings.step_size);
+        let ledger = Ledger::new(&system, &state.kinematics, &representative, interval);
         let controller = settings.control.filter(|_| settings.scheme.dynamic);
         let controller = controller.map(|_| Controller::new(settings.step_size));
         let kinks = if controller.is_some() { system.kinks() } else { Vec::new() };

@@ -255,7 +255,21 @@ impl StepEquations<'_> {
         let round_off = work.force_round_off.max(ROUNDINGS * f64::EPSILON * inertial);
         let is_known = largest > 0.0 && change > round_off;
         let multipliers = if is_known { change / largest * reference } else { 0.0 };
+        // What a joint sees change is rounded as the whole way that parts go in the step, of which accelerations are a part.
+        let decides = multipliers > size;
+        let multipliers = if decides && change <= self.travel_round_off() { 0.0 } else { multipliers };
         self.with_states(Correction { size: size.max(multipliers), reference })
+    }
+
+    /// Round-off of multipliers from how far parts go straight on in the step.
+    fn travel_round_off(&self) -> f64 {
+        let work = &*self.work;
+        let travel = work
+            .sizes
+            .iter()
+            .zip(&work.unit.rate)
+            .fold(0.0_f64, |most, (size, rate)| most.max((size * rate).abs()));
+        ROUNDINGS * f64::EPSILON * self.scaled.multiplier_factor() * travel * self.scaling.1.length
     }
 
     /// The same with first-order states: corrections of each relative to what the step has to find out about it, as if

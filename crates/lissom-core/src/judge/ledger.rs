@@ -22,6 +22,8 @@ const NOTEWORTHY: f64 = 0.05;
 const GROSS: f64 = 0.25;
 /// Places are known to this part of the representative length: energies below are round-off.
 const PLACE: f64 = 1e-7;
+/// Changes of places are known to this part of the representative length.
+const CHANGE: f64 = 1e-12;
 /// Part of the largest single energy that its round-off may reach.
 const ROUND_OFF: f64 = 1e-10;
 
@@ -65,23 +67,25 @@ pub struct Ledger {
 }
 
 impl Ledger {
-    /// At the start of a simulation.
+    /// At the start of a simulation; of a motion, with the `interval` in which places change [s].
     pub(crate) fn new(
         system: &System,
         at: &Kinematics,
         representative: &Representative,
-        is_motion: bool,
+        interval: Option<f64>,
     ) -> Self {
         let energy = system.energy(at);
         let place = PLACE * representative.length;
+        // What rests moves by round-off of places, and has energy where nothing has any.
+        let speed = interval.map_or(0.0, |interval| CHANGE * representative.length / interval);
         let mut ledger = Self {
             energy,
             most: energy.kinetic + energy.strain,
             potential: [energy.potential; 2],
-            floor: representative.stiffness * place * place,
+            floor: representative.stiffness * place * place + representative.mass * speed * speed,
             ..Self::default()
         };
-        ledger.least_balance = ledger.balance(is_motion);
+        ledger.least_balance = ledger.balance(interval.is_some());
         ledger
     }
 

@@ -16,6 +16,9 @@ use crate::system::{Kinematics, LOCKED, System};
 /// Motions smaller than this part of the model's size are not resolved for their own sake.
 pub(crate) const SMALLEST_REFERENCE: f64 = 1e-6;
 
+/// Errors of a step below this part of the model's size are round-off, which no smaller step lowers.
+pub(crate) const SMALLEST_ERROR: f64 = 3e-13;
+
 /// Largest scaled displacement or turn of a node between two instants, at most 1.
 pub(crate) fn excursion(from: &Kinematics, to: &Kinematics, length: f64) -> f64 {
     let mut most = 0.0_f64;

@@ -31,7 +31,7 @@ use crate::mechanisms::Mechanism;
 use crate::newton::{Memory, Outcome};
 use crate::scaling::ScaleBy;
 use crate::system::State;
-use error_estimate::{SMALLEST_REFERENCE, excursion, inertial_part};
+use error_estimate::{SMALLEST_ERROR, SMALLEST_REFERENCE, excursion, inertial_part};
 
 /// Attempts at a step that are given up before the step is.
 const MOST_REJECTED: usize = 60;
@@ -172,6 +172,8 @@ impl Simulation {
         let rest = limit - now;
         let located = loop {
             let size = controller.propose(rest).min(control.max_step).min(self.turning_limit());
+            // What would be left is round-off, over which velocities cannot be told.
+            let size = if (rest - size).abs() <= NEAR * size { rest } else { size };
             let error = match self.attempt(size, watch) {
                 Ok(outcome) => {
                     watch.begin(Phase::Rest);
@@ -301,8 +303,10 @@ impl Simulation {
         let largest = work.filtered.iter().zip(&work.sizes).fold(0.0_f64, |most, (error, size)| {
             if (error * size).abs() <= most { most } else { (error * size).abs() }
         });
-        let (places, states) = (largest / reference, self.error_of_states());
-        (if states <= places || places.is_nan() { places } else { states }) / (SHARE_OF_STEP * tolerance)
+        let allowed = SHARE_OF_STEP * tolerance;
+        let places = largest / (reference * allowed).max(SMALLEST_ERROR);
+        let states = self.error_of_states() / allowed;
+        if states <= places || places.is_nan() { places } else { states }
     }
 
     /// The same of first-order states, each relative to its magnitude, unfiltered.
