@@ -72,11 +72,10 @@ impl Approach {
         let Some(last) = self.rate.replace(rate) else { return false };
         self.fastest = self.fastest.max(last.abs());
         let is_slow = last.abs() < SLOW * self.fastest;
-        if before != 0.0 && (before > 0.0) != (value > 0.0) {
+        let is_beyond = |place: f64| before != 0.0 && (before > 0.0) != (place > 0.0);
+        if is_beyond(value) || is_beyond(before + last * duration) {
+            // It has passed, or should have.
             self.passed = (!is_slow).then_some((last, 0));
-        } else if (before > 0.0) != (before + last * duration > 0.0) {
-            // It should have passed.
-            return before != 0.0 && !is_slow && rate * last < -SLOW * last * last;
         }
         let Some((entry, steps)) = &mut self.passed else { return false };
         *steps += 1;
