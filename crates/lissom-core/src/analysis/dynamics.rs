@@ -173,7 +173,7 @@ impl Simulation {
         } else {
             (system, state)
         };
-        if let Some((row, ..)) = system.layout().states().next().filter(|_| !settings.scheme.dynamic) {
+        if let Some(row) = system.layout().rate_rows().next().filter(|_| !settings.scheme.dynamic) {
             return Err(InitialError::StateInStatics(system.layout().name_of(row)));
         }
         let representative = known.copied().unwrap_or_else(|| {
@@ -443,6 +443,7 @@ impl Simulation {
 
     /// Takes note of reasons to doubt the step that is being accepted.
     fn note_doubts(&mut self) {
+        judge::contact::tell(&self.system, &self.next, &mut self.warnings);
         let (before, after) = (&self.ledger, &self.next_ledger);
         let time = self.next.kinematics.time;
         if self.settings.scheme.dynamic {

@@ -237,8 +237,8 @@ impl StepEquations<'_> {
         let corrections = std::mem::take(&mut self.work.residuals);
         self.apply(&corrections, -1.0);
         self.work.residuals = corrections;
-        let work = &*self.work;
         let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+        let work = &*self.work;
         for (corrections, multipliers) in work.residuals.iter().zip(&work.multipliers) {
             let Correction { size, reference } = work.processor.dispatch(Measure {
                 sizes: &work.multiplier_sizes,
@@ -248,6 +248,8 @@ impl StepEquations<'_> {
             change = change.max(self.scaled.multiplier_factor() * size);
             largest = largest.max(reference);
         }
+        let (of_impulses, most) = self.measure_impulses();
+        (change, largest) = (change.max(of_impulses), largest.max(most));
         let Correction { size, reference } = places;
         // Where nothing bears a load yet, as before the first wave arrives, or bears it no longer, as in free flight,
         // multipliers are nothing but round-off: of strains, and of the forces that accelerate the masses.
@@ -270,6 +272,22 @@ impl StepEquations<'_> {
             .zip(&work.unit.rate)
             .fold(0.0_f64, |most, (size, rate)| most.max((size * rate).abs()));
         ROUNDINGS * f64::EPSILON * self.scaled.multiplier_factor() * travel * self.scaling.1.length
+    }
+
+    /// The largest correction of a force of a constraint between velocities, and the largest such force [N].
+    fn measure_impulses(&self) -> (f64, f64) {
+        let layout = self.system.layout();
+        let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+        for (row, impulse) in layout.impulses() {
+            for (stage, motion) in self.work.motions.iter().enumerate().take(self.scheme.stages.len()) {
+                let increments = &self.scheme.stages[stage].rate.increments;
+                let by_correction = increments.iter().zip(&self.work.residuals);
+                let rate: f64 = by_correction.map(|(weight, corrections)| weight * corrections[row]).sum();
+                change = change.max((rate / self.scaled.step_size()).abs());
+                largest = largest.max(motion.at.coordinates[impulse].rate.abs());
+            }
+        }
+        (change, largest)
     }
 
     /// The same with first-order states: corrections of each relative to what the step has to find out about it, as if

@@ -37,8 +37,8 @@ pub enum InitialError {
     Signal(crate::signals::SignalError),
     /// States where there are no rates.
     #[error(
-        "statics and a start from equilibrium know no rates: {0} is a state and has no equation there; remove states \
-         and friction, or start a dynamic analysis as it is"
+        "statics and a start from equilibrium know no rates: {0} has no equation there; remove states, friction and \
+         rolling joints, or start a dynamic analysis as it is"
     )]
     StateInStatics(String),
     /// The places of rest were not found.
@@ -112,6 +112,17 @@ impl Initial {
         for (row, ..) in system.layout().states() {
             if let Some(diagonal) = system.structure().pattern.position(row, row) {
                 linearization.mass[diagonal] += 1.0;
+            }
+        }
+        // Constraints between velocities stand where those between places do: [M Bᵀ; B 0].
+        for (row, _) in system.layout().impulses() {
+            let pattern = system.structure().pattern.clone();
+            for &other in pattern.column(row) {
+                for (row, column) in [(row, other), (other, row)] {
+                    if let Some(position) = pattern.position(row, column) {
+                        linearization.mass[position] = linearization.damping[position];
+                    }
+                }
             }
         }
         self.linearization = linearization;
@@ -233,9 +244,13 @@ impl Initial {
         let mut speeds = vec![0.0; layout.size()];
         gather_rates(layout, &state.kinematics, &mut speeds);
         let mut right = vec![0.0; layout.size()];
-        // -(B v + ∂c/∂t): only the constraint rows are kept.
+        // -(B v + ∂c/∂t): only the constraint rows are kept, and those of constraints between velocities.
         self.subtract_product(system, &speeds, &mut right);
+        let slides: Vec<(usize, f64)> = layout.impulses().map(|(row, _)| (row, right[row])).collect();
         right[..count].fill(0.0);
+        for (row, slide) in slides {
+            right[row] = slide;
+        }
         let mut explicit = vec![0.0; layout.multiplier_count];
         system.constraint_velocities(&state.kinematics, &mut explicit);
         for (value, rate) in right[count..].iter_mut().zip(&explicit) {
@@ -249,6 +264,8 @@ impl Initial {
                 largest = largest.max(right[row as usize].abs());
             }
         }
+        // What stopped the sliding is no force.
+        layout.impulses().for_each(|(row, _)| right[row] = 0.0);
         for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut state.kinematics.coordinates) {
             coordinate.rate += right[row as usize];
         }
@@ -274,8 +291,11 @@ impl Initial {
     /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
     pub fn accelerations(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {
         self.factor(system, state)?;
-        let right = self.acceleration_vector(system, state);
+        let mut right = self.acceleration_vector(system, state);
         let layout = system.layout();
+        for (row, impulse) in layout.impulses() {
+            state.kinematics.coordinates[impulse].rate = std::mem::take(&mut right[row]);
+        }
         scatter_accelerations(layout, &right, &mut state.kinematics);
         state.multipliers.copy_from_slice(&right[layout.coordinate_count()..]);
         Ok(())
@@ -322,7 +342,8 @@ impl Initial {
         }
     }
 
-    /// Accelerations and multipliers by row; in the rows of states, what their rates lack.
+    /// Accelerations and multipliers by row; in the rows of states, what their rates lack, in those of impulses their
+    /// rates.
     pub(super) fn acceleration_at(
         &mut self,
         system: &System,
@@ -337,14 +358,35 @@ impl Initial {
         let count = layout.coordinate_count();
         let mut at = state.kinematics.clone();
         scatter_accelerations(layout, &vec![0.0; layout.size()], &mut at);
+        for (_, impulse) in layout.impulses() {
+            at.coordinates[impulse].rate = 0.0;
+        }
         let zero = vec![0.0; layout.multiplier_count];
         let mut right = vec![0.0; layout.size()];
         system.residual(&self.point(&at, &zero), &mut right);
+        self.turn_slides(system, &at, &mut right);
         right[..count].iter_mut().for_each(|value| *value = -*value);
         system.constraint_accelerations(&at, &mut right[count..]);
         right[count..].iter_mut().for_each(|value| *value = -*value);
         self.solve(system, &mut right);
         right
+    }
+
+    /// Puts Ḃ v in the rows of constraints between velocities: their derivative by places, along the motion.
+    fn turn_slides(&self, system: &System, at: &Kinematics, rows: &mut [f64]) {
+        let layout = system.layout();
+        if layout.impulses.is_empty() {
+            return;
+        }
+        let mut speeds = vec![0.0; layout.size()];
+        gather_rates(layout, at, &mut speeds);
+        let pattern = &system.structure().pattern;
+        for (row, _) in layout.impulses() {
+            let by_place = |&column: &usize| {
+                pattern.position(row, column).map_or(0.0, |at| self.linearization.stiffness[at])
+            };
+            rows[row] = pattern.column(row).iter().map(|column| by_place(column) * speeds[*column]).sum();
+        }
     }
 
     /// Accelerations by row `delay` [s] after (or before) the state, for a scheme whose memory starts
@@ -377,7 +419,7 @@ impl Initial {
         }
         // States follow their rates, which are in equilibrium already.
         let mut compared = now.clone();
-        for (row, ..) in layout.states() {
+        for row in layout.rate_rows() {
             (compared[row], difference[row]) = (0.0, 0.0);
         }
         let size = |values: &[f64]| values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));

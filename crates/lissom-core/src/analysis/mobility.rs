@@ -51,7 +51,7 @@ struct Reduced {
 pub fn mobility(system: &System, state: &State) -> Mobility {
     let layout = system.layout();
     let mut result = Mobility {
-        coordinates: layout.coordinate_count() - layout.state_count(),
+        coordinates: layout.coordinate_count() - layout.state_count() - layout.impulses.len(),
         constraints: layout.multiplier_rows().len(),
         ..Mobility::default()
     };

@@ -180,6 +180,9 @@ pub(crate) fn pivot_hint(is_multiplier: bool, augmented: bool) -> &'static str {
         (false, false) => {
             "a coordinate without mass and stiffness needs the augmented term: set `augmented = true`"
         }
-        (false, true) => "nothing holds or carries it: give it mass, stiffness or a joint",
+        (false, true) => {
+            "nothing holds or carries it: give it mass, stiffness or a joint; the force of a wheel that rolls repeats what \
+             others hold already: give it a small `creep`"
+        }
     }
 }

@@ -18,6 +18,7 @@ pub mod moment;
 pub mod passage;
 pub mod point_spring;
 pub mod quadrature;
+pub(crate) mod rolling;
 pub mod shape;
 pub mod sides;
 pub mod stop;

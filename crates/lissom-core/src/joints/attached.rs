@@ -12,6 +12,7 @@ use nalgebra::{SMatrix, SVector};
 use super::blocks::JointStarts;
 use super::derivatives::{Derivatives, IncrementTangent, Inner, LOCAL, OWN, Side, TIP};
 use super::{AnyJoint, Curvature, Equations, Gradient, MOST_COORDINATES, MOST_EQUATIONS, Own, Relative};
+use crate::elements::rolling::Rolling;
 use crate::system::state::split;
 use crate::system::{CoordinateId, Kinematics, MotionChange, NodeId};
 
@@ -40,6 +41,8 @@ pub struct AttachedJoint {
     pub coordinates: Vec<CoordinateId>,
     /// Position of its first multiplier among all multipliers.
     pub first_multiplier: usize,
+    /// Coordinates whose rates are the forces against sliding, of joints that roll.
+    pub impulses: Vec<CoordinateId>,
     pub(crate) joint: Box<dyn AnyJoint>,
 }
 
@@ -263,7 +266,10 @@ impl AttachedJoint {
         let (relative, own) = self.outright(at);
         let mut gradient = Gradient::zeros();
         self.joint.gradient(&relative, &own, &mut gradient);
-        let wrench = -gradient.relative.tr_mul(&SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu));
+        let mut wrench = -gradient.relative.tr_mul(&SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu));
+        if let Some(contact) = self.joint.contact() {
+            wrench += Rolling::new(self.frames, self.impulses.clone(), contact).wrench(at);
+        }
         let tip = self.frames[1];
         let rotation = at.nodes[tip.node].frame.rotation * tip.offset.rotation;
         let (force, moment) = split(&wrench);

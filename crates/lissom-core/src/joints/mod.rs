@@ -10,6 +10,7 @@ pub mod blocks;
 pub mod cam;
 pub mod clamp;
 pub mod constant_velocity;
+pub mod contact;
 pub mod coupling;
 pub mod cylindrical;
 pub mod derivatives;
@@ -32,6 +33,7 @@ pub mod primitives;
 pub mod prismatic;
 pub mod revolute;
 pub mod rigid_link;
+pub mod rolling;
 pub mod screw;
 pub mod spherical;
 pub mod swing_arm;
@@ -44,6 +46,7 @@ use nalgebra::{SMatrix, SVector};
 
 use attached::AttachedJoint;
 use blocks::Batches;
+use contact::Contact;
 use coupling::Relation;
 use moved::{Moved, OwnMoved};
 
@@ -185,6 +188,11 @@ pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
         ([0.0; MOST_COORDINATES], Motion::identity())
     }
 
+    /// The contact in which the tip does not slide on the base, for joints that roll. Default: it is none of them.
+    fn contact(&self) -> Option<Contact> {
+        None
+    }
+
     /// Violation c of the equations, evaluated outright.
     fn violation(&self, relative: &Relative, own: &Own) -> Equations;
 
@@ -221,6 +229,8 @@ pub trait AnyJoint: Send + Sync + std::fmt::Debug {
     fn coordinates(&self) -> &'static [Coordinate];
     /// See [`Joint::initial`].
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion);
+    /// See [`Joint::contact`].
+    fn contact(&self) -> Option<Contact>;
     /// See [`Joint::violation`].
     fn violation(&self, relative: &Relative, own: &Own) -> Equations;
     /// See [`Joint::violation_change`].
@@ -255,6 +265,10 @@ impl<J: Joint> AnyJoint for J {
 
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
         Joint::initial(self)
+    }
+
+    fn contact(&self) -> Option<Contact> {
+        Joint::contact(self)
     }
 
     fn violation(&self, relative: &Relative, own: &Own) -> Equations {
@@ -378,6 +392,7 @@ pub static KINDS: &[JointKind] = &[
     prismatic::KIND,
     revolute::KIND,
     rigid_link::KIND,
+    rolling::KIND,
     screw::KIND,
     spherical::KIND,
     swing_arm::KIND,

@@ -5,6 +5,7 @@
 //! beyond half a turn stand for others, and energy that nothing put in shows that the step left its branch or that the
 //! scheme feeds motions which it does not resolve.
 
+pub(crate) mod contact;
 mod ledger;
 pub(crate) mod start;
 mod warning;

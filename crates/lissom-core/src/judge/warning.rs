@@ -84,6 +84,34 @@ pub enum Warning {
         /// What switches.
         what: String,
     },
+    /// A wheel that rolls is pulled by its plane.
+    #[error(
+        "at t = {time:.6e} s the plane of `{joint}` pulls its wheel with {force:.3e} N: a wheel that lies on the plane would \
+         lift off, and this one cannot"
+    )]
+    WheelLifts {
+        /// When it was first seen [s].
+        time: f64,
+        /// Name of the joint.
+        joint: String,
+        /// How strongly it is pulled [N].
+        force: f64,
+    },
+    /// A wheel that rolls needs more friction than there is.
+    #[error(
+        "at t = {time:.6e} s the wheel of `{joint}` needs {friction:.3e} N of friction at a normal force of {normal:.3e} N: \
+         more than its coefficient gives, so that it would slide, and this one cannot"
+    )]
+    WheelSlides {
+        /// When it was first seen [s].
+        time: f64,
+        /// Name of the joint.
+        joint: String,
+        /// Friction [N].
+        friction: f64,
+        /// Normal force [N].
+        normal: f64,
+    },
     /// A warning from the model file.
     #[error("{message}")]
     Model {
@@ -102,6 +130,8 @@ impl Warning {
             Self::VelocityReplaced { .. } => "velocity-replaced",
             Self::StartsWithJolt { .. } => "starts-with-jolt",
             Self::ContactTooShort { .. } => "contact-too-short",
+            Self::WheelLifts { .. } => "wheel-lifts",
+            Self::WheelSlides { .. } => "wheel-slides",
             Self::Model { .. } => "model",
         }
     }

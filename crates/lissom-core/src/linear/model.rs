@@ -34,6 +34,15 @@ pub enum LinearError {
          this analysis, as if they were sampled without end"
     )]
     Sampled,
+    /// Constraints between velocities.
+    #[error(
+        "there is no linear model of a system that rolls: `{joint}` is a constraint between velocities, which these analyses \
+         do not know; hold the wheel with another joint, or simulate the motion"
+    )]
+    Rolls {
+        /// Name of the joint.
+        joint: String,
+    },
     /// A pivot vanished or a number is not finite.
     #[error(
         "the linear model at t = {time:.6e} s: elimination stops at the {unknown}; give it mass, stiffness or a joint"
@@ -79,6 +88,9 @@ impl<'a> LinearModel<'a> {
     pub fn of(system: &'a System, state: &State, solver: &'a SolverKind) -> Result<Self, LinearError> {
         if system.signals().has_samples() {
             return Err(LinearError::Sampled);
+        }
+        if let Some(joint) = system.joints().iter().find(|joint| !joint.impulses.is_empty()) {
+            return Err(LinearError::Rolls { joint: joint.name.clone() });
         }
         let mut state = state.clone();
         let is_at_rest = is_at_rest(&state.kinematics);

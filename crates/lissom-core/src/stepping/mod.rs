@@ -288,7 +288,7 @@ impl Simulation {
         if self.watch.known.has_switched {
             // The filter would hide a motion that the switch has just woken: an impact on a stiff stop.
             motion.copy_from_slice(&work.error);
-            self.system.layout().states().for_each(|(row, ..)| motion[row] = 0.0);
+            self.system.layout().rate_rows().for_each(|row| motion[row] = 0.0);
         } else {
             inertial_part(&self.system, &work.error, motion);
             constraints.fill(0.0);

@@ -3,6 +3,7 @@
 
 mod coupling;
 mod drawn;
+mod rolling;
 
 use std::sync::Arc;
 
@@ -12,6 +13,7 @@ use lissom_solver::{Group, Pattern, Structure};
 use self::coupling::rows_of_coupling;
 pub use self::drawn::PlaceOnTip;
 use self::drawn::{joint_rotation, start_values};
+use self::rolling::Impulse;
 use super::batch::{AnyBatch, Batch};
 use super::feedback::{Feedback, Target};
 use super::layout::{Freedoms, LOCKED, Layout};
@@ -86,6 +88,7 @@ pub struct Builder {
     multiplier_quantities: Vec<Quantity>,
     gravity: Gravity,
     states: Vec<(CoordinateId, f64)>,
+    impulses: Vec<Impulse>,
     graph: Graph,
     targets: Vec<(Target, SignalId)>,
     /// The signal that is the size of the loads being added.
@@ -122,6 +125,7 @@ impl Builder {
             multiplier_quantities: Vec::new(),
             gravity: Gravity::constant(Vector3::zeros()),
             states: Vec::new(),
+            impulses: Vec::new(),
             graph: Graph::default(),
             targets: Vec::new(),
             driver: None,
@@ -261,12 +265,15 @@ impl Builder {
             self.multipliers.push((name.to_owned(), equation));
             self.multiplier_quantities.push(joint.equation_quantity(k));
         }
+        let impulses =
+            joint.contact().map_or_else(Vec::new, |contact| self.add_rolling(name, carried, contact));
         self.joints.push(AttachedJoint {
             name: name.to_owned(),
             kind: kind.name,
             frames: carried,
             coordinates: coordinates.clone(),
             first_multiplier,
+            impulses,
             joint,
         });
         Ok(coordinates)
@@ -509,6 +516,7 @@ impl Builder {
         layout.multiplier_count = self.multipliers.len();
         layout.multiplier_names = std::mem::take(&mut self.multipliers);
         layout.states = std::mem::take(&mut self.states);
+        layout.impulses = self.impulses.iter().map(|impulse| impulse.coordinate).collect();
         layout
     }
 
@@ -530,6 +538,10 @@ impl Builder {
                 .iter()
                 .map(|&row| Group { unknowns: vec![row as usize], hosts: Vec::new() }),
         );
+        for Impulse { coordinate, nodes } in &self.impulses {
+            groups[first_coordinate + coordinate].hosts =
+                nodes.iter().filter_map(|&node| of_node[node]).collect();
+        }
         let multipliers = layout.coordinate_count;
         for joint in &self.joints {
             let first = multipliers + joint.first_multiplier;

@@ -52,6 +52,8 @@ pub struct Layout {
     pub(crate) quantities: Vec<Quantity>,
     /// Coordinate and magnitude of every first-order state.
     pub(crate) states: Vec<(CoordinateId, f64)>,
+    /// Coordinates whose rates are forces of constraints between velocities.
+    pub(crate) impulses: Vec<CoordinateId>,
 }
 
 impl Layout {
@@ -120,6 +122,16 @@ impl Layout {
             .map(|&(coordinate, magnitude)| (self.row_of_coordinate(coordinate), coordinate, magnitude))
     }
 
+    /// Row and coordinate of every impulse, whose rate is the force of a constraint between velocities.
+    pub(crate) fn impulses(&self) -> impl Iterator<Item = (usize, CoordinateId)> + '_ {
+        self.impulses.iter().map(|&coordinate| (self.row_of_coordinate(coordinate), coordinate))
+    }
+
+    /// Rows of states and impulses: their equations are of rates, not of places.
+    pub(crate) fn rate_rows(&self) -> impl Iterator<Item = usize> + '_ {
+        self.states().map(|(row, ..)| row).chain(self.impulses().map(|(row, _)| row))
+    }
+
     /// Joint and equation of a multiplier.
     ///
     /// # Panics
@@ -151,7 +163,11 @@ impl Layout {
         }
         for (coordinate, &r) in self.coordinate_rows.iter().enumerate() {
             if r as usize == row {
-                let what = if self.quantities[row] == Quantity::State { "state" } else { "coordinate" };
+                let what = match self.quantities[row] {
+                    Quantity::State if self.impulses.contains(&coordinate) => "force of",
+                    Quantity::State => "state",
+                    Quantity::Length | Quantity::Angle => "coordinate",
+                };
                 return format!("{what} `{}`", self.coordinate_names[coordinate]);
             }
         }

@@ -79,12 +79,21 @@ fn many_joints_at_a_time_are_as_one_by_one() {
         for (round, size) in [1e-9, 1e-3, 0.1, 0.9, 4.0].into_iter().enumerate() {
             let mut random = Random::new((100 * round + seed) as u64 + 60);
             let (system, state) = many(kind, &mut random);
-            let here = Configuration::random(&system, &state, size, &mut random);
+            let mut here = Configuration::random(&system, &state, size, &mut random);
+            // Constraints between velocities are no equations of the joint.
+            let impulses: Vec<usize> =
+                system.joints().iter().flat_map(|joint| joint.impulses.iter().copied()).collect();
+            for &impulse in &impulses {
+                here.at.coordinates[impulse].rate = 0.0;
+            }
+            let slides: Vec<usize> =
+                impulses.iter().map(|&impulse| system.layout().row_of_coordinate(impulse)).collect();
             let mut point = here.point(0.7);
             let wanted = one_by_one(&system, &point);
             let mut found = vec![f64::NAN; wanted.len()];
             system.residual(&point, &mut found);
-            for (row, (a, b)) in found.iter().zip(&wanted).enumerate() {
+            let compared = found.iter().zip(&wanted).enumerate().filter(|(row, _)| !slides.contains(row));
+            for (row, (a, b)) in compared {
                 let name = system.layout().name_of(row);
                 assert!((a - b).abs() < 1e-13 * (1.0 + b.abs()), "{} {size}: {name}: {a}, {b}", kind.name);
             }

@@ -4,13 +4,14 @@ mod configuration;
 mod feedback;
 mod joint_lanes;
 mod locks;
+mod rolling;
 
 use configuration::{Configuration, Random, difference, sample_parameters};
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
 use lissom_core::joints::derivatives::IncrementTangent;
 use lissom_core::joints::{self, Build, JointKind, Quantity};
-use lissom_core::registry::Parameters;
+use lissom_core::registry::{Parameters, Value};
 use lissom_core::system::{
     Blend, Builder, Chart, Freedoms, Linearization, Placement, Receiver, Scratch, State, Sum, System,
 };
@@ -245,7 +246,14 @@ fn joined(kind: &joints::JointKind, random: &mut Random) -> (System, State) {
         axis: Some(random.vector()),
         second_axis: Some(random.vector()),
     };
-    let parameters = sample_parameters(kind.parameters, true, random);
+    let mut parameters = sample_parameters(kind.parameters, true, random);
+    if kind.name == "rolling"
+        && let Some(normal) = placement.axis
+    {
+        // Upright: the lower a wheel leans the less differences of finite width say of it.
+        let wheel_axis = normal.cross(&random.vector());
+        parameters.insert("wheel_axis", Value::Vector(wheel_axis));
+    }
     builder.add_joint("joint", kind, &placement, &parameters).expect("valid");
     builder.build(0.0).expect("valid")
 }

@@ -85,6 +85,9 @@ fn joint(kind: &str) -> Option<Drawn> {
         "swing_arm" => {
             WithRod(|[b, t]| [vec![b.cylinder(0, 0.75, 1.2, Light)], vec![t.ball(0.6, [0.0; 3], Light)]])
         }
+        "rolling" => {
+            Solids(|[_, t]| [Vec::new(), vec![t.ring(1.5, 0.2, 0.0, Dark), t.cylinder(0, 0.3, 0.6, Light)]])
+        }
         "prescribed_rotation" => Solids(|[b, _]| base(b.turn(Drive))),
         "prescribed_displacement" => Solids(|[b, _]| base(b.arrow(Drive))),
         "gear" => Solids(|[b, t]| [wheel(b), wheel(t)]),

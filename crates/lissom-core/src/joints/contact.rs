@@ -1,0 +1,107 @@
+//! The point in which a wheel touches a plane, and the velocity there.
+//!
+//! Legend as in [`super::rolling`], and T_k = Rᵀe_k the plane's axes in the tip's axes, p the point of contact from the
+//! wheel's centre, (v, w) twist of the wheel relative to the plane, both in the tip's axes.
+//!
+//! ```text
+//! p = r (u a - N)/S - ρ N,      s_k = T_k·(v + w × p) = b_k·(v, w),      b_k = (T_k, p × T_k)
+//! ∂N/∂η_θ = Ñ,      ∂p/∂N = r [(a aᵀ - I)/S + (u a - N) u aᵀ/S³] - ρ I
+//! ```
+
+use lissom_motion::{Matrix3, Matrix6, Real, Vector3, Vector6, screw, skew};
+
+use crate::system::state::split;
+
+/// Added to S², so that S never vanishes.
+const NEVER_ZERO: f64 = 1e-14;
+
+/// Directions in which the contact may slide.
+pub const DIRECTIONS: usize = 2;
+
+/// Sine S of the angle between the wheel's axis and the normal, from its cosine.
+#[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+#[inline(always)]
+pub(super) fn upright<R: Real>(cosine: R) -> R {
+    cosine.like(1.0 + NEVER_ZERO).minus_product(cosine, cosine).square_root()
+}
+
+/// A wheel on a plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Axis of the wheel in the tip's joint frame.
+    pub axis: Vector3,
+    /// 1 where the wheel is on the side of the plane to which the base's third axis points, else -1.
+    pub side: f64,
+    /// Radius [m].
+    pub radius: f64,
+    /// Radius of the rounding of the rim [m].
+    pub rim: f64,
+    /// Coefficient of friction; infinite where there is no limit.
+    pub friction: f64,
+    /// Sliding velocity per force [m/(N s)]; 0 where nothing slides.
+    pub creep: f64,
+}
+
+/// What the contact is at a relative rotation, in the tip's axes.
+struct Touch {
+    /// N.
+    normal: Vector3,
+    /// T_k.
+    along: [Vector3; DIRECTIONS],
+    /// p [m].
+    point: Vector3,
+    cosine: f64,
+    upright: f64,
+}
+
+impl Contact {
+    fn touch(&self, rotation: &Matrix3) -> Touch {
+        let row = |k: usize| rotation.row(k).transpose();
+        let normal = self.side * row(2);
+        let cosine = normal.dot(&self.axis);
+        let upright = upright(cosine);
+        let down = (cosine * self.axis - normal) / upright;
+        let point = self.radius * down - self.rim * normal;
+        Touch { normal, along: [row(0), row(1)], point, cosine, upright }
+    }
+
+    /// b_k: derivatives of the sliding velocities by the relative twist, in the tip's joint frame.
+    pub(crate) fn rows(&self, rotation: &Matrix3) -> [Vector6; DIRECTIONS] {
+        let touch = self.touch(rotation);
+        touch.along.map(|along| screw(&along, &touch.point.cross(&along)))
+    }
+
+    /// ∂(Σ f_k b_k)/∂η, and the rows ∂(b_k·(v, w))/∂η at a constant relative twist.
+    pub(crate) fn derivatives(
+        &self,
+        rotation: &Matrix3,
+        forces: &[f64; DIRECTIONS],
+        twist: &Vector6,
+    ) -> (Matrix6, [Vector6; DIRECTIONS]) {
+        let touch = self.touch(rotation);
+        let by_turn = self.point_by_normal(&touch) * skew(&touch.normal);
+        let force = forces[0] * touch.along[0] + forces[1] * touch.along[1];
+        let arm = skew(&touch.point);
+        let mut wrench = Matrix6::zeros();
+        wrench.fixed_view_mut::<3, 3>(0, 3).copy_from(&skew(&force));
+        let moment = arm * skew(&force) - skew(&force) * by_turn;
+        wrench.fixed_view_mut::<3, 3>(3, 3).copy_from(&moment);
+        let (linear, angular) = split(twist);
+        let rows = touch.along.map(|along| {
+            let turned = skew(&along);
+            let row = turned.tr_mul(&linear) + (arm * turned - turned * by_turn).tr_mul(&angular);
+            screw(&Vector3::zeros(), &row)
+        });
+        (wrench, rows)
+    }
+
+    /// ∂p/∂N.
+    fn point_by_normal(&self, touch: &Touch) -> Matrix3 {
+        let Touch { normal, cosine, upright, .. } = touch;
+        let axis = self.axis;
+        let down = *cosine * axis - normal;
+        let ring = (axis * axis.transpose() - Matrix3::identity()) / *upright
+            + down * axis.transpose() * (cosine / upright.powi(3));
+        self.radius * ring - self.rim * Matrix3::identity()
+    }
+}

@@ -1,0 +1,216 @@
+//! Rolling: a wheel, disc or ball touches a plane of the base, and its point of contact does not slide.
+//!
+//! Legend: n normal of the plane, in the tip's axes N = ±Rᵀe₃ towards the wheel; a axis of the wheel, in the tip's axes; r
+//! radius of the circle of the rim's middle, ρ radius of its rounding; x centre of the wheel over the plane; u = N·a,
+//! S = (1 - u²)^½.
+//!
+//! ```text
+//! c = ±x₃ - r S - ρ = 0,      ∂c/∂η = (N, r u/S a × N)
+//! ```
+//!
+//! keeps the distance; this is the equation here. That the point of contact does not slide is said of velocities, see
+//! [`super::contact`] and `elements::rolling`.
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
+
+use super::base_axes::row;
+use super::contact::{Contact, upright};
+use super::moved::{Moved, OwnMoved};
+use super::{
+    Build, Curvature, Equations, Frames, Geometry, Gradient, Joint, JointKind, MOST_COORDINATES,
+    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+};
+use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "rolling",
+    summary: "A wheel, disc or ball rolls on a plane of the base without sliding and without leaving it.",
+    sample: "axis = [0.0, 0.0, 1.0]\nwheel_axis = [0.0, 1.0, 0.0]",
+    parameters: &[
+        Parameter::required(
+            "wheel_axis",
+            ParameterType::Direction,
+            "",
+            "Axis of the wheel at the start, global axes; it goes through the tip's place, the wheel's centre.",
+        ),
+        Parameter::optional(
+            "radius",
+            ParameterType::NotNegative,
+            "m",
+            "Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 \
+             makes a ball of radius `rim`.",
+        ),
+        Parameter::optional(
+            "rim",
+            ParameterType::NotNegative,
+            "m",
+            "Radius of the rounding of the rim; default 0, a sharp edge.",
+        ),
+        Parameter::optional(
+            "friction_coefficient",
+            ParameterType::Positive,
+            "",
+            "Coefficient of friction: a warning tells when rolling takes more; default: there is no limit.",
+        ),
+        Parameter::optional(
+            "creep",
+            ParameterType::NotNegative,
+            "m/(N s)",
+            "Velocity of sliding per force, a linear law of creep; default 0: it does not slide. Wheels that hold each other \
+             on one axle need it.",
+        ),
+    ],
+    build: Build::Relative(Frames::SpanWithAxis, |parameters, geometry| {
+        Ok(Box::new(Rolling { contact: contact(parameters, geometry)?, centre: geometry.span }))
+    }),
+};
+
+/// Gaps below this part of the wheel's size are round-off of the places given.
+const CLOSED: f64 = 1e-6;
+
+fn contact(parameters: &Parameters, geometry: &Geometry) -> Result<Contact, ParameterError> {
+    let axis = parameters.vector("wheel_axis")?;
+    let axis = geometry
+        .axes
+        .apply_inverse(&axis)
+        .try_normalize(0.0)
+        .ok_or_else(|| ParameterError::new("wheel_axis", "has no direction: all its numbers are zero"))?;
+    let rim = parameters.number_or("rim", 0.0)?;
+    let height = geometry.span.z.abs();
+    if height <= 0.0 {
+        let problem =
+            "lies in the plane: its place must be the centre of the wheel, and `at` a point of the plane";
+        return Err(ParameterError::new("tip", problem));
+    }
+    let mut contact = Contact {
+        axis,
+        side: geometry.span.z.signum(),
+        radius: 0.0,
+        rim,
+        friction: parameters.number_or("friction_coefficient", f64::INFINITY)?,
+        creep: parameters.number_or("creep", 0.0)?,
+    };
+    let upright = upright(axis.z);
+    let fitting = (height - rim) / upright;
+    contact.radius = parameters.number_or("radius", fitting)?;
+    if contact.radius > 0.0 && upright < 1e-3 {
+        let problem = "is across the plane: the wheel lies flat on it, and cannot roll";
+        return Err(ParameterError::new("wheel_axis", problem));
+    }
+    let reach = contact.radius * upright + rim;
+    if !parameters.has("radius") && fitting < 0.0 {
+        let problem = format!("is {rim} m, but the wheel's centre is {height} m from the plane at the start");
+        return Err(ParameterError::new("rim", problem));
+    }
+    if (reach - height).abs() > CLOSED * height.max(reach) {
+        let problem = format!(
+            "says that the wheel's centre is {reach:.9} m from the plane, but at the start it is {height:.9} m from it: \
+             move the wheel or the plane's point `at`, or leave `radius` out"
+        );
+        return Err(ParameterError::new("radius", problem));
+    }
+    Ok(contact)
+}
+
+/// The distance of a wheel from a plane.
+#[derive(Clone, Copy, Debug)]
+pub struct Rolling {
+    contact: Contact,
+    /// The wheel's centre at the start, in the base's axes [m].
+    centre: Vector3,
+}
+
+impl Joint for Rolling {
+    const MOST: usize = 1;
+
+    fn equations(&self) -> &'static [&'static str] {
+        &["distance from the plane"]
+    }
+
+    fn contact(&self) -> Option<Contact> {
+        Some(self.contact)
+    }
+
+    /// Side of the plane, radius, axis.
+    fn numbers(&self) -> [f64; MOST_NUMBERS] {
+        let Contact { axis, side, radius, .. } = self.contact;
+        let mut numbers = [0.0; MOST_NUMBERS];
+        numbers[..5].copy_from_slice(&[side, radius, axis.x, axis.y, axis.z]);
+        numbers
+    }
+
+    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+        ([0.0; MOST_COORDINATES], Motion::new(Rotation::identity(), self.centre))
+    }
+
+    /// Measured from the start, where the wheel touches to the accuracy of the places given.
+    fn violation(&self, relative: &Relative, _: &Own) -> Equations {
+        let Contact { axis, side, radius, .. } = self.contact;
+        let cosine = relative.rotation.row(2).transpose().dot(&axis);
+        let mut out = Equations::default();
+        out[0] = side * (relative.position.z - self.centre.z) - radius * (upright(cosine) - upright(axis.z));
+        out
+    }
+
+    #[inline(always)]
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        _: &OwnMoved<R>,
+        numbers: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS] {
+        let [side, radius, x, y, z, ..] = *numbers;
+        let axis = Triple::new(x, y, z);
+        let before = row(&moved.start_rotation, 2).dot(axis);
+        let change = row(&moved.rotation_change, 2).dot(axis);
+        let after = before + change;
+        // ΔS = -(u₀ + u) Δu/(S₀ + S)
+        let lower = radius * (before + after) * change / (upright(before) + upright(after));
+        let zero = change.like(0.0);
+        [side * moved.position_change.z + lower, zero, zero, zero, zero, zero]
+    }
+
+    #[inline(always)]
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        _: &OwnMoved<R>,
+        numbers: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let [side, radius, x, y, z, ..] = *numbers;
+        let axis = Triple::new(x, y, z);
+        let normal = row(&moved.rotation(), 2);
+        let cosine = normal.dot(axis);
+        let lever = mu[0] * radius * cosine / upright(cosine);
+        let zero = mu[0].like(0.0);
+        (Screw::new(normal * (side * mu[0]), axis.cross(normal) * lever), [zero; MOST_COORDINATES])
+    }
+
+    fn gradient(&self, relative: &Relative, _: &Own, out: &mut Gradient) {
+        let Contact { axis, side, radius, .. } = self.contact;
+        let normal = relative.rotation.row(2).transpose();
+        let cosine = normal.dot(&axis);
+        let moment = radius * cosine / upright(cosine) * axis.cross(&normal);
+        for j in 0..3 {
+            out.relative[(0, j)] = side * normal[j];
+            out.relative[(0, 3 + j)] = moment[j];
+        }
+    }
+
+    fn curvature(&self, relative: &Relative, _: &Own, mu: &Equations, out: &mut Curvature) {
+        let Contact { axis, side, radius, .. } = self.contact;
+        let normal = relative.rotation.row(2).transpose();
+        let cosine = normal.dot(&axis);
+        let upright = upright(cosine);
+        let turned = skew(&normal);
+        // d(u/S)/du = 1/S³ but for the round-off that S is kept away from zero with.
+        let slope = (1.0 + cosine * cosine / (upright * upright)) / upright;
+        let tilting = slope * axis.cross(&normal) * (axis.transpose() * turned)
+            + cosine / upright * skew(&axis) * turned;
+        let mut force = out.fixed_view_mut::<3, 3>(0, 3);
+        force += side * mu[0] * turned;
+        let mut moment = out.fixed_view_mut::<3, 3>(3, 3);
+        moment += mu[0] * radius * tilting;
+    }
+}

@@ -1,0 +1,42 @@
+//! What wheels that roll ask of the plane: no more than it can give.
+
+use super::Warning;
+use crate::elements::rolling::Rolling;
+use crate::system::{State, System};
+
+/// Forces below this part of the largest multiplier are round-off.
+const ROUND_OFF: f64 = 1e-9;
+
+/// Adds the first wheel that the plane would have to pull, or that would slide, if no other was told.
+pub(crate) fn tell(system: &System, state: &State, warnings: &mut Vec<Warning>) {
+    if let Some(doubt) = doubt(system, state)
+        && warnings.iter().all(|known| known.code() != doubt.code())
+    {
+        warnings.push(doubt);
+    }
+}
+
+fn doubt(system: &System, state: &State) -> Option<Warning> {
+    let largest = || state.multipliers.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    system.joints().iter().find_map(|joint| {
+        let contact = joint.joint().contact()?;
+        // The multiplier is the force that pulls the wheel to the plane.
+        let normal = -state.multipliers[joint.first_multiplier];
+        let (time, joint_name) = (state.kinematics.time, joint.name.clone());
+        if normal < -ROUND_OFF * largest() {
+            return Some(Warning::WheelLifts { time, joint: joint_name, force: -normal });
+        }
+        if contact.friction.is_infinite() {
+            return None;
+        }
+        let wrench = Rolling::new(joint.frames, joint.impulses.clone(), contact).wrench(&state.kinematics);
+        let friction = wrench.fixed_rows::<3>(0).norm();
+        let is_round_off = friction <= ROUND_OFF * largest();
+        (friction > contact.friction * normal && !is_round_off).then_some(Warning::WheelSlides {
+            time,
+            joint: joint_name,
+            friction,
+            normal,
+        })
+    })
+}

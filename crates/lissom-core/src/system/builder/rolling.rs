@@ -1,0 +1,41 @@
+//! Joints that roll: impulses, and the element with the constraint between velocities.
+
+use super::{Builder, Coordinate};
+use crate::elements::rolling::Rolling;
+use crate::joints::Quantity;
+use crate::joints::attached::CarriedFrame;
+use crate::joints::contact::Contact;
+use crate::system::state::{CoordinateId, NodeId};
+
+/// A coordinate whose rate is the force of a constraint between velocities.
+pub(super) struct Impulse {
+    pub(super) coordinate: CoordinateId,
+    /// Nodes whose velocities are constrained: they are eliminated before it.
+    pub(super) nodes: [NodeId; 2],
+}
+
+impl Builder {
+    /// Adds the element that keeps a contact from sliding, and impulses where it does not creep.
+    pub(super) fn add_rolling(
+        &mut self,
+        joint: &str,
+        frames: [CarriedFrame; 2],
+        contact: Contact,
+    ) -> Vec<CoordinateId> {
+        let directions: &[&str] = if contact.creep > 0.0 { &[] } else { &["first", "second"] };
+        let impulses = directions.iter().map(|direction| {
+            self.coordinates.push(Coordinate {
+                name: format!("{joint}, rolling along the {direction} axis"),
+                value: 0.0,
+                quantity: Quantity::State,
+            });
+            let coordinate = self.coordinates.len() - 1;
+            self.impulses.push(Impulse { coordinate, nodes: frames.map(|frame| frame.node) });
+            coordinate
+        });
+        let impulses: Vec<CoordinateId> = impulses.collect();
+        self.add_element(Rolling::new(frames, impulses.clone(), contact));
+        self.last = None;
+        impulses
+    }
+}
