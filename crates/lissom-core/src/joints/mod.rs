@@ -28,6 +28,7 @@ pub mod point_in_plane;
 pub mod point_on_line;
 pub mod prescribed;
 pub mod prescribed_displacement;
+pub mod prescribed_motion;
 pub mod prescribed_rotation;
 pub mod primitives;
 pub mod prismatic;
@@ -352,6 +353,8 @@ pub enum Build {
     Relative(Frames, MakeJoint),
     /// Prescribes an algebraic coordinate of another joint, of this quantity, as a function of time.
     Coordinate(Quantity, fn(&Parameters) -> Result<Function, ParameterError>),
+    /// Prescribes the whole motion of a node relative to another.
+    Motion,
     /// Relates algebraic coordinates of other joints.
     Coupling(Coupled, MakeRelation),
 }
@@ -388,6 +391,7 @@ pub static KINDS: &[JointKind] = &[
     point_in_plane::KIND,
     point_on_line::KIND,
     prescribed_displacement::KIND,
+    prescribed_motion::KIND,
     prescribed_rotation::KIND,
     prismatic::KIND,
     revolute::KIND,

@@ -3,6 +3,7 @@
 
 mod coupling;
 mod drawn;
+mod motion;
 mod rolling;
 
 use std::sync::Arc;

@@ -210,6 +210,9 @@ fn all_joints() {
                 Build::Relative(..) => {
                     builder.add_joint("joint", kind, &placement, &parameters).expect("valid");
                 }
+                Build::Motion => {
+                    builder.add_motion("motion", &placement, &parameters).expect("valid");
+                }
                 Build::Coordinate(wanted, _) => {
                     let coordinates = builder
                         .add_joint(

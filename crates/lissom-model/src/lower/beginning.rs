@@ -27,11 +27,13 @@ pub(super) fn drives(
     let mut warnings = Vec::new();
     let moves = matches!(document.analysis.kind, AnalysisKind::Dynamics { .. });
     for drive in system.drives() {
-        let Some(component) = document.joints.iter().find(|joint| joint.name.value == drive.name) else {
+        // The drive of one component of a motion is called after both.
+        let (owner, part) = drive.name.split_once(", ").map_or((&*drive.name, None), |(a, b)| (a, Some(b)));
+        let Some(component) = document.joints.iter().find(|joint| joint.name.value == owner) else {
             continue;
         };
         if moves && !document.starts_in_equilibrium() {
-            problems.extend(begins_elsewhere(component, system, drive, state));
+            problems.extend(begins_elsewhere((component, part), system, drive, state));
         }
         if moves {
             warnings.extend(jumps(component, drive, (document.analysis.start, document.analysis.end)));
@@ -48,7 +50,12 @@ fn key(quantity: Quantity) -> &'static str {
     }
 }
 
-fn begins_elsewhere(component: &Component, system: &System, drive: &Drive, state: &State) -> Option<Problem> {
+fn begins_elsewhere(
+    (component, part): (&Component, Option<&str>),
+    system: &System,
+    drive: &Drive,
+    state: &State,
+) -> Option<Problem> {
     let own = state.kinematics.coordinates[drive.prescribed.coordinate].value;
     let wanted = drive.prescribed.value.value(state.kinematics.time);
     let distance = (wanted - own).abs();
@@ -57,7 +64,7 @@ fn begins_elsewhere(component: &Component, system: &System, drive: &Drive, state
         return None;
     }
     let quantity = system.layout().coordinate_quantity(drive.prescribed.coordinate);
-    let (unit, key) = (if quantity == Quantity::Angle { "rad" } else { "m" }, key(quantity));
+    let (unit, key) = (if quantity == Quantity::Angle { "rad" } else { "m" }, part.unwrap_or(key(quantity)));
     let message = format!(
         "the drive `{}` starts at {wanted} {unit}, but its joint stands at {own} {unit} at t = {} s",
         drive.name, state.kinematics.time

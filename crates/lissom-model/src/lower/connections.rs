@@ -27,7 +27,7 @@ pub(super) fn add(
                 continue;
             };
             let own = match kind.build {
-                Build::Relative(..) => 0,
+                Build::Relative(..) | Build::Motion => 0,
                 Build::Coordinate(..) => 1,
                 Build::Coupling(..) => 2,
             };
@@ -80,7 +80,7 @@ fn joint(
         Attachment::JointCoordinate { joint } => {
             let wanted = match kind.build {
                 Build::Coordinate(wanted, _) => wanted,
-                Build::Relative(..) | Build::Coupling(..) => Quantity::Angle,
+                Build::Relative(..) | Build::Motion | Build::Coupling(..) => Quantity::Angle,
             };
             let coordinate = coordinate(component, joint, wanted, builder, names)?;
             builder.add_drive(name, kind, coordinate, &component.parameters).map_err(fault)?;
@@ -115,7 +115,16 @@ fn joint(
     let on_tip = component.on_tip.as_ref().map(|place| &place.value);
     let on_tip = on_tip.map(|&OnTip { at, axis, second_axis }| PlaceOnTip { at, axis, second_axis });
     let placed = (&placement, on_tip.as_ref());
-    let coordinates = builder.add_joint_apart(name, kind, placed, &component.parameters).map_err(fault)?;
+    let parameters = &component.parameters;
+    let added = match kind.build {
+        Build::Motion if on_tip.is_some() => {
+            let message = format!("the motion `{name}` begins where the parts are placed");
+            return Err(Problem::error(component.name.span, message).help("leave out what is said of the tip"));
+        }
+        Build::Motion => builder.add_motion(name, &placement, parameters),
+        _ => builder.add_joint_apart(name, kind, placed, parameters),
+    };
+    let coordinates = added.map_err(fault)?;
     names.coordinates.insert(name.clone(), coordinates);
     Ok(())
 }

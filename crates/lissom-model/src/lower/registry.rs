@@ -54,7 +54,9 @@ fn joint(kind: &JointKind) -> KindEntry {
         Build::Relative(Frames::Point, _) => ActsOn::TwoNodes(FrameRule::None),
         Build::Relative(Frames::Axis | Frames::SpanWithAxis, _) => ActsOn::TwoNodes(FrameRule::Axis),
         Build::Relative(Frames::TwoAxes, _) => ActsOn::TwoNodes(FrameRule::TwoAxes),
-        Build::Relative(Frames::GivenOrGlobalAxes, _) => ActsOn::TwoNodes(FrameRule::GivenOrGlobal),
+        Build::Relative(Frames::GivenOrGlobalAxes, _) | Build::Motion => {
+            ActsOn::TwoNodes(FrameRule::GivenOrGlobal)
+        }
         Build::Relative(Frames::Span, _) => ActsOn::TwoPlaces,
         Build::Coordinate(quantity, _) => ActsOn::JointCoordinate(quantity),
         Build::Coupling(Coupled::Two, _) => ActsOn::TwoJointCoordinates,

@@ -88,6 +88,7 @@ fn joint(kind: &str) -> Option<Drawn> {
         "rolling" => {
             Solids(|[_, t]| [Vec::new(), vec![t.ring(1.5, 0.2, 0.0, Dark), t.cylinder(0, 0.3, 0.6, Light)]])
         }
+        "prescribed_motion" => Solids(|[b, _]| base([b.arrow(Drive), b.turn(Drive)].concat())),
         "prescribed_rotation" => Solids(|[b, _]| base(b.turn(Drive))),
         "prescribed_displacement" => Solids(|[b, _]| base(b.arrow(Drive))),
         "gear" => Solids(|[b, t]| [wheel(b), wheel(t)]),

@@ -415,6 +415,43 @@ class PrescribedDisplacement(Joint):
 
 
 @dataclass(kw_only=True, slots=True)
+class PrescribedMotion(Joint):
+    """Prescribes displacements and rotations of the tip as functions of time; those that are not given are held.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction of x at the start, global axes; default: global x; three numbers, not all zero, or nothing.
+        second_axis: direction of y at the start, global axes; default: global y; three numbers, not all zero, or nothing.
+        x: Displacement along `axis` from the start [m]; a function of time, or nothing.
+        y: Displacement along `second_axis` [m]; a function of time, or nothing.
+        z: Displacement across both [m]; a function of time, or nothing.
+        rx: Rotation about `axis` from the start [rad]; a function of time, or nothing.
+        ry: Rotation about `second_axis` as turned by `rx` [rad]; a function of time, or nothing.
+        rz: Rotation about the third axis as turned by `rx` and `ry` [rad]; a function of time, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "prescribed_motion"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector | None = None
+    second_axis: Vector | None = None
+    x: Function | None = None
+    y: Function | None = None
+    z: Function | None = None
+    rx: Function | None = None
+    ry: Function | None = None
+    rz: Function | None = None
+    friction: Table | None = None
+
+
+@dataclass(kw_only=True, slots=True)
 class PrescribedRotation(Joint):
     """Prescribes a joint's relative rotation as a function of time.
 
@@ -512,6 +549,39 @@ class RigidLink(Joint):
     at: Place | None = None
     friction: Table | None = None
     at_tip: Place | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Rolling(Joint):
+    """A wheel, disc or ball rolls on a plane of the base without sliding and without leaving it.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        wheel_axis: Axis of the wheel at the start, global axes; it goes through the tip's place, the wheel's centre; three numbers, not all zero.
+        radius: Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 makes a ball of radius `rim` [m]; a number ≥ 0, or nothing.
+        rim: Radius of the rounding of the rim; default 0, a sharp edge [m]; a number ≥ 0, or nothing.
+        friction_coefficient: Coefficient of friction: a warning tells when rolling takes more; default: there is no limit; a number > 0, or nothing.
+        creep: Velocity of sliding per force, a linear law of creep; default 0: it does not slide. Wheels that hold each other on one axle need it [m/(N s)]; a number ≥ 0, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "rolling"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    wheel_axis: Vector
+    radius: Number | None = None
+    rim: Number | None = None
+    friction_coefficient: Number | None = None
+    creep: Number | None = None
+    friction: Table | None = None
 
 
 @dataclass(kw_only=True, slots=True)

@@ -304,6 +304,37 @@ entry! {
 }
 
 entry! {
+    /// Prescribes displacements and rotations of the tip as functions of time; those that are not given are held.
+    PrescribedMotion => JointId, "prescribed_motion";
+    ["kind" = "prescribed_motion"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    new(base: Node = "base", tip: Node = "tip")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Direction of x at the start, global axes; default: global x.
+    axis: [f64; 3] = "axis";
+    /// Direction of y at the start, global axes; default: global y.
+    second_axis: [f64; 3] = "second_axis";
+    /// Displacement along `axis` from the start \[m\].
+    x: Function = "x";
+    /// Displacement along `second_axis` \[m\].
+    y: Function = "y";
+    /// Displacement across both \[m\].
+    z: Function = "z";
+    /// Rotation about `axis` from the start \[rad\].
+    rx: Function = "rx";
+    /// Rotation about `second_axis` as turned by `rx` \[rad\].
+    ry: Function = "ry";
+    /// Rotation about the third axis as turned by `rx` and `ry` \[rad\].
+    rz: Function = "rz";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+entry! {
     /// Prescribes a joint's relative rotation as a function of time.
     PrescribedRotation => JointId, "prescribed_rotation";
     ["kind" = "prescribed_rotation"]
@@ -375,6 +406,31 @@ entry! {
     friction: Friction = "friction";
     /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
     at_tip: [f64; 3] = "at_tip";
+}
+
+entry! {
+    /// A wheel, disc or ball rolls on a plane of the base without sliding and without leaving it.
+    Rolling => JointId, "rolling";
+    ["kind" = "rolling"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    /// - `wheel_axis`: Axis of the wheel at the start, global axes; it goes through the tip's place, the wheel's centre
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", wheel_axis: [f64; 3] = "wheel_axis")
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 makes a ball of radius `rim` \[m\].
+    radius: f64 = "radius";
+    /// Radius of the rounding of the rim; default 0, a sharp edge \[m\].
+    rim: f64 = "rim";
+    /// Coefficient of friction: a warning tells when rolling takes more; default: there is no limit.
+    friction_coefficient: f64 = "friction_coefficient";
+    /// Velocity of sliding per force, a linear law of creep; default 0: it does not slide. Wheels that hold each other on one axle need it \[m/(N s)\].
+    creep: f64 = "creep";
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
 }
 
 entry! {

@@ -1,0 +1,46 @@
+//! Prescribed motion: displacements and rotations of the tip relative to the base are functions of time, as of a shaking
+//! table or a platform on the ground.
+//!
+//! ```text
+//! R = Rx(rx) Ry(ry) Rz(rz),      x = (x, y, z) in the base's axes
+//! ```
+//!
+//! Built of joints that are there: slides along the axes, then hinges about them, one after the other with frames without
+//! mass between them, each with a drive. What is not given is held, so that the reaction has all six components.
+
+use super::{Build, JointKind, Quantity};
+use crate::registry::{Parameter, ParameterType};
+
+/// The components, in the order in which they move.
+pub const COMPONENTS: [(&str, Quantity); 6] = [
+    ("x", Quantity::Length),
+    ("y", Quantity::Length),
+    ("z", Quantity::Length),
+    ("rx", Quantity::Angle),
+    ("ry", Quantity::Angle),
+    ("rz", Quantity::Angle),
+];
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "prescribed_motion",
+    summary: "Prescribes displacements and rotations of the tip as functions of time; those that are not given are held.",
+    sample: "x = \"0.01*sin(2*pi*t)\"\nrz = \"0.1*t^2\"",
+    parameters: &[
+        displacement("x", "Displacement along `axis` from the start."),
+        displacement("y", "Displacement along `second_axis`."),
+        displacement("z", "Displacement across both."),
+        rotation("rx", "Rotation about `axis` from the start."),
+        rotation("ry", "Rotation about `second_axis` as turned by `rx`."),
+        rotation("rz", "Rotation about the third axis as turned by `rx` and `ry`."),
+    ],
+    build: Build::Motion,
+};
+
+const fn displacement(name: &'static str, summary: &'static str) -> Parameter {
+    Parameter::optional(name, ParameterType::Function, "m", summary)
+}
+
+const fn rotation(name: &'static str, summary: &'static str) -> Parameter {
+    Parameter::optional(name, ParameterType::Function, "rad", summary)
+}

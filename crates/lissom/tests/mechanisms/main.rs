@@ -1,0 +1,6 @@
+//! Mechanisms against closed forms and other programs.
+
+mod prescribed_motion;
+mod rolling;
+#[path = "../support/runs.rs"]
+mod runs;
