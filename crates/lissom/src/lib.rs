@@ -123,6 +123,7 @@ mod folder;
 mod folder_page;
 pub mod geometry;
 pub mod gradient;
+pub mod import;
 pub mod linearize;
 mod model;
 pub mod modes;

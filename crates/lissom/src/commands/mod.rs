@@ -8,6 +8,7 @@ mod explain;
 mod export;
 mod fmu;
 mod gradient;
+mod import;
 mod kinds;
 mod linearize;
 mod live;
@@ -136,6 +137,7 @@ enum Command {
     Sweep(sweep::SweepCommand),
     Live(live::Live),
     New(new::New),
+    Import(import::Import),
     Completions(completions::Completions),
     Man(completions::Man),
 }
@@ -164,6 +166,7 @@ impl Line {
             Command::Sweep(command) => command.run(),
             Command::Live(command) => command.run(),
             Command::New(command) => command.run(),
+            Command::Import(command) => command.run(),
             Command::Completions(command) => Ok(command.run()),
             Command::Man(command) => command.run(),
         };

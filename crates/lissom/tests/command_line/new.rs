@@ -1,4 +1,4 @@
-//! `lissom new`, `completions` and `man`: what they write can be used.
+//! `lissom new`, `import`, `completions` and `man`: what they write can be used.
 
 use std::fs;
 
@@ -28,6 +28,28 @@ fn a_new_model_runs_as_it_is() {
     let across = ["y", "z"].map(|letter| record.column("slider", letter).unwrap());
     assert!(across.iter().all(|values| values.iter().all(|value| value.abs() < 1e-9)));
     assert!(Vector3::new(ends[0], 0.0, 0.0).norm() > 0.2);
+}
+
+#[test]
+fn an_imported_robot_runs_as_it_is() {
+    let folder = Folder::new("import");
+    folder.write("arm.urdf", include_str!("../mechanisms/robots/ur5.urdf"));
+    let made = lissom(&["import", "arm.urdf", "--position", "elbow_joint=0.5"], folder.path());
+    assert_eq!((made.code, made.errors.as_str()), (0, ""));
+    assert!(made.output.contains("6 joints that move"), "{}", made.output);
+    let run =
+        lissom(&["run", "arm.toml", "--no-plots", "--quiet", "--set", "analysis.end=0.05"], folder.path());
+    assert_eq!((run.code, run.errors.as_str()), (0, ""));
+    let table = fs::read_to_string(folder.path().join("out/arm/history.csv")).unwrap();
+    let record = lissom::Record::from_csv(&table).unwrap();
+    assert!((record.column("elbow_joint", "angle").unwrap()[0] - 0.5).abs() < 1e-12);
+    let again = lissom(&["import", "arm.urdf"], folder.path());
+    assert_eq!(again.code, 2);
+    assert!(again.errors.contains("there already"), "{}", again.errors);
+    let wrong = lissom(&["import", "arm.urdf", "--out", "b.toml", "--position", "knee=1"], folder.path());
+    assert_eq!(wrong.code, 2);
+    assert!(wrong.errors.contains("no joint `knee`"), "{}", wrong.errors);
+    assert!(!folder.path().join("b.toml").exists());
 }
 
 #[test]

@@ -1,5 +1,6 @@
 //! Mechanisms against closed forms and other programs.
 
+mod import;
 mod prescribed_motion;
 mod rolling;
 #[path = "../support/runs.rs"]

@@ -1,0 +1,95 @@
+//! `lissom import`: a model file from a robot description.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use lissom::import::{Options, Pose, from_urdf, model_text};
+use lissom::{Model, SessionError};
+use lissom_model::files;
+
+use super::{Exit, Failure};
+use crate::terminal;
+
+/// Write a model file from a robot description (URDF): bodies, joints, limits, damping and friction.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  lissom import ur5.urdf                           writes ur5.toml
+  lissom import ur5.urdf --position elbow_joint=0.5 --out elbow.toml
+  lissom import solo12.urdf --floating --without-limits")]
+pub(super) struct Import {
+    /// The description.
+    #[arg(value_name = "ROBOT.urdf")]
+    file: PathBuf,
+    /// The model file to write; default: the name of the description with the ending toml, in the folder of work.
+    #[arg(long, value_name = "MODEL.toml")]
+    out: Option<PathBuf>,
+    /// Value of a joint at the start [rad, m]; may be given for several.
+    #[arg(long = "position", value_name = "JOINT=VALUE", value_parser = joint_value)]
+    positions: Vec<(String, f64)>,
+    /// Let the root move freely instead of holding it to the ground.
+    #[arg(long)]
+    floating: bool,
+    /// Write no stops at the limits of joints.
+    #[arg(long)]
+    without_limits: bool,
+    /// Write no damping and friction of joints.
+    #[arg(long)]
+    without_friction: bool,
+    /// Let joints that mimic others move by themselves.
+    #[arg(long)]
+    without_mimic: bool,
+}
+
+fn joint_value(text: &str) -> Result<(String, f64), String> {
+    let (name, value) = text.split_once('=').ok_or("write JOINT=VALUE")?;
+    let value: f64 = value.trim().parse().map_err(|_| format!("`{value}` is no number"))?;
+    if value.is_finite() {
+        Ok((name.trim().to_owned(), value))
+    } else {
+        Err("give a finite number".to_owned())
+    }
+}
+
+impl Import {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let bad = |error: &dyn std::fmt::Display| {
+            Failure::new(Exit::BadModel, format!("`{}`: {error}", self.file.display()))
+        };
+        let stem = self.file.file_stem().unwrap_or_default();
+        let out = self.out.clone().unwrap_or_else(|| PathBuf::from(stem).with_extension("toml"));
+        if out.exists() {
+            let message = format!(
+                "`{}` is there already, and is left as it is: name another with --out",
+                out.display()
+            );
+            return Err(Failure::new(Exit::BadModel, message));
+        }
+        let text = files::read_text(&self.file).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let robot = from_urdf(&text).map_err(|error| bad(&error))?;
+        let pose = Pose { values: self.positions.iter().cloned().collect(), ..Pose::default() };
+        let options = Options {
+            floating: self.floating,
+            limits: !self.without_limits,
+            friction: !self.without_friction,
+            mimic: !self.without_mimic,
+        };
+        let model = model_text(&robot, &pose, &options).map_err(|error| bad(&error))?;
+        // What cannot start is not written.
+        match Model::from_text(&out.display().to_string(), &model).session(&[]) {
+            Ok(_) => {}
+            Err(SessionError::Model(report)) => return Err(report.into()),
+            Err(error) => return Err(bad(&error)),
+        }
+        files::write(&out, model.as_bytes()).map_err(|error| Failure::file(Exit::Failed, &error))?;
+        let moving = robot.joints.iter().filter(|joint| joint.moves()).count();
+        terminal::print(&format!(
+            "{} is written: {} links, {moving} joints that move. Next:\n  lissom view {} --open    simulate it and watch it \
+             move\n",
+            out.display(),
+            robot.links.len(),
+            out.display()
+        ));
+        Ok(Exit::Done)
+    }
+}

@@ -1,0 +1,238 @@
+//! URDF, the robot description of ROS: links with inertia, joints with axes, limits, friction. Shapes, transmissions and what
+//! simulators add are left out.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
+use roxmltree::{Document, Node};
+
+use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint};
+
+/// Reads a robot from the text of a URDF file.
+///
+/// # Errors
+/// If it is no URDF, a number is wrong, a link is missing, or the joints make no tree.
+pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
+    let document =
+        Document::parse(text).map_err(|error| ImportError::new(format!("this is no XML text: {error}")))?;
+    let root = document.root_element();
+    if !root.has_tag_name("robot") {
+        let message = format!("this is no URDF: its root is <{}>, not <robot>", root.tag_name().name());
+        return Err(ImportError::new(message));
+    }
+    let links = children(root, "link").map(link).collect::<Result<Vec<_>, _>>()?;
+    let mut numbers = BTreeMap::new();
+    for (number, link) in links.iter().enumerate() {
+        if numbers.insert(link.name.clone(), number).is_some() {
+            return Err(ImportError::new(format!("two links are called `{}`", link.name)));
+        }
+    }
+    // Transmissions and simulators have elements of the same name elsewhere: only those of the robot itself count.
+    let joints = children(root, "joint").map(|node| joint(node, &numbers)).collect::<Result<Vec<_>, _>>()?;
+    let name = root.attribute("name").unwrap_or("robot").to_owned();
+    in_order(Robot { name, links, joints })
+}
+
+/// Puts the root first and joints behind those that carry them.
+fn in_order(robot: Robot) -> Result<Robot, ImportError> {
+    let Robot { name, links, joints } = robot;
+    let mut names = BTreeSet::new();
+    let mut carrier: Vec<Option<usize>> = vec![None; links.len()];
+    for (number, joint) in joints.iter().enumerate() {
+        if !names.insert(&joint.name) {
+            return Err(ImportError::new(format!("two joints are called `{}`", joint.name)));
+        }
+        if let Some(other) = carrier[joint.child].replace(number) {
+            let message = format!(
+                "link `{}` hangs on both `{}` and `{}`: a URDF is a tree",
+                links[joint.child].name, joints[other].name, joint.name
+            );
+            return Err(ImportError::new(message));
+        }
+    }
+    let roots: Vec<usize> = (0..links.len()).filter(|&link| carrier[link].is_none()).collect();
+    let [root] = roots[..] else {
+        let named: Vec<&str> = roots.iter().map(|&link| links[link].name.as_str()).collect();
+        let message = match roots.len() {
+            0 => "every link hangs on another: there is no root".to_owned(),
+            _ => format!("several links hang on none, and only one can be the root: {}", named.join(", ")),
+        };
+        return Err(ImportError::new(message));
+    };
+    let mut order = vec![root];
+    let mut sorted = Vec::new();
+    let mut next = 0;
+    while let Some(&parent) = order.get(next) {
+        for (number, joint) in joints.iter().enumerate().filter(|(_, joint)| joint.parent == parent) {
+            order.push(joint.child);
+            sorted.push(number);
+        }
+        next += 1;
+    }
+    if order.len() != links.len() {
+        let lost = (0..links.len()).find(|link| !order.contains(link)).map_or("", |link| &links[link].name);
+        return Err(ImportError::new(format!("link `{lost}` hangs on itself by a loop of joints")));
+    }
+    let mut place = vec![0; links.len()];
+    order.iter().enumerate().for_each(|(new, &old)| place[old] = new);
+    let moved = |joint: &RobotJoint| RobotJoint {
+        parent: place[joint.parent],
+        child: place[joint.child],
+        ..joint.clone()
+    };
+    Ok(Robot {
+        name,
+        joints: sorted.iter().map(|&number| moved(&joints[number])).collect(),
+        links: order.iter().map(|&link| links[link].clone()).collect(),
+    })
+}
+
+fn children<'a>(node: Node<'a, 'a>, tag: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
+    node.children().filter(move |child| child.has_tag_name(tag))
+}
+
+fn child<'a>(node: Node<'a, 'a>, tag: &'static str) -> Option<Node<'a, 'a>> {
+    children(node, tag).next()
+}
+
+fn line(node: Node<'_, '_>) -> u32 {
+    node.document().text_pos_at(node.range().start).row
+}
+
+fn name(node: Node<'_, '_>) -> Result<String, ImportError> {
+    let missing =
+        || ImportError::new(format!("line {}: <{}> has no name", line(node), node.tag_name().name()));
+    node.attribute("name").map(str::to_owned).ok_or_else(missing)
+}
+
+/// Numbers of an attribute.
+fn numbers<const N: usize>(node: Node<'_, '_>, key: &str) -> Result<Option<[f64; N]>, ImportError> {
+    let Some(text) = node.attribute(key) else { return Ok(None) };
+    let parts: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse).collect();
+    let values = parts.ok().filter(|values| values.iter().all(|value| value.is_finite()));
+    values.and_then(|values| values.try_into().ok()).map(Some).ok_or_else(|| {
+        let message = format!("line {}: `{key}` must be {N} finite numbers, and is `{text}`", line(node));
+        ImportError::new(message)
+    })
+}
+
+fn number(node: Node<'_, '_>, key: &str) -> Result<Option<f64>, ImportError> {
+    Ok(numbers::<1>(node, key)?.map(|[value]| value))
+}
+
+fn required(node: Node<'_, '_>, key: &str) -> Result<f64, ImportError> {
+    number(node, key)?.ok_or_else(|| {
+        ImportError::new(format!("line {}: <{}> has no `{key}`", line(node), node.tag_name().name()))
+    })
+}
+
+/// A frame by `xyz` and by `rpy`: rotations about the fixed axes x, y, z one after the other.
+fn origin(node: Node<'_, '_>) -> Result<Motion, ImportError> {
+    let Some(node) = child(node, "origin") else { return Ok(Motion::identity()) };
+    let [roll, pitch, yaw] = numbers::<3>(node, "rpy")?.unwrap_or_default();
+    let position = Vector3::from(numbers::<3>(node, "xyz")?.unwrap_or_default());
+    let rotation = Rotation::about_axis(&Vector3::z(), yaw)
+        * Rotation::about_axis(&Vector3::y(), pitch)
+        * Rotation::about_axis(&Vector3::x(), roll);
+    Ok(Motion::new(rotation, position))
+}
+
+fn link(node: Node<'_, '_>) -> Result<Link, ImportError> {
+    let name = name(node)?;
+    let Some(inertial) = child(node, "inertial") else { return Ok(Link { name, inertia: None }) };
+    let missing = |tag: &str| ImportError::new(format!("link `{name}`: its <inertial> has no <{tag}>"));
+    let mass = required(child(inertial, "mass").ok_or_else(|| missing("mass"))?, "value")?;
+    let tensor = child(inertial, "inertia").ok_or_else(|| missing("inertia"))?;
+    let [xx, yy, zz] = [required(tensor, "ixx")?, required(tensor, "iyy")?, required(tensor, "izz")?];
+    let [xy, xz, yz] = [
+        number(tensor, "ixy")?.unwrap_or(0.0),
+        number(tensor, "ixz")?.unwrap_or(0.0),
+        number(tensor, "iyz")?.unwrap_or(0.0),
+    ];
+    if mass < 0.0 {
+        return Err(ImportError::new(format!("link `{name}` has a negative mass, {mass} kg")));
+    }
+    let frame = origin(inertial)?;
+    let turn = frame.rotation.matrix();
+    let own = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
+    if mass == 0.0 && own.iter().all(|value| *value == 0.0) {
+        return Ok(Link { name, inertia: None });
+    }
+    let inertia = turn * own * turn.transpose();
+    Ok(Link { name, inertia: Some(LinkInertia { mass, centre: frame.position, inertia }) })
+}
+
+fn joint(node: Node<'_, '_>, links: &BTreeMap<String, usize>) -> Result<RobotJoint, ImportError> {
+    let name = name(node)?;
+    let fault = |message: String| ImportError::new(format!("joint `{name}`: {message}"));
+    let kind = node.attribute("type").ok_or_else(|| fault("it has no `type`".to_owned()))?;
+    let freedom = match kind {
+        "fixed" => Freedom::Fixed,
+        "revolute" | "continuous" => Freedom::Rotation,
+        "prismatic" => Freedom::Displacement,
+        "floating" => Freedom::Floating,
+        other => {
+            return Err(fault(format!(
+                "its type is `{other}`: known are fixed, revolute, continuous, prismatic and floating"
+            )));
+        }
+    };
+    let end = |tag: &'static str| {
+        let link = child(node, tag).and_then(|node| node.attribute("link"));
+        let link = link.ok_or_else(|| fault(format!("it has no <{tag} link=…>")))?;
+        links.get(link).copied().ok_or_else(|| fault(format!("there is no link `{link}`")))
+    };
+    let (parent, child_link) = (end("parent")?, end("child")?);
+    let axis = match child(node, "axis") {
+        Some(node) => Vector3::from(numbers::<3>(node, "xyz")?.unwrap_or([1.0, 0.0, 0.0])),
+        None => Vector3::x(),
+    };
+    let moves = matches!(freedom, Freedom::Rotation | Freedom::Displacement);
+    let axis = match axis.try_normalize(0.0) {
+        Some(axis) => axis,
+        None if moves => return Err(fault("its axis has no direction: all its numbers are zero".to_owned())),
+        None => Vector3::x(),
+    };
+    let limit = child(node, "limit").filter(|_| moves);
+    let (mut range, mut effort) = (None, None);
+    if let Some(limit) = limit {
+        effort = number(limit, "effort")?;
+        if kind != "continuous" {
+            // Left out they are zero, as the format has it.
+            let ends = [number(limit, "lower")?.unwrap_or(0.0), number(limit, "upper")?.unwrap_or(0.0)];
+            if ends[0] > ends[1] {
+                return Err(fault(format!("its lower limit {} is above the upper one {}", ends[0], ends[1])));
+            }
+            range = Some(ends);
+        }
+    }
+    let dynamics = child(node, "dynamics");
+    let of_dynamics = |key: &str| -> Result<f64, ImportError> {
+        let value = dynamics.map_or(Ok(None), |node| number(node, key))?.unwrap_or(0.0);
+        if value < 0.0 { Err(fault(format!("its {key} is negative: {value}"))) } else { Ok(value) }
+    };
+    let follows = match child(node, "mimic") {
+        None => None,
+        Some(mimic) => {
+            let leader =
+                mimic.attribute("joint").ok_or_else(|| fault("its <mimic> names no joint".to_owned()))?;
+            let factor = number(mimic, "multiplier")?.unwrap_or(1.0);
+            Some((leader.to_owned(), factor, number(mimic, "offset")?.unwrap_or(0.0)))
+        }
+    };
+    let (damping, friction) = (of_dynamics("damping")?, of_dynamics("friction")?);
+    let origin = origin(node)?;
+    Ok(RobotJoint {
+        name,
+        freedom,
+        parent,
+        child: child_link,
+        origin,
+        axis,
+        range,
+        effort,
+        damping,
+        friction,
+        follows,
+    })
+}

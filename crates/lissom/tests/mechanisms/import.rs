@@ -1,0 +1,201 @@
+//! Robots from URDF files against Pinocchio 4.1: accelerations, kinetic energy and mass; a passive fall; what is refused.
+//!
+//! `robots/` has the inertias and joints of robots of the package example-robot-data 6.0.0, without their shapes, and
+//! what Pinocchio says of them.
+
+use std::fmt::Write;
+
+use crate::runs::{SCHEMES, column, last, run, set};
+use lissom::import::{Options, Pose, from_urdf, model_text};
+use lissom_motion::Vector6;
+use serde_json::Value;
+
+const REFERENCE: &str = include_str!("robots/pinocchio.json");
+const ROBOTS: [(&str, &str); 5] = [
+    ("double_pendulum", include_str!("robots/double_pendulum.urdf")),
+    ("ur5", include_str!("robots/ur5.urdf")),
+    ("panda", include_str!("robots/panda.urdf")),
+    ("z1", include_str!("robots/z1.urdf")),
+    ("solo12", include_str!("robots/solo12.urdf")),
+];
+const BARE: Options = Options { floating: false, limits: false, friction: false, mimic: false };
+
+struct Known {
+    /// Joints that move, without the floating one.
+    joints: Vec<String>,
+    q: Vec<f64>,
+    v: Vec<f64>,
+    torques: Vec<f64>,
+    accelerations: Vec<f64>,
+    kinetic_energy: f64,
+    fall: Option<Vec<f64>>,
+    root_twist: Vector6,
+}
+
+fn known(robot: &str) -> Known {
+    let reference: Value = serde_json::from_str(REFERENCE).expect("JSON");
+    let of = &reference[robot];
+    let numbers = |value: &Value| -> Vec<f64> {
+        value.as_array().map_or_else(Vec::new, |list| list.iter().filter_map(Value::as_f64).collect())
+    };
+    let names = of["joint_names"].as_array().expect("names").iter().filter_map(Value::as_str);
+    let joints: Vec<String> =
+        names.filter(|name| !["universe", "root_joint"].contains(name)).map(str::to_owned).collect();
+    let tail = |key: &str| {
+        let all = numbers(&of[key]);
+        all[all.len() - joints.len()..].to_vec()
+    };
+    let floats = numbers(&of["v"]).len() > joints.len();
+    let root_twist =
+        if floats { Vector6::from_column_slice(&numbers(&of["v"])[..6]) } else { Vector6::zeros() };
+    Known {
+        q: tail("q"),
+        v: tail("v"),
+        torques: tail("tau"),
+        accelerations: tail("forward_dynamics_acc"),
+        kinetic_energy: of["kinetic_energy"].as_f64().expect("a number"),
+        fall: of.get("fall_end").map(numbers),
+        root_twist,
+        joints,
+    }
+}
+
+fn pose(known: &Known, moves: bool) -> Pose {
+    let by_name = |values: &[f64]| known.joints.iter().cloned().zip(values.iter().copied()).collect();
+    let rates = if moves { by_name(&known.v) } else { std::collections::BTreeMap::new() };
+    Pose { values: by_name(&known.q), rates, root_twist: known.root_twist }
+}
+
+#[test]
+fn accelerations_are_those_of_pinocchio() {
+    for (name, text) in ROBOTS {
+        let (robot, known) = (from_urdf(text).expect("a robot"), known(name));
+        let options = Options { floating: name == "solo12", ..BARE };
+        let mut model = model_text(&robot, &pose(&known, true), &options).expect("a model");
+        // The torques of the root are no loads of joints: without them the whole robot would be pulled.
+        let is_free = name == "solo12";
+        for (joint, torque) in known.joints.iter().zip(&known.torques) {
+            let freedom = robot.joints.iter().find(|own| own.name == *joint).expect("there").freedom;
+            let (kind, key) = match freedom {
+                lissom::import::Freedom::Displacement => ("joint_force", "force"),
+                _ => ("joint_torque", "torque"),
+            };
+            let _ = write!(
+                model,
+                "\n[loads.of_{joint}]\nkind = \"{kind}\"\njoint = \"{joint}\"\n{key} = {torque:?}\n\
+                 [outputs.a_{joint}]\nkind = \"relative_acceleration\"\nof = \"{joint}\"\n"
+            );
+        }
+        let record = run(&model, &[set("analysis.end", "1e-3"), set("analysis.step", "1e-4")]);
+        let kinetic = column(&record, "energy", "kinetic")[0];
+        assert!(
+            (kinetic - known.kinetic_energy).abs() < 1e-10 * known.kinetic_energy,
+            "{name}: {kinetic} {}",
+            known.kinetic_energy
+        );
+        if is_free {
+            continue;
+        }
+        let largest = known.accelerations.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        for (joint, wanted) in known.joints.iter().zip(&known.accelerations) {
+            let found = column(&record, &format!("a_{joint}"), "a")[0];
+            assert!((found - wanted).abs() < 1e-9 * largest, "{name}, {joint}: {found} {wanted}");
+        }
+    }
+}
+
+#[test]
+fn a_passive_fall_ends_where_it_should() {
+    for (name, text) in ROBOTS {
+        let (robot, known) = (from_urdf(text).expect("a robot"), known(name));
+        let Some(fall) = &known.fall else { continue };
+        if name == "panda" {
+            // Its fingers are light and fast: a test of its own length.
+            continue;
+        }
+        let model = model_text(&robot, &pose(&known, false), &BARE).expect("a model");
+        for scheme in SCHEMES {
+            let (step, bound) = if scheme == "radau-iia" { ("1e-3", 1e-4) } else { ("1e-3", 2e-2) };
+            let record = run(&model, &[set("analysis.scheme", scheme), set("analysis.step", step)]);
+            for (joint, wanted) in known.joints.iter().zip(fall) {
+                let moves = robot.joints.iter().find(|own| own.name == *joint).expect("there").freedom;
+                let component =
+                    if moves == lissom::import::Freedom::Displacement { "displacement" } else { "angle" };
+                let found = last(&record, joint, component);
+                assert!((found - wanted).abs() < bound, "{name}, {scheme}, {joint}: {found} {wanted}");
+            }
+        }
+    }
+}
+
+#[test]
+fn limits_damping_and_friction_become_springs_and_followers_gears() {
+    let robot = from_urdf(
+        "<robot name='gripper'><link name='palm'/>\
+         <link name='left finger'><inertial><mass value='0.1'/><inertia ixx='1e-4' iyy='1e-4' izz='1e-4'/></inertial></link>\
+         <link name='pad'><inertial><origin xyz='0 0 0.1'/><mass value='0.1'/><inertia ixx='1e-5' iyy='1e-5' izz='1e-5'/>\
+         </inertial></link>\
+         <link name='right'><inertial><mass value='0.2'/><inertia ixx='1e-4' iyy='1e-4' izz='1e-4'/></inertial></link>\
+         <joint name='glue' type='fixed'><parent link='left finger'/><child link='pad'/><origin xyz='0 0 0.1'/></joint>\
+         <joint name='a' type='revolute'><parent link='palm'/><child link='left finger'/><axis xyz='0 1 0'/>\
+         <limit lower='-0.5' upper='0.7' effort='3' velocity='1'/><dynamics damping='0.02' friction='0.1'/></joint>\
+         <joint name='b' type='prismatic'><parent link='palm'/><child link='right'/><origin xyz='0 0.1 0'/>\
+         <axis xyz='1 0 0'/><mimic joint='a' multiplier='-0.1' offset='0.02'/></joint></robot>",
+    )
+    .expect("a robot");
+    let refused = model_text(&robot, &Pose::default(), &Options::default()).unwrap_err().to_string();
+    assert!(refused.contains("must start at 0.02"), "{refused}");
+    let pose = Pose { values: [("b".to_owned(), 0.02)].into(), ..Pose::default() };
+    let text = model_text(&robot, &pose, &Options::default()).expect("a model");
+    for line in [
+        "[bodies.left_finger]   # link left finger",
+        "mass = 0.2",
+        "center_of_mass = [0.0, 0.0, 0.1]",
+        "kind = \"torsional_stop\"",
+        "range = [-0.5, 0.7]",
+        "damping = 0.02",
+        "coulomb = 0.1",
+        "kind = \"gear\"",
+        "ratio = -0.1",
+    ] {
+        assert!(text.contains(line), "{line} is not in\n{text}");
+    }
+    assert!(!text.contains("[bodies.pad]"), "what is fixed is part of what it is fixed to");
+    let record = run(&text, &[set("analysis.end", "0.2")]);
+    let [a, b] = [last(&record, "a", "angle"), last(&record, "b", "displacement")];
+    assert!((b - 0.02 + 0.1 * a).abs() < 1e-9 && a.abs() > 1e-3, "{a} {b}");
+}
+
+#[test]
+fn wrong_descriptions_are_told() {
+    let said = |text: &str| match from_urdf(text) {
+        Ok(robot) => model_text(&robot, &Pose::default(), &Options::default()).unwrap_err().to_string(),
+        Err(error) => error.to_string(),
+    };
+    let link = "<link name='a'/>";
+    for (text, words) in [
+        ("<robot", "no XML"),
+        ("<sdf/>", "no URDF"),
+        ("<robot><link name='a'/><link name='a'/></robot>", "two links"),
+        ("<robot><link name='a'/><link name='b'/></robot>", "hang on none"),
+        (
+            "<robot><link name='a'><inertial><mass value='one'/><inertia ixx='1' iyy='1' izz='1'/></inertial></link></robot>",
+            "line 1",
+        ),
+    ] {
+        assert!(said(text).contains(words), "{}", said(text));
+    }
+    let joined =
+        |joint: &str| format!("<robot>{link}<link name='b'/><joint name='j' {joint}</joint></robot>");
+    let ends = "<parent link='a'/><child link='b'/>";
+    for (joint, words) in [
+        (format!("type='revolute'>{ends}"), "has no mass"),
+        (format!("type='ball'>{ends}"), "its type is `ball`"),
+        (format!("type='revolute'>{ends}<axis xyz='0 0 0'/>"), "no direction"),
+        ("type='fixed'><parent link='a'/><child link='c'/>".to_owned(), "no link `c`"),
+        (format!("type='revolute'>{ends}<limit lower='1' upper='-1'/>"), "above the upper"),
+    ] {
+        let found = said(&joined(&joint));
+        assert!(found.contains(words), "{found}");
+    }
+}
