@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
-use lissom::import::{Options, Pose, from_urdf, model_text};
+use clap::{Args, ValueEnum};
+use lissom::import::{Options, Pose, Root, from_urdf, model_text};
 use lissom::{Model, SessionError};
 use lissom_model::files;
 
@@ -16,7 +16,7 @@ use crate::terminal;
 Examples:
   lissom import ur5.urdf                           writes ur5.toml
   lissom import ur5.urdf --position elbow_joint=0.5 --out elbow.toml
-  lissom import solo12.urdf --floating --without-limits")]
+  lissom import solo12.urdf --floating --without limits,friction")]
 pub(super) struct Import {
     /// The description.
     #[arg(value_name = "ROBOT.urdf")]
@@ -30,15 +30,17 @@ pub(super) struct Import {
     /// Let the root move freely instead of holding it to the ground.
     #[arg(long)]
     floating: bool,
-    /// Write no stops at the limits of joints.
-    #[arg(long)]
-    without_limits: bool,
-    /// Write no damping and friction of joints.
-    #[arg(long)]
-    without_friction: bool,
-    /// Let joints that mimic others move by themselves.
-    #[arg(long)]
-    without_mimic: bool,
+    /// Leave out: stops at limits, damping and friction, joints that follow others; may be given for several.
+    #[arg(long, value_name = "WHAT", value_delimiter = ',')]
+    without: Vec<Part>,
+}
+
+/// What may be left out.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Part {
+    Limits,
+    Friction,
+    Mimic,
 }
 
 fn joint_value(text: &str) -> Result<(String, f64), String> {
@@ -69,12 +71,12 @@ impl Import {
         let robot = from_urdf(&text).map_err(|error| bad(&error))?;
         let pose = Pose { values: self.positions.iter().cloned().collect(), ..Pose::default() };
         let options = Options {
-            floating: self.floating,
-            limits: !self.without_limits,
-            friction: !self.without_friction,
-            mimic: !self.without_mimic,
+            root: if self.floating { Root::Floating } else { Root::Held },
+            limits: !self.without.contains(&Part::Limits),
+            friction: !self.without.contains(&Part::Friction),
+            mimic: !self.without.contains(&Part::Mimic),
         };
-        let model = model_text(&robot, &pose, &options).map_err(|error| bad(&error))?;
+        let model = model_text(&robot, &pose, options).map_err(|error| bad(&error))?;
         // What cannot start is not written.
         match Model::from_text(&out.display().to_string(), &model).session(&[]) {
             Ok(_) => {}

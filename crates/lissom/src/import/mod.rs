@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 
 use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
 
-pub use model_text::{Options, model_text};
+pub use model_text::{Options, Root, model_text};
 pub use urdf::from_urdf;
 
 /// Bodies in a tree of joints.

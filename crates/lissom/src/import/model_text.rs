@@ -14,11 +14,21 @@ use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6, rotation_part, 
 
 use super::{Freedom, ImportError, LinkInertia, Pose, Robot, RobotJoint};
 
+/// What becomes of the root.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Root {
+    /// It is held to the ground.
+    #[default]
+    Held,
+    /// It moves freely.
+    Floating,
+}
+
 /// What is written, and how.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Whether the root moves freely; otherwise it is held to the ground.
-    pub floating: bool,
+    /// What becomes of the root.
+    pub root: Root,
     /// Whether joints have stops at their limits.
     pub limits: bool,
     /// Whether joints have their damping and friction.
@@ -29,7 +39,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Self { floating: false, limits: true, friction: true, mimic: true }
+        Self { root: Root::Held, limits: true, friction: true, mimic: true }
     }
 }
 
@@ -52,17 +62,17 @@ struct Group {
 ///
 /// # Errors
 /// If a link that moves has no mass, if the pose names no joint of the robot, or leaves the range of one.
-pub fn model_text(robot: &Robot, pose: &Pose, options: &Options) -> Result<String, ImportError> {
+pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String, ImportError> {
     check_pose(robot, pose, options)?;
     let names = Names::of(robot);
     let (frames, twists, group_of) =
-        places(robot, pose, if options.floating { pose.root_twist } else { Vector6::zeros() });
+        places(robot, pose, if options.root == Root::Floating { pose.root_twist } else { Vector6::zeros() });
     let mut groups: Vec<Group> = Vec::new();
     let mut number = vec![0; robot.links.len()];
     for (link, own) in robot.links.iter().enumerate() {
         if group_of[link] == link {
             number[link] = groups.len();
-            let is_ground = link == 0 && !options.floating;
+            let is_ground = link == 0 && options.root == Root::Held;
             let name = if is_ground { "ground".to_owned() } else { names.links[link].clone() };
             groups.push(Group { link, name, frame: frames[link], twist: twists[link], mass: None });
         }
@@ -102,7 +112,7 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: &Options) -> Result<Strin
 }
 
 /// Refuses values of joints that do not exist or lie beyond a limit, and followers that do not follow.
-fn check_pose(robot: &Robot, pose: &Pose, options: &Options) -> Result<(), ImportError> {
+fn check_pose(robot: &Robot, pose: &Pose, options: Options) -> Result<(), ImportError> {
     for name in pose.values.keys().chain(pose.rates.keys()) {
         if !robot.joints.iter().any(|joint| joint.name == *name && joint.moves()) {
             let known: Vec<&str> =
@@ -230,7 +240,7 @@ fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
     free
 }
 
-fn header(robot: &Robot, options: &Options) -> String {
+fn header(robot: &Robot, options: Options) -> String {
     let title = robot.name.replace('\\', "\\\\").replace('"', "\\\"");
     let mut text = String::new();
     let _ = write!(
@@ -314,7 +324,7 @@ fn write_joint(
 }
 
 /// Stops, damping and friction of a joint.
-fn write_resistance(text: &mut String, joint: &RobotJoint, name: &str, options: &Options) {
+fn write_resistance(text: &mut String, joint: &RobotJoint, name: &str, options: Options) {
     let word = match joint.freedom {
         Freedom::Rotation => "torsional",
         Freedom::Displacement => "axial",

@@ -33,7 +33,7 @@ fn a_new_model_runs_as_it_is() {
 #[test]
 fn an_imported_robot_runs_as_it_is() {
     let folder = Folder::new("import");
-    folder.write("arm.urdf", include_str!("../mechanisms/robots/ur5.urdf"));
+    folder.write("arm.urdf", include_str!("../machines/robots/ur5.urdf"));
     let made = lissom(&["import", "arm.urdf", "--position", "elbow_joint=0.5"], folder.path());
     assert_eq!((made.code, made.errors.as_str()), (0, ""));
     assert!(made.output.contains("6 joints that move"), "{}", made.output);

@@ -1,0 +1,128 @@
+//! The models of `docs/gallery.md`, each against a formula.
+
+use std::f64::consts::PI;
+
+use crate::runs::{column, last, run};
+
+macro_rules! model {
+    ($name:literal) => {
+        include_str!(concat!("../../../../examples/", $name, ".toml"))
+    };
+}
+
+const GRAVITY: f64 = 9.81;
+
+fn close(found: f64, wanted: f64, tolerance: f64, what: &str) {
+    assert!((found - wanted).abs() < tolerance, "{what}: {found}, not {wanted}");
+}
+
+/// x = r cos θ + (l² - r² sin² θ)^½, and at the outer dead centre x'' = -r ω² (1 + r/l).
+#[test]
+fn the_piston_moves_as_its_mechanism_says() {
+    let record = run(model!("slider-crank-3500rpm"), &[]);
+    let (crank, rod, speed) = (0.045, 0.15, 3500.0 * 2.0 * PI / 60.0);
+    let place = column(&record, "piston", "x");
+    for (time, x) in record.times.iter().zip(&place) {
+        let (sine, cosine) = (speed * time).sin_cos();
+        let wanted = crank * cosine + (rod * rod - (crank * sine).powi(2)).sqrt();
+        close(*x, wanted, 1e-10, "piston");
+    }
+    let acceleration = column(&record, "piston_acceleration", "a1");
+    let wanted = -crank * speed * speed * (1.0 + crank / rod);
+    for turn in 0..4 {
+        // Within what 200 steps per turn resolve: 6.7e-4, a quarter of that with half the step.
+        close(acceleration[turn * 200], wanted, 7e-4 * wanted.abs(), "acceleration at the dead centre");
+    }
+}
+
+/// The springs keep pulling at the latches: k_s (3π/4 - φ) = k (φ - π/2). Nothing turns the satellite from outside.
+#[test]
+fn booms_latch_and_the_angular_momentum_stays_zero() {
+    let record = run(model!("satellite-latching-booms"), &[]);
+    let wanted = (0.4 * 0.75 * PI + 4e3 * 0.5 * PI) / 4000.4;
+    for hinge in ["left_hinge", "right_hinge"] {
+        close(last(&record, hinge, "angle"), wanted, 1e-7, hinge);
+        close(last(&record, hinge, "rate"), 0.0, 1e-7, hinge);
+    }
+    let momentum = column(&record, "momentum", "l3");
+    assert!(momentum.iter().all(|l| l.abs() < 1e-7), "{momentum:?}");
+    // The hub has turned against the booms.
+    assert!(last(&record, "hub", "r3").abs() > 0.01);
+}
+
+#[test]
+fn a_load_in_a_slack_cable_jerks_as_its_energy_says() {
+    let record = run(model!("crane-slack-cable"), &[]);
+    let force = column(&record, "cable", "force");
+    let (mass, stiffness, drop) = (500.0, 4e5, 0.6);
+    let weight = mass * GRAVITY;
+    let wanted = weight * (1.0 + (1.0 + 2.0 * stiffness * drop / weight).sqrt());
+    let most = force.iter().fold(0.0_f64, |most, force| most.max(*force));
+    // Records do not meet the peak itself.
+    close(most, wanted, 1e-3 * wanted, "jerk");
+    assert!(force.iter().all(|force| *force >= 0.0), "a cable does not push");
+    for ((time, z), force) in record.times.iter().zip(column(&record, "load", "z")).zip(&force) {
+        if *time < (2.0 * drop / GRAVITY).sqrt() {
+            close(z, -7.4 - 0.5 * GRAVITY * time * time, 1e-8, "free fall");
+            assert!(*force == 0.0, "slack at {time}");
+        }
+    }
+}
+
+#[test]
+fn rotors_rattle_in_their_backlash_with_the_period_of_the_formula() {
+    let record = run(model!("gearbox-backlash"), &[]);
+    let (play, speed, inertia, stiffness) = (0.05_f64, 1.0, 0.02_f64, 2e4);
+    let wanted = 2.0 * play / speed + 2.0 * PI * (inertia / (2.0 * stiffness)).sqrt();
+    let (times, rate) = (&record.times, column(&record, "coupling", "rate"));
+    let rising: Vec<f64> = (1..rate.len())
+        .filter(|&k| rate[k - 1] < 0.0 && rate[k] >= 0.0)
+        .map(|k| times[k] - rate[k] * (times[k] - times[k - 1]) / (rate[k] - rate[k - 1]))
+        .collect();
+    assert!(rising.len() > 8, "{rising:?}");
+    let period = (rising[rising.len() - 1] - rising[0]) / (rising.len() - 1) as f64;
+    close(period, wanted, 5e-5 * wanted, "period");
+    let sum = last(&record, "driver", "w3") + last(&record, "driven", "w3");
+    close(sum, speed, 1e-9, "angular momentum");
+}
+
+/// I ζ'' + c ζ' + Ω² e S ζ = 0, for swings of a hundredth.
+#[test]
+fn a_blade_swings_in_lag_as_the_linear_formula_says() {
+    let record = run(model!("rotor-lag-damper"), &[]);
+    let (mass, length, offset, speed, damper, start) = (40.0_f64, 4.75, 0.25, 30.0, 1000.0, 0.01);
+    let (inertia, moment) = (mass * length * length / 3.0, mass * length / 2.0);
+    let decay = damper / (2.0 * inertia);
+    let own = (speed * speed * offset * moment / inertia - decay * decay).sqrt();
+    for (time, lag) in record.times.iter().zip(column(&record, "lag", "angle")) {
+        let (sine, cosine) = (own * time).sin_cos();
+        let wanted = start * (-decay * time).exp() * (cosine + decay / own * sine);
+        close(lag, wanted, 3e-7, "lag");
+    }
+}
+
+/// After one turn of the precession the disc is where it began; its centre has stayed on its height.
+#[test]
+fn a_coin_comes_back_after_one_turn() {
+    let record = run(model!("rolling-disc"), &[]);
+    for (axis, wanted) in [("x", 0.0), ("y", 0.0), ("z", 0.2 * 1.1_f64.sin())] {
+        close(last(&record, "disc", axis), wanted, 1e-6, axis);
+    }
+    let sideways = column(&record, "disc", "x");
+    let reach = sideways.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    // Twice the radius r |n|/Ω of the circle.
+    let (sine, cosine) = 1.1_f64.sin_cos();
+    let spin = (0.2 * 9.0 * sine * cosine - 4.0 * GRAVITY * cosine) / (6.0 * 0.2 * 3.0 * sine);
+    close(reach, 2.0 * 0.2 * spin.abs() / 3.0, 1e-6, "across its circle");
+}
+
+#[test]
+fn a_mass_on_a_shaking_table_swings_at_both_rates() {
+    let record = run(model!("shaking-table"), &[]);
+    let (own, ground, amplitude) = (12.0_f64, 8.0_f64, 0.01);
+    for (time, x) in record.times.iter().zip(column(&record, "mass", "x")) {
+        let ratio = ground / own;
+        let swing = (ground * time).sin() - ratio * (own * time).sin();
+        close(x - 0.5, amplitude * swing / (1.0 - ratio * ratio), 1e-6, "mass");
+    }
+}

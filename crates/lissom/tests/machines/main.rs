@@ -1,0 +1,9 @@
+//! Mechanisms against closed forms and other programs: wheels that roll, prescribed motions, robots from files, and the models of
+//! the gallery.
+
+mod gallery;
+mod import;
+mod prescribed_motion;
+mod rolling;
+#[path = "../support/runs.rs"]
+mod runs;
