@@ -13,6 +13,7 @@ mod formula;
 mod invariants;
 mod outcome;
 mod peers;
+mod random;
 mod reference;
 mod refine;
 mod report;
@@ -64,6 +65,8 @@ enum Chore {
         #[arg(long)]
         check: bool,
     },
+    /// Try random mechanisms with several schemes and steps against each other
+    Random(random::RandomArguments),
     /// Make the tables and figures of the book in docs/ anew
     Figures(FiguresArguments),
 }
@@ -178,6 +181,7 @@ fn main() -> ExitCode {
         Chore::Bench(arguments) => bench::bench(&arguments).map(|()| true).map_err(|error| error.to_string()),
         Chore::Ablate(arguments) => ablate::ablate(&arguments).map_err(|error| error.to_string()),
         Chore::Reference { check } => reference::reference(check).map_err(|error| error.to_string()),
+        Chore::Random(arguments) => random::random(&arguments).map_err(|error| error.to_string()),
         Chore::Figures(arguments) => book::figures(&arguments).map_err(|error| error.to_string()),
     };
     match outcome {
