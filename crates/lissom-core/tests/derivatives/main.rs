@@ -1,6 +1,7 @@
 //! Every registered element and joint: its tangents are the derivatives of its forces.
 
 mod configuration;
+mod departures;
 mod feedback;
 mod joint_lanes;
 mod locks;
@@ -21,6 +22,7 @@ use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
 fn check(name: &str, system: &System, state: &State, size: f64, random: &mut Random) {
     const TOLERANCE: f64 = 2e-8;
     let here = Configuration::random(system, state, size, random);
+    departures::check(name, system, Configuration::random(system, state, size, random));
     let layout = system.layout();
     let pattern = system.pattern();
     for chart in [false, true] {
