@@ -6,6 +6,13 @@ use lissom_model::lower::{lower, registry::registry};
 
 const TIP_CRANK: &str = include_str!("../../../examples/tip-crank.toml");
 
+const README: &str = include_str!("../../../README.md");
+
+/// The figure stands in the README as it was measured.
+fn assert_told(figure: &str) {
+    assert!(README.contains(figure), "README.md does not say: {figure}");
+}
+
 struct Run {
     /// Time and mid-span displacements.
     rows: Vec<[f64; 4]>,
@@ -48,6 +55,9 @@ fn lateral_buckling_sets_in_near_a_twentieth_of_a_second_with_both_schemes() {
         println!("{overrides:?}: 0.1 mm at {tenth} s, 1 mm at {one} s, {:?}", run.simulation.totals());
         assert!((0.04..0.06).contains(&tenth), "0.1 mm passed at {tenth} s");
         assert!(one < 0.08, "1 mm passed at {one} s");
+        if overrides.contains(&("analysis.scheme", "radau-iia")) {
+            assert_told(&format!("lateral displacement passes 0.1 mm at {tenth:.3} s, 1 mm at {one:.3} s"));
+        }
         let totals = run.simulation.totals();
         assert_eq!((totals.steps, totals.rejected_steps), (800, 0));
         assert!((run.rows[800][0] - 0.4).abs() < 1e-12);
@@ -55,6 +65,16 @@ fn lateral_buckling_sets_in_near_a_twentieth_of_a_second_with_both_schemes() {
         run.simulation.system().violations(&run.simulation.state().kinematics, &mut violations);
         let worst = violations.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         assert!(worst < 1e-9, "violation {worst}");
+    }
+}
+
+/// Steps and tangents beside the speeds; times belong to a machine.
+#[test]
+fn a_tangent_serves_many_steps() {
+    for step in ["1e-3", "1e-4"] {
+        let overrides = [("analysis.scheme", "hht"), ("analysis.alpha", "-0.3"), ("analysis.step", step)];
+        let totals = *run(TIP_CRANK, &overrides).simulation.totals();
+        assert_told(&format!("{} steps, {} tangents", totals.steps, totals.factorizations));
     }
 }
 
@@ -77,6 +97,7 @@ fn lateral_displacement_converges_with_the_step() {
     println!("u2(0.1 s) = {reference:.10e}");
     // Below these steps the waves that the sudden start of the crank sends through the stiff bars begin to
     // be resolved; they contribute about 1e-6 and have an order of their own.
+    let mut figures = Vec::new();
     for (scheme, steps, order, reached) in [
         ("radau-iia", ["2e-3", "1e-3", "5e-4"], 2.8, 1e-6),
         ("energy-decaying", ["2e-3", "1e-3", "5e-4"], 2.8, 1e-6),
@@ -89,7 +110,16 @@ fn lateral_displacement_converges_with_the_step() {
         assert!(total > order, "{scheme}: orders {orders:?}, errors {errors:?}");
         let fine = (last("2.5e-4", scheme) / reference - 1.0).abs();
         assert!(fine < reached, "{scheme}: error {fine} at 2.5e-4 s");
+        figures.push((total, orders[1], errors));
     }
+    let [(_, radau, of_radau), (_, decaying, of_decaying), (hht, _, of_hht)] = figures[..] else {
+        panic!("three schemes")
+    };
+    assert_told(&format!(
+        "Radau order {radau:.2}, HHT order {hht:.1}; {:.0e} and {:.1e} relative at h = 0.5 ms",
+        of_radau[2], of_hht[1]
+    ));
+    assert_told(&format!("order {decaying:.2}, {:.1e} relative at h = 0.5 ms", of_decaying[2]));
 }
 
 /// Without the sudden start the whole course converges at the order of the scheme, however stiff the bars.
@@ -143,6 +173,7 @@ fn lateral_displacement_converges_with_the_mesh() {
     let changes = [values[1] - values[0], values[2] - values[1]].map(|change| (change / values[2]).abs());
     println!("u2(0.1 s) with half, given and double mesh: {values:?}, changes {changes:?}");
     assert!(changes[1] < 1e-4 && changes[1] < 0.1 * changes[0]);
+    assert_told(&format!("{:.1e} relative from the given to the doubled mesh", changes[1]));
 }
 
 /// Static lateral buckling load of the cantilever alone under a dead tip load [Timoshenko and Gere 1961,
@@ -207,6 +238,7 @@ end = 1.0
     let found = root_of_parabola(&points[points.len() - 3..]).sqrt();
     println!("buckling load {found} N, expected {expected} N");
     assert!((found / expected - 1.0).abs() < 5e-3, "{found} against {expected}");
+    assert_told(&format!("{:.3} % above 4.013", 100.0 * (found / expected - 1.0)));
 }
 
 /// Root beyond the last of three points of the parabola through them.

@@ -65,6 +65,30 @@ fn condition_numbers_over_the_step_size() {
     assert_flat(&column(&rows, "physical"));
 }
 
+/// Least and largest of what the README prints of them.
+#[test]
+fn condition_numbers_are_those_of_the_readme() {
+    let rows = measured(&conditioning::Request {
+        steps: texts(&["1e-1", "1e-2", "1e-3", "1e-4", "1e-5"]),
+        ..Default::default()
+    });
+    let bounds = |name: &str| {
+        let values: Vec<f64> = column(&rows, name).into_iter().map(|(_, value)| value).collect();
+        [f64::INFINITY, 0.0].map(|start: f64| {
+            values
+                .iter()
+                .fold(start, |best, &value| if start > 0.0 { best.min(value) } else { best.max(value) })
+        })
+    };
+    let ([least, most], [_, by_scale], [small, large]) =
+        (bounds("equilibrated"), bounds("physical"), bounds("none"));
+    let figure = format!(
+        "{least:.1} to {most:.1} for every h from 0.1 s to 10 µs, {by_scale:.0} by `s` alone; unscaled {small:.1e} to {large:.1e}"
+    );
+    let readme = include_str!("../../../README.md");
+    assert!(readme.contains(&figure), "README.md does not say: {figure}");
+}
+
 #[test]
 fn condition_numbers_over_the_mass() {
     let values = texts(&["1e-2", "1e-1", "1", "1e1", "1e2", "1e3", "1e4"]);
