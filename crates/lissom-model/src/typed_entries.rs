@@ -37,19 +37,17 @@ pub fn typed_entries(registry: &Registry) -> BTreeMap<&'static str, String> {
     let mut words = Words::new();
     let mut files = BTreeMap::new();
     for (file, summary, tables) in FILES {
-        let mut text = String::new();
+        let mut types = Vec::new();
         for (table, id) in tables {
             let found = variants(table, registry);
-            for variant in &found.all {
-                entry(&mut text, (table, id), found.tag, variant, &mut words);
-            }
+            types.extend(found.all.iter().map(|variant| entry((table, id), found.tag, variant, &mut words)));
         }
         if file == "joints" {
-            nested(&mut text, ("Friction", "Friction in a joint."), &Shape::friction_keys(), &mut words);
+            types.push(nested(("Friction", "Friction in a joint."), &Shape::friction_keys(), &mut words));
         }
         if file == "sections" {
             let summary = "Mass of a section, by its parts.";
-            nested(&mut text, ("SliceMass", summary), &Shape::slice_mass_keys(), &mut words);
+            types.push(nested(("SliceMass", summary), &Shape::slice_mass_keys(), &mut words));
         }
         if file == "motions" {
             let variant = Variant {
@@ -57,8 +55,9 @@ pub fn typed_entries(registry: &Registry) -> BTreeMap<&'static str, String> {
                 summary: "A rigid motion of some parts at the start.",
                 keys: part_motion(),
             };
-            entry(&mut text, ("initial", "MotionId"), None, &variant, &mut words);
+            types.push(entry(("initial", "MotionId"), None, &variant, &mut words));
         }
+        let text = text_of(&types);
         files.insert(file, format!("//! {summary}\n\n{}{text}", imports(&text)));
     }
     files.insert("words", words_text(&words));
@@ -69,7 +68,7 @@ pub fn typed_entries(registry: &Registry) -> BTreeMap<&'static str, String> {
 fn imports(text: &str) -> String {
     const KNOWN: [(&str, &[&str]); 4] = [
         ("ids", &["JointId", "MaterialId", "SectionId", "SpringId"]),
-        ("entry", &["entry", "nested"]),
+        ("entry", &["entry", "keys", "nested"]),
         (
             "values",
             &["Inertia", "Mass", "Matrix", "Node", "Part", "Place", "Quantity", "SectionMass", "Shear"],
@@ -96,40 +95,74 @@ fn imports(text: &str) -> String {
     format!("{words}{}\n", lines.concat())
 }
 
+/// A type to be declared.
+struct Declared {
+    name: String,
+    /// How its declaration begins.
+    heading: String,
+    /// Each key that may be left out, with its documentation.
+    optional: Vec<String>,
+}
+
+/// Declarations; keys that several types have are declared once.
+fn text_of(types: &[Declared]) -> String {
+    let owners = |key: &String| -> Vec<&str> {
+        let has = |declared: &&Declared| declared.optional.contains(key);
+        types.iter().filter(has).map(|declared| declared.name.as_str()).collect()
+    };
+    let mut text = String::new();
+    let mut shared: Vec<(Vec<&str>, String)> = Vec::new();
+    for declared in types {
+        text.push_str(&declared.heading);
+        for key in &declared.optional {
+            let owners = owners(key);
+            if owners.len() == 1 {
+                text.push_str(key);
+            } else if let Some((_, keys)) = shared.iter_mut().find(|(known, _)| *known == owners) {
+                if !keys.contains(key) {
+                    keys.push_str(key);
+                }
+            } else {
+                shared.push((owners, key.clone()));
+            }
+        }
+        line(&mut text, "}\n");
+    }
+    for (owners, keys) in shared {
+        line(&mut text, &format!("keys! {{\n    [{}]\n{keys}}}\n", owners.join(", ")));
+    }
+    text
+}
+
 fn entry(
-    text: &mut String,
     (table, id): (&str, &str),
     tag: Option<&'static str>,
     variant: &Variant,
     words: &mut Words,
-) {
+) -> Declared {
     let word = if variant.word.is_empty() { single(table) } else { variant.word };
     let summary = if variant.summary.is_empty() { summary_of(table) } else { variant.summary };
-    line(text, "entry! {");
-    line(text, &format!("    /// {}", sentence(summary)));
     let name = if variant.word == "expression" { "ExpressionOutput".to_owned() } else { camel(word) };
-    line(text, &format!("    {name} => {id}, {word:?};"));
     let tagged = tag.map_or(String::new(), |tag| format!("{tag:?} = {:?}", variant.word));
-    line(text, &format!("    [{tagged}]"));
-    fields(text, &variant.keys, tag, words);
-    line(text, "}\n");
+    let heading =
+        format!("entry! {{\n    /// {}\n    {name} => {id}, {word:?};\n    [{tagged}]\n", sentence(summary));
+    with_keys(Declared { name, heading, optional: Vec::new() }, &variant.keys, tag, words)
 }
 
-fn nested(text: &mut String, (name, summary): (&str, &str), keys: &[Key], words: &mut Words) {
-    line(text, "nested! {");
-    line(text, &format!("    /// {}", sentence(summary)));
-    line(text, &format!("    {name};"));
-    fields(text, keys, None, words);
-    line(text, "}\n");
+fn nested((name, summary): (&str, &str), keys: &[Key], words: &mut Words) -> Declared {
+    let heading = format!("nested! {{\n    /// {}\n    {name};\n", sentence(summary));
+    with_keys(Declared { name: name.to_owned(), heading, optional: Vec::new() }, keys, None, words)
 }
 
-fn fields(text: &mut String, keys: &[Key], tag: Option<&str>, words: &mut Words) {
+/// The same with what stands in `new`, and with the keys that may be left out.
+fn with_keys(mut declared: Declared, keys: &[Key], tag: Option<&str>, words: &mut Words) -> Declared {
     let typed: Vec<(&Key, String)> = keys
         .iter()
         .filter(|key| Some(key.name) != tag)
         .filter_map(|key| Some((key, type_of(key, words)?)))
         .collect();
     let (required, optional): (Vec<_>, Vec<_>) = typed.into_iter().partition(|(key, _)| key.required);
+    let text = &mut declared.heading;
     line(text, "    /// With what must be given.");
     if !required.is_empty() {
         line(text, "    ///");
@@ -143,9 +176,11 @@ fn fields(text: &mut String, keys: &[Key], tag: Option<&str>, words: &mut Words)
         .collect();
     line(text, &format!("    new({})", arguments.join(", ")));
     for (key, holds) in &optional {
-        line(text, &format!("    /// {}", sentence(&about(key))));
-        line(text, &format!("    {}: {holds} = {:?};", identifier(key.name), key.name));
+        let words = sentence(&about(key));
+        let declaration = format!("{}: {holds} = {:?};", identifier(key.name), key.name);
+        declared.optional.push(format!("    /// {words}\n    {declaration}\n"));
     }
+    declared
 }
 
 /// The type of Rust that a key holds; none for those that code has no use for.

@@ -82,7 +82,16 @@ macro_rules! fields {
                 $(fields.set($key, $required.into());)*
                 Self(fields)
             }
+        }
 
+        $crate::builder::entry::keys! { [$name] $($(#[$doc])* $optional: $holds = $own;)* }
+    };
+}
+
+/// Declares keys that may be left out, for each of some types.
+macro_rules! keys {
+    ([$name:ident] $($(#[$doc:meta])* $optional:ident: $holds:ty = $own:literal;)*) => {
+        impl $name {
             $(
                 $(#[$doc])*
                 pub fn $optional(mut self, value: impl Into<$holds>) -> Self {
@@ -91,6 +100,10 @@ macro_rules! fields {
                 }
             )*
         }
+    };
+    ([$first:ident, $($name:ident),+] $($keys:tt)*) => {
+        $crate::builder::entry::keys! { [$first] $($keys)* }
+        $crate::builder::entry::keys! { [$($name),+] $($keys)* }
     };
 }
 
@@ -118,4 +131,4 @@ macro_rules! words {
     };
 }
 
-pub(crate) use {entry, fields, nested, words};
+pub(crate) use {entry, fields, keys, nested, words};

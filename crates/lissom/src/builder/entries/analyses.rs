@@ -2,7 +2,7 @@
 //! What is computed, and how.
 
 use super::words;
-use crate::builder::entry::entry;
+use crate::builder::entry::{entry, keys};
 
 entry! {
     /// Motion in time.
@@ -12,28 +12,6 @@ entry! {
     ///
     /// - `end`: last time \[s\]
     new(end: f64 = "end")
-    /// First time, default 0 \[s\].
-    start: f64 = "start";
-    /// Scale of the equations, default physical.
-    scaling: words::Scaling = "scaling";
-    /// Rows and columns of the scaled tangent brought to one size, default true.
-    equilibrated: bool = "equilibrated";
-    /// With the augmented Lagrangian term, default true.
-    augmented: bool = "augmented";
-    /// Factor of the augmented term, default 1e-3.
-    penalty: f64 = "penalty";
-    /// Linear solver.
-    solver: words::Solver = "solver";
-    /// Of Newton's iteration, in scaled units, default 1e-8.
-    tolerance: f64 = "tolerance";
-    /// Of Newton's iteration, default 40.
-    max_iterations: usize = "max_iterations";
-    /// Mechanisms left out of the search for a step's solution, for studies; default none.
-    without: Vec<words::Without> = "without";
-    /// Steps from record to record, default 1.
-    output_every: usize = "output_every";
-    /// Of the motion that `lissom view` shows, per simulated second; default at most 600 over the run \[1/s\].
-    frames_per_second: f64 = "frames_per_second";
     /// Time integration scheme.
     scheme: words::Scheme = "scheme";
     /// Time step; with `relative_tolerance` the first one \[s\].
@@ -58,28 +36,6 @@ entry! {
     ["kind" = "statics"]
     /// With what must be given.
     new()
-    /// First time, default 0 \[s\].
-    start: f64 = "start";
-    /// Scale of the equations, default physical.
-    scaling: words::Scaling = "scaling";
-    /// Rows and columns of the scaled tangent brought to one size, default true.
-    equilibrated: bool = "equilibrated";
-    /// With the augmented Lagrangian term, default true.
-    augmented: bool = "augmented";
-    /// Factor of the augmented term, default 1e-3.
-    penalty: f64 = "penalty";
-    /// Linear solver.
-    solver: words::Solver = "solver";
-    /// Of Newton's iteration, in scaled units, default 1e-8.
-    tolerance: f64 = "tolerance";
-    /// Of Newton's iteration, default 40.
-    max_iterations: usize = "max_iterations";
-    /// Mechanisms left out of the search for a step's solution, for studies; default none.
-    without: Vec<words::Without> = "without";
-    /// Steps from record to record, default 1.
-    output_every: usize = "output_every";
-    /// Of the motion that `lissom view` shows, per simulated second; default at most 600 over the run \[1/s\].
-    frames_per_second: f64 = "frames_per_second";
     /// Last time, default 1 \[s\].
     end: f64 = "end";
     /// Load steps, default 10.
@@ -94,24 +50,6 @@ entry! {
     ["kind" = "path"]
     /// With what must be given.
     new()
-    /// First time, default 0 \[s\].
-    start: f64 = "start";
-    /// Scale of the equations, default physical.
-    scaling: words::Scaling = "scaling";
-    /// Rows and columns of the scaled tangent brought to one size, default true.
-    equilibrated: bool = "equilibrated";
-    /// With the augmented Lagrangian term, default true.
-    augmented: bool = "augmented";
-    /// Factor of the augmented term, default 1e-3.
-    penalty: f64 = "penalty";
-    /// Linear solver.
-    solver: words::Solver = "solver";
-    /// Of Newton's iteration, in scaled units, default 1e-8.
-    tolerance: f64 = "tolerance";
-    /// Of Newton's iteration, default 40.
-    max_iterations: usize = "max_iterations";
-    /// Mechanisms left out of the search for a step's solution, for studies; default none.
-    without: Vec<words::Without> = "without";
     /// Load factor at which the path ends, default 1.
     end: f64 = "end";
     /// First step of the load factor, default a fiftieth of `end`.
@@ -126,24 +64,6 @@ entry! {
     ["kind" = "buckling"]
     /// With what must be given.
     new()
-    /// First time, default 0 \[s\].
-    start: f64 = "start";
-    /// Scale of the equations, default physical.
-    scaling: words::Scaling = "scaling";
-    /// Rows and columns of the scaled tangent brought to one size, default true.
-    equilibrated: bool = "equilibrated";
-    /// With the augmented Lagrangian term, default true.
-    augmented: bool = "augmented";
-    /// Factor of the augmented term, default 1e-3.
-    penalty: f64 = "penalty";
-    /// Linear solver.
-    solver: words::Solver = "solver";
-    /// Of Newton's iteration, in scaled units, default 1e-8.
-    tolerance: f64 = "tolerance";
-    /// Of Newton's iteration, default 40.
-    max_iterations: usize = "max_iterations";
-    /// Mechanisms left out of the search for a step's solution, for studies; default none.
-    without: Vec<words::Without> = "without";
     /// Number of load factors, default 5.
     count: usize = "count";
 }
@@ -154,6 +74,16 @@ entry! {
     ["kind" = "modes"]
     /// With what must be given.
     new()
+    /// Number of modes, default 20.
+    count: usize = "count";
+    /// About static equilibrium under the loads of the time `start` (default), or about the places of the file without loads and gravity.
+    about: words::About = "about";
+    /// Frequency near which modes are sought; default: the lowest ones \[Hz\].
+    shift: f64 = "shift";
+}
+
+keys! {
+    [Dynamics, Statics, Path, Buckling, Modes]
     /// First time, default 0 \[s\].
     start: f64 = "start";
     /// Scale of the equations, default physical.
@@ -172,10 +102,12 @@ entry! {
     max_iterations: usize = "max_iterations";
     /// Mechanisms left out of the search for a step's solution, for studies; default none.
     without: Vec<words::Without> = "without";
-    /// Number of modes, default 20.
-    count: usize = "count";
-    /// About static equilibrium under the loads of the time `start` (default), or about the places of the file without loads and gravity.
-    about: words::About = "about";
-    /// Frequency near which modes are sought; default: the lowest ones \[Hz\].
-    shift: f64 = "shift";
+}
+
+keys! {
+    [Dynamics, Statics]
+    /// Steps from record to record, default 1.
+    output_every: usize = "output_every";
+    /// Of the motion that `lissom view` shows, per simulated second; default at most 600 over the run \[1/s\].
+    frames_per_second: f64 = "frames_per_second";
 }

@@ -1,7 +1,7 @@
 // Made by `cargo xtask reference` of the program's own tables: do not edit.
 //! Forces and moments from outside, and of actuators.
 
-use crate::builder::entry::entry;
+use crate::builder::entry::{entry, keys};
 use crate::builder::expression::Function;
 use crate::builder::ids::JointId;
 use crate::builder::values::Node;
@@ -15,12 +15,6 @@ entry! {
     /// - `on`: the node it acts on
     /// - `vector`: Force or moment at scale 1, in global axes at the start \[N or N m\]
     new(on: Node = "on", vector: [f64; 3] = "vector")
-    /// Location; default: the node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Factor; default 1.
-    scale: Function = "scale";
-    /// Whether it turns with the node; default false: it keeps its direction.
-    follower: bool = "follower";
 }
 
 entry! {
@@ -32,12 +26,6 @@ entry! {
     /// - `on`: the node it acts on
     /// - `vector`: Force or moment at scale 1, in global axes at the start \[N or N m\]
     new(on: Node = "on", vector: [f64; 3] = "vector")
-    /// Location; default: the node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Factor; default 1.
-    scale: Function = "scale";
-    /// Whether it turns with the node; default false: it keeps its direction.
-    follower: bool = "follower";
 }
 
 entry! {
@@ -49,8 +37,6 @@ entry! {
     /// - `joint`: the joint whose relative rotation it acts on
     /// - `torque`: Torque about the joint's axis, positive where it increases the rotation \[N m\]
     new(joint: JointId = "joint", torque: Function = "torque")
-    /// Which of the joint's coordinates, counted from 1; default the first that fits.
-    coordinate: f64 = "coordinate";
 }
 
 entry! {
@@ -62,8 +48,6 @@ entry! {
     /// - `joint`: the joint whose relative displacement it acts on
     /// - `force`: Force along the joint's axis, positive where it increases the displacement \[N\]
     new(joint: JointId = "joint", force: Function = "force")
-    /// Which of the joint's coordinates, counted from 1; default the first that fits.
-    coordinate: f64 = "coordinate";
 }
 
 entry! {
@@ -77,6 +61,24 @@ entry! {
     /// - `inertia`: Inertia of the rotor about its axis \[kg m²\]
     /// - `spin`: Rate of spin relative to the body \[rad/s\]
     new(on: Node = "on", axis: [f64; 3] = "axis", inertia: f64 = "inertia", spin: f64 = "spin")
+}
+
+keys! {
+    [Force, Moment, Gyrostat]
     /// Location; default: the node's place \[m\].
     at: [f64; 3] = "at";
+}
+
+keys! {
+    [Force, Moment]
+    /// Factor; default 1.
+    scale: Function = "scale";
+    /// Whether it turns with the node; default false: it keeps its direction.
+    follower: bool = "follower";
+}
+
+keys! {
+    [JointTorque, JointForce]
+    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    coordinate: f64 = "coordinate";
 }

@@ -1,7 +1,7 @@
 // Made by `cargo xtask reference` of the program's own tables: do not edit.
 //! How the parts are and move at the start.
 
-use crate::builder::entry::entry;
+use crate::builder::entry::{entry, keys};
 use crate::builder::values::Part;
 
 entry! {
@@ -10,12 +10,6 @@ entry! {
     []
     /// With what must be given.
     new()
-    /// Velocity of the point `about` \[m/s\].
-    velocity: [f64; 3] = "velocity";
-    /// Global axes \[rad/s\].
-    angular_velocity: [f64; 3] = "angular_velocity";
-    /// A point of the rigid motion; default the origin \[m\].
-    about: [f64; 3] = "about";
     /// Start from static equilibrium under the loads of the first instant, default false.
     equilibrium: bool = "equilibrium";
 }
@@ -28,6 +22,10 @@ entry! {
     ///
     /// - `parts`: bodies, point masses, beams and entries of \[parts\] that move in this way
     new(parts: Vec<Part> = "parts")
+}
+
+keys! {
+    [InitialMotion, PartMotion]
     /// Velocity of the point `about` \[m/s\].
     velocity: [f64; 3] = "velocity";
     /// Global axes \[rad/s\].

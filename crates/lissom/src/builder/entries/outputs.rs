@@ -2,7 +2,7 @@
 //! What is recorded, one type per kind.
 
 use super::words;
-use crate::builder::entry::entry;
+use crate::builder::entry::{entry, keys};
 use crate::builder::expression::Expression;
 use crate::builder::ids::{JointId, SpringId};
 use crate::builder::values::{Node, Quantity};
@@ -15,12 +15,6 @@ entry! {
     ///
     /// - `of`: the node, as in "beam@0.5"
     new(of: Node = "of")
-    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
-    relative_to: Node = "relative_to";
-    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
-    seen_in: Node = "in";
-    /// A place at the start, carried by the node \[m\].
-    point: [f64; 3] = "point";
 }
 
 entry! {
@@ -31,12 +25,6 @@ entry! {
     ///
     /// - `of`: the node, as in "beam@0.5"
     new(of: Node = "of")
-    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
-    relative_to: Node = "relative_to";
-    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
-    seen_in: Node = "in";
-    /// A place at the start, carried by the node \[m\].
-    point: [f64; 3] = "point";
 }
 
 entry! {
@@ -47,10 +35,6 @@ entry! {
     ///
     /// - `of`: the node, as in "beam@0.5"
     new(of: Node = "of")
-    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
-    relative_to: Node = "relative_to";
-    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
-    seen_in: Node = "in";
 }
 
 entry! {
@@ -81,12 +65,6 @@ entry! {
     ///
     /// - `of`: the node, as in "beam@0.5"
     new(of: Node = "of")
-    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
-    relative_to: Node = "relative_to";
-    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
-    seen_in: Node = "in";
-    /// A place at the start, carried by the node \[m\].
-    point: [f64; 3] = "point";
 }
 
 entry! {
@@ -97,10 +75,6 @@ entry! {
     ///
     /// - `of`: the node, as in "beam@0.5"
     new(of: Node = "of")
-    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
-    relative_to: Node = "relative_to";
-    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
-    seen_in: Node = "in";
 }
 
 entry! {
@@ -111,12 +85,6 @@ entry! {
     ///
     /// - `of`: the node, as in "beam@0.5"
     new(of: Node = "of")
-    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
-    relative_to: Node = "relative_to";
-    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
-    seen_in: Node = "in";
-    /// A place at the start, carried by the node \[m\].
-    point: [f64; 3] = "point";
 }
 
 entry! {
@@ -205,8 +173,6 @@ entry! {
     ["kind" = "momentum"]
     /// With what must be given.
     new()
-    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
-    seen_in: Node = "in";
 }
 
 entry! {
@@ -227,4 +193,22 @@ entry! {
     ///
     /// - `value`: as "hypot(a.x - b.x, a.y - b.y)", of components of outputs
     new(value: Expression = "value")
+}
+
+keys! {
+    [Position, Displacement, Rotation, Velocity, AngularVelocity, Acceleration]
+    /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
+    relative_to: Node = "relative_to";
+}
+
+keys! {
+    [Position, Displacement, Rotation, Velocity, AngularVelocity, Acceleration, Momentum]
+    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
+    seen_in: Node = "in";
+}
+
+keys! {
+    [Position, Displacement, Velocity, Acceleration]
+    /// A place at the start, carried by the node \[m\].
+    point: [f64; 3] = "point";
 }

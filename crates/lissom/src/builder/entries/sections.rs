@@ -1,7 +1,7 @@
 // Made by `cargo xtask reference` of the program's own tables: do not edit.
 //! Materials and cross sections.
 
-use crate::builder::entry::{entry, nested};
+use crate::builder::entry::{entry, keys, nested};
 use crate::builder::ids::MaterialId;
 use crate::builder::values::{Matrix, SectionMass, Shear};
 
@@ -30,10 +30,6 @@ entry! {
     /// - `width`: side along axis 2 \[m\]
     /// - `height`: side along axis 3 \[m\]
     new(material: MaterialId = "material", width: f64 = "width", height: f64 = "height")
-    /// Shear coefficient: one or two numbers (along 2 and 3), "cowper" (default) or "renton".
-    shear: Shear = "shear";
-    /// Damping in proportion to the stiffness \[s\].
-    damping: f64 = "damping";
 }
 
 entry! {
@@ -45,10 +41,6 @@ entry! {
     /// - `material`: name of a material
     /// - `radius`: radius \[m\]
     new(material: MaterialId = "material", radius: f64 = "radius")
-    /// Shear coefficient: one or two numbers (along 2 and 3), "cowper" (default) or "renton".
-    shear: Shear = "shear";
-    /// Damping in proportion to the stiffness \[s\].
-    damping: f64 = "damping";
 }
 
 entry! {
@@ -61,10 +53,6 @@ entry! {
     /// - `outer_radius`: outer radius \[m\]
     /// - `thickness`: thickness of the wall \[m\]
     new(material: MaterialId = "material", outer_radius: f64 = "outer_radius", thickness: f64 = "thickness")
-    /// Shear coefficient: one or two numbers (along 2 and 3), "cowper" (default) or "renton".
-    shear: Shear = "shear";
-    /// Damping in proportion to the stiffness \[s\].
-    damping: f64 = "damping";
 }
 
 entry! {
@@ -76,8 +64,6 @@ entry! {
     /// - `stiffness`: 6 x 6 or its diagonal: axial, shear 2, shear 3, torsion, bending 2, bending 3 \[N, N m²\]
     /// - `mass`: 6 x 6, or { per\_length, inertia = \[J11, J22, J33\], center = \[c2, c3\] } \[kg/m, kg m\]
     new(stiffness: Matrix = "stiffness", mass: SectionMass = "mass")
-    /// Damping in proportion to the stiffness \[s\].
-    damping: f64 = "damping";
 }
 
 nested! {
@@ -90,4 +76,16 @@ nested! {
     new(per_length: f64 = "per_length", inertia: [f64; 3] = "inertia")
     /// \[c2, c3\]: centre of mass across the beam \[m\].
     center: [f64; 2] = "center";
+}
+
+keys! {
+    [Rectangle, Circle, Tube]
+    /// Shear coefficient: one or two numbers (along 2 and 3), "cowper" (default) or "renton".
+    shear: Shear = "shear";
+}
+
+keys! {
+    [Rectangle, Circle, Tube, General]
+    /// Damping in proportion to the stiffness \[s\].
+    damping: f64 = "damping";
 }

@@ -2,7 +2,7 @@
 //! What pulls nodes or joints back, one type per kind.
 
 use super::words;
-use crate::builder::entry::entry;
+use crate::builder::entry::{entry, keys};
 use crate::builder::expression::Function;
 use crate::builder::ids::JointId;
 use crate::builder::values::{Matrix, Node};
@@ -15,24 +15,8 @@ entry! {
     ///
     /// - `joint`: the joint whose relative displacement it acts on
     new(joint: JointId = "joint")
-    /// Stiffness; default 0 \[N/m\].
-    stiffness: f64 = "stiffness";
-    /// Damping; default 0 \[N s/m\].
-    damping: f64 = "damping";
-    /// Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` \[N\].
-    force: Function = "force";
-    /// Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate` \[N\].
-    damper_force: Function = "damper_force";
-    /// Where it acts: where it is longer than its free length, where it is shorter, or both; default both.
-    side: words::Side = "side";
-    /// Least and greatest force; default none \[N\].
-    limits: [f64; 2] = "limits";
-    /// Width of the free play about the free length, without force; default 0 \[m\].
-    backlash: f64 = "backlash";
     /// Relative displacement at which it is free of force; default 0 \[m\].
     displacement: f64 = "displacement";
-    /// Which of the joint's coordinates, counted from 1; default the first that fits.
-    coordinate: f64 = "coordinate";
 }
 
 entry! {
@@ -44,24 +28,6 @@ entry! {
     /// - `base`: the node it starts from: "ground", "body", "beam.end" …
     /// - `tip`: the node it leads to
     new(base: Node = "base", tip: Node = "tip")
-    /// Location on the base; default: the node's place \[m\].
-    at_base: [f64; 3] = "at_base";
-    /// Location on the tip; default: the node's place \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Stiffness; default 0 \[N/m\].
-    stiffness: f64 = "stiffness";
-    /// Damping; default 0 \[N s/m\].
-    damping: f64 = "damping";
-    /// Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` \[N\].
-    force: Function = "force";
-    /// Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate` \[N\].
-    damper_force: Function = "damper_force";
-    /// Where it acts: where it is longer than its free length, where it is shorter, or both; default both.
-    side: words::Side = "side";
-    /// Least and greatest force; default none \[N\].
-    limits: [f64; 2] = "limits";
-    /// Width of the free play about the free length, without force; default 0 \[m\].
-    backlash: f64 = "backlash";
     /// Length at which it is free of force; default: the length at the start \[m\].
     length: f64 = "length";
 }
@@ -90,8 +56,6 @@ entry! {
     backlash: f64 = "backlash";
     /// Relative rotation at which it is free of moment; default 0 \[rad\].
     angle: f64 = "angle";
-    /// Which of the joint's coordinates, counted from 1; default the first that fits.
-    coordinate: f64 = "coordinate";
 }
 
 entry! {
@@ -113,8 +77,6 @@ entry! {
     deflection: f64 = "deflection";
     /// Damping of the elastic displacement; default 0 \[N s/m\].
     damping: f64 = "damping";
-    /// Which of the joint's coordinates, counted from 1; default the first that fits.
-    coordinate: f64 = "coordinate";
 }
 
 entry! {
@@ -136,8 +98,6 @@ entry! {
     deflection: f64 = "deflection";
     /// Damping of the elastic rotation; default 0 \[N m s/rad\].
     damping: f64 = "damping";
-    /// Which of the joint's coordinates, counted from 1; default the first that fits.
-    coordinate: f64 = "coordinate";
 }
 
 entry! {
@@ -149,10 +109,6 @@ entry! {
     /// - `base`: the node it starts from: "ground", "body", "beam.end" …
     /// - `tip`: the node it leads to
     new(base: Node = "base", tip: Node = "tip")
-    /// Location on the base; default: the node's place \[m\].
-    at_base: [f64; 3] = "at_base";
-    /// Location on the tip; default: the node's place \[m\].
-    at_tip: [f64; 3] = "at_tip";
     /// 6 x 6 or its diagonal: displacements along the axes, rotations about them; default 0 \[N/m, N, N m/rad\].
     stiffness: Matrix = "stiffness";
     /// 6 x 6 or its diagonal, likewise; default 0 \[N s/m, N s, N m s/rad\].
@@ -173,16 +129,12 @@ entry! {
     /// - `range`: Displacements between the stops; an end that is infinite has none \[m\]
     /// - `stiffness`: Force at a penetration of 1 m \[N/m^n\]
     new(joint: JointId = "joint", range: [f64; 2] = "range", stiffness: f64 = "stiffness")
-    /// N, from 1 on; default 1.
-    exponent: f64 = "exponent";
     /// Factor a of the penetration rate; default 0 \[s/m\].
     dissipation: f64 = "dissipation";
     /// Instead of `dissipation`: velocity after an impact over that before, 0.01 to 1, at `impact_velocity`.
     restitution: f64 = "restitution";
     /// Velocity of that impact \[m/s\].
     impact_velocity: f64 = "impact_velocity";
-    /// Which of the joint's coordinates, counted from 1; default the first that fits.
-    coordinate: f64 = "coordinate";
 }
 
 entry! {
@@ -195,14 +147,48 @@ entry! {
     /// - `range`: Rotations between the stops; an end that is infinite has none \[rad\]
     /// - `stiffness`: Moment at a penetration of 1 rad \[N m/rad^n\]
     new(joint: JointId = "joint", range: [f64; 2] = "range", stiffness: f64 = "stiffness")
-    /// N, from 1 on; default 1.
-    exponent: f64 = "exponent";
     /// Factor a of the penetration rate; default 0 \[s/rad\].
     dissipation: f64 = "dissipation";
     /// Instead of `dissipation`: rate after an impact over that before, 0.01 to 1, at `impact_velocity`.
     restitution: f64 = "restitution";
     /// Rate of that impact \[rad/s\].
     impact_velocity: f64 = "impact_velocity";
+}
+
+keys! {
+    [Axial, Point]
+    /// Stiffness; default 0 \[N/m\].
+    stiffness: f64 = "stiffness";
+    /// Damping; default 0 \[N s/m\].
+    damping: f64 = "damping";
+    /// Force over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` \[N\].
+    force: Function = "force";
+    /// Force over `rate` and `elongation`, in addition to `damping`; a table is over `rate` \[N\].
+    damper_force: Function = "damper_force";
+    /// Where it acts: where it is longer than its free length, where it is shorter, or both; default both.
+    side: words::Side = "side";
+    /// Least and greatest force; default none \[N\].
+    limits: [f64; 2] = "limits";
+    /// Width of the free play about the free length, without force; default 0 \[m\].
+    backlash: f64 = "backlash";
+}
+
+keys! {
+    [Axial, Torsional, AxialFriction, TorsionalFriction, AxialStop, TorsionalStop]
     /// Which of the joint's coordinates, counted from 1; default the first that fits.
     coordinate: f64 = "coordinate";
+}
+
+keys! {
+    [Point, Bushing]
+    /// Location on the base; default: the node's place \[m\].
+    at_base: [f64; 3] = "at_base";
+    /// Location on the tip; default: the node's place \[m\].
+    at_tip: [f64; 3] = "at_tip";
+}
+
+keys! {
+    [AxialStop, TorsionalStop]
+    /// N, from 1 on; default 1.
+    exponent: f64 = "exponent";
 }
