@@ -154,8 +154,24 @@ impl Parameter {
     }
 }
 
+/// The relative rotation of a joint when it starts.
+pub(crate) const ANGLE_AT_START: Parameter = Parameter::optional(
+    "angle",
+    ParameterType::Number,
+    "rad",
+    "Value of the relative rotation at the start; default 0.",
+);
+
+/// The relative displacement of a joint when it starts.
+pub(crate) const DISPLACEMENT_AT_START: Parameter = Parameter::optional(
+    "displacement",
+    ParameterType::Number,
+    "m",
+    "Value of the relative displacement at the start; default 0.",
+);
+
 /// Which coordinate of a joint that has several.
-pub const COORDINATE: Parameter = Parameter::optional(
+pub(crate) const COORDINATE: Parameter = Parameter::optional(
     "coordinate",
     ParameterType::Positive,
     "",
@@ -163,7 +179,7 @@ pub const COORDINATE: Parameter = Parameter::optional(
 );
 
 /// Which coordinate of the first joint, for kinds that couple two.
-pub const WHICH_COORDINATE: Parameter = Parameter::optional(
+pub(crate) const WHICH_COORDINATE: Parameter = Parameter::optional(
     "coordinate",
     ParameterType::Positive,
     "",
@@ -171,7 +187,7 @@ pub const WHICH_COORDINATE: Parameter = Parameter::optional(
 );
 
 /// Which coordinate of the other joint, for kinds that couple two.
-pub const OTHER_COORDINATE: Parameter = Parameter::optional(
+pub(crate) const OTHER_COORDINATE: Parameter = Parameter::optional(
     "other_coordinate",
     ParameterType::Positive,
     "",
@@ -293,7 +309,7 @@ impl Parameters {
     ///
     /// # Errors
     /// If it is given and no vector.
-    pub fn vector_or(&self, name: &str, default: Vector3) -> Result<Vector3, ParameterError> {
+    pub(crate) fn vector_or(&self, name: &str, default: Vector3) -> Result<Vector3, ParameterError> {
         if self.has(name) { self.vector(name) } else { Ok(default) }
     }
 
@@ -372,7 +388,7 @@ impl Parameters {
     ///
     /// # Errors
     /// If it is given and no matrix.
-    pub fn matrix_or_zero(&self, name: &str) -> Result<Matrix6, ParameterError> {
+    pub(crate) fn matrix_or_zero(&self, name: &str) -> Result<Matrix6, ParameterError> {
         match self.values.get(name) {
             None => Ok(Matrix6::zeros()),
             Some(Value::Matrix(value)) => Ok(**value),

@@ -1,32 +1,17 @@
 //! Stops, friction in joints, bushings, rotors and solids, against closed forms.
 
-use lissom::{Model, Session, SessionError};
+#[path = "support/sessions.rs"]
+mod sessions;
+
+use lissom::{Model, Session};
 use lissom_motion::{Rotation, Vector3};
+use sessions::{finished, session};
 
 const SCHEMES: [&str; 4] = ["radau-iia", "energy-decaying", "generalized-alpha", "hht"];
 
-fn session(text: &str) -> Session {
-    match Model::from_text("contact.toml", text).session(&[]) {
-        Ok(session) => session,
-        Err(error) => panic!("{error}"),
-    }
-}
-
-fn finished(text: &str) -> Session {
-    let mut session = session(text);
-    let (_, report) = session.record();
-    assert!(report.is_complete(), "{text}\n{report:?}");
-    session
-}
-
+/// Why a model is refused, on one line.
 fn refused(text: &str) -> String {
-    match Model::from_text("contact.toml", text).session(&[]) {
-        Ok(_) => panic!("{text} is no good model"),
-        Err(SessionError::Model(report)) => {
-            report.render(false).split_whitespace().collect::<Vec<_>>().join(" ")
-        }
-        Err(error) => error.to_string(),
-    }
+    sessions::refused(text).split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// A column of a whole run, with its times.

@@ -1,6 +1,10 @@
 //! Events, and forces with kinks: instants against closed forms, what happens there, and what is refused.
 
-use lissom::{Model, Session, SessionError};
+#[path = "support/sessions.rs"]
+mod sessions;
+
+use lissom::Session;
+use sessions::{finished, refused, session};
 
 const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
 
@@ -35,32 +39,10 @@ fn force(size: &str) -> String {
     format!("[loads.push]\nkind = \"joint_force\"\njoint = \"rail\"\nforce = \"{size}\"\n")
 }
 
-fn session(text: &str) -> Session {
-    match Model::from_text("rail.toml", text).session(&[]) {
-        Ok(session) => session,
-        Err(error) => panic!("{error}"),
-    }
-}
-
-fn finished(text: &str) -> Session {
-    let mut session = session(text);
-    let (_, report) = session.record();
-    assert!(report.is_complete(), "{report:?}");
-    session
-}
-
 fn failure(text: &str) -> String {
     let mut session = session(text);
     let (_, report) = session.record();
     report.error().map_or_else(|| panic!("the run reaches its end"), ToString::to_string)
-}
-
-fn refusal(text: &str) -> String {
-    match Model::from_text("rail.toml", text).session(&[]) {
-        Ok(_) => panic!("the model is accepted"),
-        Err(SessionError::Model(report)) => report.render(false),
-        Err(error) => error.to_string(),
-    }
 }
 
 fn value(session: &Session, name: &str) -> f64 {
@@ -224,10 +206,10 @@ fn what_slides_along_its_switch_is_told() {
 fn events_that_make_no_sense_are_refused() {
     let unknown =
         rail("[inputs]\nmotor = 0\n[events.x]\nzero_of = \"t - 0.5\"\nset = { moter = 1 }\n", "step = 0.1");
-    let message = refusal(&unknown);
+    let message = refused(&unknown);
     assert!(message.contains("`moter`, which is no input") && message.contains("motor"), "{message}");
     let statics = rail("[events.x]\nzero_of = \"t - 0.5\"\n", "steps = 2").replace("dynamics", "statics");
-    assert!(refusal(&statics).contains("no motion in time"), "{}", refusal(&statics));
+    assert!(refused(&statics).contains("no motion in time"), "{}", refused(&statics));
     let name = rail("[events.x]\nzero_of = \"rail.displacment\"\n", "step = 0.1");
-    assert!(refusal(&name).contains("displacment"), "{}", refusal(&name));
+    assert!(refused(&name).contains("displacment"), "{}", refused(&name));
 }

@@ -1,7 +1,10 @@
 //! Feedback: sizes of loads that depend on the motion, first-order states, samples, inputs. Solutions are compared
 //! with closed forms and with recursions.
 
-use lissom::{Model, Session, SessionError};
+#[path = "support/sessions.rs"]
+mod sessions;
+
+use sessions::{finished, refused, session};
 
 /// Moment of inertia of the arm about its hinge: 0.1 + 2 · 0.5² [kg m²].
 const INERTIA: f64 = 0.6;
@@ -39,29 +42,6 @@ fn arm(tables: &str, analysis: &str) -> String {
         "{}\n{tables}",
         ARM.replace("kind = \"dynamics\"\n", &format!("kind = \"dynamics\"\n{analysis}\n"))
     )
-}
-
-fn session(text: &str) -> Session {
-    match Model::from_text("arm.toml", text).session(&[]) {
-        Ok(session) => session,
-        Err(error) => panic!("{error}"),
-    }
-}
-
-fn finished(text: &str) -> Session {
-    let mut session = session(text);
-    let (_, report) = session.record();
-    assert!(report.is_complete(), "{report:?}");
-    session
-}
-
-/// Why a model is refused.
-fn refused(text: &str) -> String {
-    match Model::from_text("arm.toml", text).session(&[]) {
-        Ok(_) => panic!("{text} is no good model"),
-        Err(SessionError::Model(report)) => report.render(false),
-        Err(error) => error.to_string(),
-    }
 }
 
 const CONTROL: &str = r#"

@@ -1,7 +1,10 @@
 //! Springs with laws: expressions, tables, data files, one side, limits, free play. Energy is conserved, counted as lost or
 //! as put in; all schemes, steps of chosen size and sessions restored in the middle agree.
 
-use lissom::{Model, Session, SessionError};
+#[path = "support/sessions.rs"]
+mod sessions;
+
+use sessions::{finished, refused, session};
 
 const SCHEMES: [&str; 4] = ["radau-iia", "energy-decaying", "generalized-alpha", "hht"];
 
@@ -38,28 +41,6 @@ const POINT: &str =
 
 fn slider(spring: &str, analysis: &str) -> String {
     SLIDER.replace("SPRING", spring).replace("ANALYSIS", analysis)
-}
-
-fn session(text: &str) -> Session {
-    match Model::from_text("slider.toml", text).session(&[]) {
-        Ok(session) => session,
-        Err(error) => panic!("{error}"),
-    }
-}
-
-fn finished(text: &str) -> Session {
-    let mut session = session(text);
-    let (_, report) = session.record();
-    assert!(report.is_complete(), "{text}\n{report:?}");
-    session
-}
-
-fn refused(text: &str) -> String {
-    match Model::from_text("slider.toml", text).session(&[]) {
-        Ok(_) => panic!("{text} is no good model"),
-        Err(SessionError::Model(report)) => report.render(false),
-        Err(error) => error.to_string(),
-    }
 }
 
 /// Rows of f = 200 x + 1e5 x³, close enough that a spline has nine digits.

@@ -1,47 +1,11 @@
 //! Derivatives along the steps against central differences of whole runs.
 
+#[path = "support/cantilever.rs"]
+mod cantilever;
+
+use cantilever::CANTILEVER;
 use lissom::gradient::{GradientError, Target, gradient};
 use lissom::{Model, Override};
-
-/// A cantilever under a tip force.
-const CANTILEVER: &str = r#"
-lissom = 1
-
-[sections.bar]
-shape = "general"
-stiffness = [1e6, 4e5, 4e5, 100, 200, 200]
-mass = { per_length = 1, inertia = [2e-4, 1e-4, 1e-4] }
-
-[beams.bar]
-section = "bar"
-from = [0, 0, 0]
-to = [1, 0, 0]
-elements = 4
-order = 2
-
-[joints.root]
-kind = "clamp"
-base = "ground"
-tip = "bar.start"
-
-[loads.tip]
-kind = "force"
-on = "bar.end"
-vector = [0, 0, 1]
-scale = "3*t"
-
-[outputs.tip]
-kind = "displacement"
-of = "bar.end"
-
-[outputs.root]
-kind = "reaction"
-of = "root"
-
-[analysis]
-kind = "statics"
-steps = 4
-"#;
 
 /// The measure's value of a whole run with a number changed.
 fn measured(model: &Model, column: (&str, &str), over: &str, set: &[Override]) -> f64 {

@@ -123,7 +123,7 @@ impl AttachedJoint {
     }
 
     /// Derivatives of the equations with respect to the local unknowns, as body variations.
-    pub fn gradient_at(&self, (relative, own): &(Relative, Own)) -> LocalGradient {
+    pub(crate) fn gradient_at(&self, (relative, own): &(Relative, Own)) -> LocalGradient {
         let mut gradient = Gradient::zeros();
         self.joint.gradient(relative, own, &mut gradient);
         let mut rows = gradient.relative * self.variation(relative);

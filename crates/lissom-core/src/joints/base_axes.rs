@@ -13,7 +13,7 @@ use super::moved::{Axes, Moved};
 use super::{Curvature, Gradient, Relative};
 
 /// Gradient of the position's component along an axis of the base.
-pub fn component_gradient(relative: &Relative, axis: usize, row: usize, out: &mut Gradient) {
+pub(crate) fn component_gradient(relative: &Relative, axis: usize, row: usize, out: &mut Gradient) {
     for j in 0..3 {
         out.relative[(row, j)] = relative.rotation[(axis, j)];
     }
@@ -21,20 +21,20 @@ pub fn component_gradient(relative: &Relative, axis: usize, row: usize, out: &mu
 
 /// Wrench on the tip of a force on its point, given in the base's axes.
 #[inline(always)]
-pub fn force_wrench<R: Real>(moved: &Moved<R>, force: Triple<R>) -> Screw<R> {
+pub(crate) fn force_wrench<R: Real>(moved: &Moved<R>, force: Triple<R>) -> Screw<R> {
     let zero = force.x.like(0.0);
     Screw::new(moved.rotation().transpose_times(force), Triple::new(zero, zero, zero))
 }
 
 /// Curvature of [`force_wrench`]: δ(Rᵀ f) = (Rᵀ f)~ η_θ.
-pub fn force_curvature(relative: &Relative, force: &Vector3, out: &mut Curvature) {
+pub(crate) fn force_curvature(relative: &Relative, force: &Vector3, out: &mut Curvature) {
     let turning = skew(&relative.rotation.tr_mul(force));
     let mut view = out.fixed_view_mut::<3, 3>(0, 3);
     view += turning;
 }
 
 /// Gradient of `sign` R_ab.
-pub fn cosine_gradient(
+pub(crate) fn cosine_gradient(
     relative: &Relative,
     (a, b): (usize, usize),
     sign: f64,
@@ -48,7 +48,12 @@ pub fn cosine_gradient(
 }
 
 /// Curvature of `factor` R_ab.
-pub fn cosine_curvature(relative: &Relative, (a, b): (usize, usize), factor: f64, out: &mut Curvature) {
+pub(crate) fn cosine_curvature(
+    relative: &Relative,
+    (a, b): (usize, usize),
+    factor: f64,
+    out: &mut Curvature,
+) {
     let turned = skew(&relative.rotation.row(a).transpose());
     let mut view = out.fixed_view_mut::<3, 3>(3, 3);
     view += factor * skew(&Vector3::ith(b, 1.0)) * turned;
@@ -56,7 +61,7 @@ pub fn cosine_curvature(relative: &Relative, (a, b): (usize, usize), factor: f64
 
 /// Row `a` of a matrix.
 #[inline(always)]
-pub fn row<R: Real>(axes: &Axes<R>, a: usize) -> Triple<R> {
+pub(crate) fn row<R: Real>(axes: &Axes<R>, a: usize) -> Triple<R> {
     let [x, y, z] = axes.0;
     match a {
         0 => Triple::new(x.x, y.x, z.x),

@@ -13,7 +13,7 @@ use super::{
     Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
     MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
-use crate::registry::{Parameter, ParameterType};
+use crate::registry::{ANGLE_AT_START, DISPLACEMENT_AT_START};
 
 /// The displacement's place among the coordinates, after the rotation.
 const SLIDE: usize = 1;
@@ -23,20 +23,7 @@ pub const KIND: JointKind = JointKind {
     name: "cylindrical",
     summary: "The tip slides along an axis and turns about it; rotation and displacement are coordinates.",
     sample: "axis = [1.0, 0.0, 0.0]",
-    parameters: &[
-        Parameter::optional(
-            "angle",
-            ParameterType::Number,
-            "rad",
-            "Value of the relative rotation at the start; default 0.",
-        ),
-        Parameter::optional(
-            "displacement",
-            ParameterType::Number,
-            "m",
-            "Value of the relative displacement at the start; default 0.",
-        ),
-    ],
+    parameters: &[ANGLE_AT_START, DISPLACEMENT_AT_START],
     build: Build::Relative(Frames::Axis, |parameters, _| {
         Ok(Box::new(Cylindrical {
             angle: parameters.number_or("angle", 0.0)?,

@@ -5,7 +5,7 @@
 //! not even where it is. `attached` turns its answers into rows of the system.
 
 pub mod attached;
-pub mod base_axes;
+pub(crate) mod base_axes;
 pub mod blocks;
 pub mod cam;
 pub mod clamp;
@@ -30,7 +30,7 @@ pub mod prescribed;
 pub mod prescribed_displacement;
 pub mod prescribed_motion;
 pub mod prescribed_rotation;
-pub mod primitives;
+pub(crate) mod primitives;
 pub mod prismatic;
 pub mod revolute;
 pub mod rigid_link;
@@ -109,7 +109,7 @@ impl Relative {
     }
 
     /// Relative rotation at the start of the step.
-    pub fn start_rotation(&self) -> Matrix3 {
+    pub(crate) fn start_rotation(&self) -> Matrix3 {
         self.rotation - self.rotation_change
     }
 }

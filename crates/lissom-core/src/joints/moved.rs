@@ -54,7 +54,7 @@ impl<R: Real> Axes<R> {
     /// `Aᵀ B`.
     #[inline(always)]
     #[must_use]
-    pub fn transpose_product(self, other: Self) -> Self {
+    pub(crate) fn transpose_product(self, other: Self) -> Self {
         Self([
             self.transpose_times(other.0[0]),
             self.transpose_times(other.0[1]),
@@ -118,7 +118,7 @@ impl<R: Real> FrameChange<R> {
     /// The same change of a frame carried at `offset`, with its axes.
     #[inline(always)]
     #[must_use]
-    pub fn carried_at(self, axes: Option<Axes<R>>, offset: Triple<R>) -> Self {
+    pub(crate) fn carried_at(self, axes: Option<Axes<R>>, offset: Triple<R>) -> Self {
         let shift = self.shift + self.turn.times(offset);
         match axes {
             None => Self { turn: self.turn, shift },

@@ -11,19 +11,14 @@ use super::{
     Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
     MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
-use crate::registry::{Parameter, ParameterType};
+use crate::registry::ANGLE_AT_START;
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "planar",
     summary: "The tip moves in the base's plane across `axis` and turns about it; the rotation is a coordinate.",
     sample: "axis = [0.0, 0.0, 1.0]",
-    parameters: &[Parameter::optional(
-        "angle",
-        ParameterType::Number,
-        "rad",
-        "Value of the relative rotation at the start; default 0.",
-    )],
+    parameters: &[ANGLE_AT_START],
     build: Build::Relative(Frames::Axis, |parameters, _| {
         Ok(Box::new(Planar { angle: parameters.number_or("angle", 0.0)? }))
     }),

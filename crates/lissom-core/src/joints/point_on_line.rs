@@ -11,19 +11,14 @@ use super::{
     Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
     MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
-use crate::registry::{Parameter, ParameterType};
+use crate::registry::DISPLACEMENT_AT_START;
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
     name: "point_on_line",
     summary: "The tip's point slides along a line of the base and the tip turns freely; the displacement is a coordinate.",
     sample: "axis = [1.0, 0.0, 0.0]",
-    parameters: &[Parameter::optional(
-        "displacement",
-        ParameterType::Number,
-        "m",
-        "Value of the relative displacement at the start; default 0.",
-    )],
+    parameters: &[DISPLACEMENT_AT_START],
     build: Build::Relative(Frames::Axis, |parameters, _| {
         Ok(Box::new(PointOnLine { displacement: parameters.number_or("displacement", 0.0)? }))
     }),

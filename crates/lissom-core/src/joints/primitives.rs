@@ -14,23 +14,23 @@ use super::moved::{Angle, Axes, Moved};
 use super::{Curvature, Equations, Gradient, MOST_COORDINATES, Relative};
 
 /// Names of three equations that hold two points together.
-pub const POINT_EQUATIONS: [&str; 3] = ["position 1", "position 2", "position 3"];
+pub(crate) const POINT_EQUATIONS: [&str; 3] = ["position 1", "position 2", "position 3"];
 
 /// Rows `row..row + 3`: the tip's point lies at the base's point, c = Rᵀ x in the tip's axes. There the
 /// gradient of a tip that turns about a point of the ground stays constant.
-pub fn coincident(relative: &Relative, row: usize, out: &mut Equations) {
+pub(crate) fn coincident(relative: &Relative, row: usize, out: &mut Equations) {
     out[row..row + 3].copy_from_slice(relative.rotation.tr_mul(&relative.position).as_slice());
 }
 
 /// Change of [`coincident`] since the start of the step.
 #[inline(always)]
-pub fn coincident_change<R: Real>(moved: &Moved<R>) -> [R; 3] {
+pub(crate) fn coincident_change<R: Real>(moved: &Moved<R>) -> [R; 3] {
     let Triple { x, y, z } = moved.place_change;
     [x, y, z]
 }
 
 /// Gradient of [`coincident`]: δ(Rᵀ x) = η_u + (Rᵀ x)~ η_θ.
-pub fn coincident_gradient(relative: &Relative, row: usize, out: &mut Gradient) {
+pub(crate) fn coincident_gradient(relative: &Relative, row: usize, out: &mut Gradient) {
     let turning = skew(&relative.rotation.tr_mul(&relative.position));
     for i in 0..3 {
         out.relative[(row + i, i)] = 1.0;
@@ -42,12 +42,12 @@ pub fn coincident_gradient(relative: &Relative, row: usize, out: &mut Gradient) 
 
 /// (∂c/∂η)ᵀ μ of [`coincident`]: the force μ at the base's point, which lies at -Rᵀ x from the tip's.
 #[inline(always)]
-pub fn coincident_wrench<R: Real>(moved: &Moved<R>, mu: Triple<R>) -> Screw<R> {
+pub(crate) fn coincident_wrench<R: Real>(moved: &Moved<R>, mu: Triple<R>) -> Screw<R> {
     Screw::new(mu, mu.cross(moved.place))
 }
 
 /// Curvature of [`coincident`]: the moment -(Rᵀ x)~ μ = μ̃ Rᵀ x.
-pub fn coincident_curvature(relative: &Relative, mu: &Vector3, out: &mut Curvature) {
+pub(crate) fn coincident_curvature(relative: &Relative, mu: &Vector3, out: &mut Curvature) {
     let mu = skew(mu);
     let turning = mu * skew(&relative.rotation.tr_mul(&relative.position));
     let mut view = out.fixed_view_mut::<3, 3>(3, 0);
@@ -59,14 +59,14 @@ pub fn coincident_curvature(relative: &Relative, mu: &Vector3, out: &mut Curvatu
 /// Rows `row..row + 3`: the tip's point lies on the base's third axis at the displacement d, c = Rᵀ x - d e₃. Like
 /// [`coincident`] but for a constant gradient by d, so that gradient and curvature by the relative motion are the same.
 /// The axes of base and tip agree, by other rows.
-pub fn on_third_axis(relative: &Relative, displacement: f64, row: usize, out: &mut Equations) {
+pub(crate) fn on_third_axis(relative: &Relative, displacement: f64, row: usize, out: &mut Equations) {
     coincident(relative, row, out);
     out[row + 2] -= displacement;
 }
 
 /// A joint's own rotation Q(φ) and its derivatives.
 #[derive(Clone, Copy, Debug)]
-pub struct JointRotation<R> {
+pub(crate) struct JointRotation<R> {
     /// Q(φ).
     pub rotation: Axes<R>,
     /// Change of Q since the start of the step, free of cancellation.
@@ -82,7 +82,7 @@ pub struct JointRotation<R> {
 impl<R: Real> JointRotation<R> {
     /// No rotation of its own; `kind` only tells the kind of number.
     #[inline(always)]
-    pub fn none(kind: R) -> Self {
+    pub(crate) fn none(kind: R) -> Self {
         let (zero, one) = (kind.like(0.0), kind.like(1.0));
         let nothing = Triple::new(zero, zero, zero);
         Self {
@@ -100,7 +100,7 @@ impl<R: Real> JointRotation<R> {
 
     /// Rotation about the third axis.
     #[inline(always)]
-    pub fn about_third_axis(angle: &Angle<R>) -> Self {
+    pub(crate) fn about_third_axis(angle: &Angle<R>) -> Self {
         let none = Self::none(angle.sine);
         let (rotation, change) = elementary_of(2, angle);
         Self { rotation, change, axes: [none.rotation.0[2], none.axes[1]], count: 1, ..none }
@@ -108,7 +108,7 @@ impl<R: Real> JointRotation<R> {
 
     /// Rotation about the first axis, then about the turned second axis.
     #[inline(always)]
-    pub fn about_first_and_second_axis([a, b]: &[Angle<R>; 2]) -> Self {
+    pub(crate) fn about_first_and_second_axis([a, b]: &[Angle<R>; 2]) -> Self {
         let none = Self::none(a.sine);
         let [e_1, e_2, _] = none.rotation.0;
         let (first, first_change) = elementary_of(0, a);
@@ -127,7 +127,7 @@ impl<R: Real> JointRotation<R> {
 
     /// Change of [`Self::matches`]: QᵀR - Q₀ᵀR₀ = ΔQᵀ R₀ + Qᵀ ΔR.
     #[inline(always)]
-    pub fn matches_change(&self, moved: &Moved<R>) -> [R; 3] {
+    pub(crate) fn matches_change(&self, moved: &Moved<R>) -> [R; 3] {
         let change = self
             .change
             .transpose_product(moved.start_rotation)
@@ -138,7 +138,11 @@ impl<R: Real> JointRotation<R> {
 
     /// (∂c/∂(η, φ))ᵀ μ of [`Self::matches`]: the moment m, and -Sᵀ E m on the coordinates.
     #[inline(always)]
-    pub fn matches_moments(&self, moved: &Moved<R>, mu: Triple<R>) -> (Triple<R>, [R; MOST_COORDINATES]) {
+    pub(crate) fn matches_moments(
+        &self,
+        moved: &Moved<R>,
+        mu: Triple<R>,
+    ) -> (Triple<R>, [R; MOST_COORDINATES]) {
         let e = self.rotation.transpose_product(moved.rotation());
         let m = (mu * e.trace() - e.times(mu)).scaled(0.5);
         let turned = e.times(m);
@@ -152,7 +156,7 @@ impl<R: Real> JointRotation<R> {
     /// Change of the violations of a joint that holds a point, then this rotation: [`coincident_change`] and
     /// [`Self::matches_change`].
     #[inline(always)]
-    pub fn held_change(&self, moved: &Moved<R>) -> [R; 6] {
+    pub(crate) fn held_change(&self, moved: &Moved<R>) -> [R; 6] {
         let [a, b, c] = coincident_change(moved);
         let [d, e, f] = self.matches_change(moved);
         [a, b, c, d, e, f]
@@ -161,7 +165,7 @@ impl<R: Real> JointRotation<R> {
     /// Wrench on the tip of a joint that holds a point, then this rotation, and forces on the coordinates:
     /// [`coincident_wrench`] and [`Self::matches_moments`].
     #[inline(always)]
-    pub fn held_wrench(&self, moved: &Moved<R>, mu: &[R; 6]) -> (Screw<R>, [R; MOST_COORDINATES]) {
+    pub(crate) fn held_wrench(&self, moved: &Moved<R>, mu: &[R; 6]) -> (Screw<R>, [R; MOST_COORDINATES]) {
         let (moment, own) = self.matches_moments(moved, Triple::new(mu[3], mu[4], mu[5]));
         let mut wrench = coincident_wrench(moved, Triple::new(mu[0], mu[1], mu[2]));
         wrench.rotation = wrench.rotation + moment;
@@ -179,12 +183,12 @@ impl JointRotation<f64> {
     }
 
     /// Rows `row..row + 3`: the relative rotation is Q.
-    pub fn matches(&self, relative: &Relative, row: usize, out: &mut Equations) {
+    pub(crate) fn matches(&self, relative: &Relative, row: usize, out: &mut Equations) {
         out[row..row + 3].copy_from_slice(axial(&self.error(relative)).as_slice());
     }
 
     /// Gradient of [`Self::matches`].
-    pub fn matches_gradient(&self, relative: &Relative, row: usize, out: &mut Gradient) {
+    pub(crate) fn matches_gradient(&self, relative: &Relative, row: usize, out: &mut Gradient) {
         let e = self.error(relative);
         let n = 0.5 * (Matrix3::identity() * e.trace() - e.transpose());
         out.relative.fixed_view_mut::<3, 3>(row, 3).copy_from(&n);
@@ -195,7 +199,7 @@ impl JointRotation<f64> {
     }
 
     /// Curvature of [`Self::matches`].
-    pub fn matches_curvature(&self, relative: &Relative, mu: &Vector3, out: &mut Curvature) {
+    pub(crate) fn matches_curvature(&self, relative: &Relative, mu: &Vector3, out: &mut Curvature) {
         let e = self.error(relative);
         let m = 0.5 * (e.trace() * mu - e * mu);
         let dm = 0.5 * e * skew(mu) - mu * axial(&e).transpose();
@@ -219,14 +223,14 @@ impl JointRotation<f64> {
 }
 
 /// Rotation by `angle` about coordinate axis `axis`.
-pub fn elementary(axis: usize, angle: f64) -> Matrix3 {
+pub(crate) fn elementary(axis: usize, angle: f64) -> Matrix3 {
     let (s, c) = angle.sin_cos();
     elementary_with(axis, s, c, 1.0).into()
 }
 
 /// Rotation about coordinate axis `axis`, and its change since the start of the step.
 #[inline(always)]
-pub fn elementary_of<R: Real>(axis: usize, angle: &Angle<R>) -> (Axes<R>, Axes<R>) {
+pub(crate) fn elementary_of<R: Real>(axis: usize, angle: &Angle<R>) -> (Axes<R>, Axes<R>) {
     let (zero, one) = (angle.sine.like(0.0), angle.sine.like(1.0));
     (
         elementary_with(axis, angle.sine, angle.cosine, one),

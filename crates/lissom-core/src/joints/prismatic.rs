@@ -11,7 +11,7 @@ use super::{
     Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
     MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
-use crate::registry::{Parameter, ParameterType};
+use crate::registry::DISPLACEMENT_AT_START;
 
 /// The displacement's place among the coordinates.
 const SLIDE: usize = 0;
@@ -21,12 +21,7 @@ pub const KIND: JointKind = JointKind {
     name: "prismatic",
     summary: "The tip slides along an axis without turning; the displacement is a coordinate.",
     sample: "axis = [1.0, 0.0, 0.0]",
-    parameters: &[Parameter::optional(
-        "displacement",
-        ParameterType::Number,
-        "m",
-        "Value of the relative displacement at the start; default 0.",
-    )],
+    parameters: &[DISPLACEMENT_AT_START],
     build: Build::Relative(Frames::Axis, |parameters, _| {
         Ok(Box::new(Prismatic { displacement: parameters.number_or("displacement", 0.0)? }))
     }),

@@ -15,7 +15,7 @@ use super::{
     Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
     MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
-use crate::registry::{Parameter, ParameterType};
+use crate::registry::{ANGLE_AT_START, Parameter, ParameterType};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {
@@ -29,12 +29,7 @@ pub const KIND: JointKind = JointKind {
             "m",
             "Displacement along `axis` per turn; negative for a left-handed thread.",
         ),
-        Parameter::optional(
-            "angle",
-            ParameterType::Number,
-            "rad",
-            "Value of the relative rotation at the start; default 0.",
-        ),
+        ANGLE_AT_START,
     ],
     build: Build::Relative(Frames::Axis, |parameters, _| {
         Ok(Box::new(Screw {

@@ -42,8 +42,7 @@ pub(super) struct Buckling {
 impl Buckling {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let (model, document) = self.model.read()?;
-        let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let folder = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-buckling")));
+        let folder = self.model.folder(self.out, "buckling");
         let count = self.count.map(|count| count as usize);
         report((&model, &self.model.set, &document), count, &folder, self.quiet)
     }

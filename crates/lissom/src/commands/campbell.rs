@@ -77,8 +77,7 @@ impl Campbell {
             }
             other => other,
         };
-        let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let path = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-campbell")));
+        let path = self.model.folder(self.out, "campbell");
         let (folder, found) = folder_for(&path, found, || {
             summary::of_request("campbell", model.name(), &self.model.set, &document)
         })?;

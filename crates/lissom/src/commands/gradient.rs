@@ -54,8 +54,7 @@ impl Gradient {
             Err(error) if error.is_of_question() => return Err(Failure::new(Exit::BadModel, error)),
             other => other,
         };
-        let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let path = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-gradient")));
+        let path = self.model.folder(self.out, "gradient");
         let unwritable = |error: lissom::FileError| Failure::folder(Exit::Failed, &FolderError::from(error));
         let folder = ResultFolder::create(&path).map_err(unwritable)?;
         folder.clear().map_err(unwritable)?;

@@ -5,10 +5,9 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use lissom::linearize::{LinearizeReport, LinearizeRequest, linearize};
-use lissom::modes::About;
-use lissom::response::FrequencyError;
 use lissom::summary;
 
+use super::linearization::{StateArgument, answered};
 use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
@@ -39,15 +38,8 @@ pub(super) struct Linearize {
     #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
     output: Vec<String>,
 
-    /// State to linearise about: `static` (default), `undeformed`, `rotation` or a time of the model's analysis [s].
-    #[arg(
-        long,
-        value_name = "STATE|TIME",
-        default_value = "static",
-        hide_default_value = true,
-        allow_negative_numbers = true
-    )]
-    about: About,
+    #[command(flatten)]
+    state: StateArgument,
 
     /// Folder for the results [default: out/<name of the model file>-linear].
     #[arg(long, value_name = "DIR")]
@@ -64,14 +56,9 @@ impl Linearize {
         if !self.quiet {
             show_warnings(&document);
         }
-        let request = LinearizeRequest { about: self.about, inputs: self.input, outputs: self.output };
-        let found = match linearize(&model, &self.model.set, &request) {
-            Err(FrequencyError::Model(report)) => return Err(report.into()),
-            Err(error) if error.is_of_question() => return Err(Failure::new(Exit::BadModel, error)),
-            other => other,
-        };
-        let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let path = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-linear")));
+        let request = LinearizeRequest { about: self.state.about, inputs: self.input, outputs: self.output };
+        let found = answered(linearize(&model, &self.model.set, &request))?;
+        let path = self.model.folder(self.out, "linear");
         let (folder, found) = folder_for(&path, found, || {
             summary::of_request("linearize", model.name(), &self.model.set, &document)
         })?;

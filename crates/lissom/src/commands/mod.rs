@@ -10,6 +10,7 @@ mod fmu;
 mod gradient;
 mod import;
 mod kinds;
+mod linearization;
 mod linearize;
 mod live;
 mod modes;
@@ -26,7 +27,7 @@ mod study;
 mod sweep;
 mod view;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
@@ -196,6 +197,12 @@ impl ModelArguments {
         let model = Model::read(&self.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
         let document = model.document(&self.set)?;
         Ok((model, document))
+    }
+
+    /// The folder for results: the one that is given, or out/<name of the model file>-`of`.
+    fn folder(&self, given: Option<PathBuf>, of: &str) -> PathBuf {
+        let stem = self.model.file_stem().unwrap_or_default().to_string_lossy();
+        given.unwrap_or_else(|| Path::new("out").join(format!("{stem}-{of}")))
     }
 }
 

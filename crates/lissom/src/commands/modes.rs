@@ -60,8 +60,7 @@ impl Modes {
         let (model, document) = self.model.read()?;
         let count = self.count.map(|count| count as usize);
         let request = ModeRequest { count, about: self.about, shift: self.shift };
-        let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let folder = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-modes")));
+        let folder = self.model.folder(self.out, "modes");
         report((&model, &self.model.set, &document), &request, &folder, self.quiet)
     }
 }

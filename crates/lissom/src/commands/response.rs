@@ -4,10 +4,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use lissom::modes::About;
-use lissom::response::{DEFAULT_POINTS, FrequencyError, ResponseReport, ResponseRequest, response};
+use lissom::response::{DEFAULT_POINTS, ResponseReport, ResponseRequest, response};
 use lissom::summary;
 
+use super::linearization::{StateArgument, answered};
 use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
@@ -48,15 +48,8 @@ pub(super) struct Response {
     #[arg(long, value_name = "N", default_value_t = DEFAULT_POINTS as u32, value_parser = clap::value_parser!(u32).range(2..=1_000_000))]
     points: u32,
 
-    /// State to linearise about: `static` (default), `undeformed`, `rotation` or a time of the model's analysis [s].
-    #[arg(
-        long,
-        value_name = "STATE|TIME",
-        default_value = "static",
-        hide_default_value = true,
-        allow_negative_numbers = true
-    )]
-    about: About,
+    #[command(flatten)]
+    state: StateArgument,
 
     /// Folder for the results [default: out/<name of the model file>-response].
     #[arg(long, value_name = "DIR")]
@@ -74,20 +67,15 @@ impl Response {
             show_warnings(&document);
         }
         let request = ResponseRequest {
-            about: self.about,
+            about: self.state.about,
             inputs: self.input,
             outputs: self.output,
             from: self.from,
             to: self.to,
             points: self.points as usize,
         };
-        let found = match response(&model, &self.model.set, &request) {
-            Err(FrequencyError::Model(report)) => return Err(report.into()),
-            Err(error) if error.is_of_question() => return Err(Failure::new(Exit::BadModel, error)),
-            other => other,
-        };
-        let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let path = self.out.unwrap_or_else(|| Path::new("out").join(format!("{stem}-response")));
+        let found = answered(response(&model, &self.model.set, &request))?;
+        let path = self.model.folder(self.out, "response");
         let (folder, found) = folder_for(&path, found, || {
             summary::of_request("response", model.name(), &self.model.set, &document)
         })?;

@@ -1,0 +1,30 @@
+//! What commands share that linearise a model about a state.
+
+use clap::Args;
+use lissom::modes::About;
+use lissom::response::FrequencyError;
+
+use super::{Exit, Failure};
+
+/// About which state.
+#[derive(Args)]
+pub(super) struct StateArgument {
+    /// State to linearise about: `static` (default), `undeformed`, `rotation` or a time of the model's analysis [s].
+    #[arg(
+        long,
+        value_name = "STATE|TIME",
+        default_value = "static",
+        hide_default_value = true,
+        allow_negative_numbers = true
+    )]
+    pub(super) about: About,
+}
+
+/// An answer, or why there is none; an error of the model or of the question ends the command at once.
+pub(super) fn answered<T>(found: Result<T, FrequencyError>) -> Result<Result<T, FrequencyError>, Failure> {
+    match found {
+        Err(FrequencyError::Model(report)) => Err(report.into()),
+        Err(error) if error.is_of_question() => Err(Failure::new(Exit::BadModel, error)),
+        other => Ok(other),
+    }
+}

@@ -1,0 +1,28 @@
+//! Sessions of models that are good, or are not.
+
+use lissom::{Model, Session, SessionError};
+
+/// A session at its start.
+pub(crate) fn session(text: &str) -> Session {
+    match Model::from_text("model.toml", text).session(&[]) {
+        Ok(session) => session,
+        Err(error) => panic!("{text}\n{error}"),
+    }
+}
+
+/// A session at its end.
+pub(crate) fn finished(text: &str) -> Session {
+    let mut session = session(text);
+    let (_, report) = session.record();
+    assert!(report.is_complete(), "{text}\n{report:?}");
+    session
+}
+
+/// Why a model is refused.
+pub(crate) fn refused(text: &str) -> String {
+    match Model::from_text("model.toml", text).session(&[]) {
+        Ok(_) => panic!("{text} is no good model"),
+        Err(SessionError::Model(report)) => report.render(false),
+        Err(error) => error.to_string(),
+    }
+}
