@@ -136,12 +136,12 @@ mod report;
 pub mod response;
 mod schedule;
 mod session;
-mod spent;
 mod state_writer;
 pub mod study;
 pub mod summary;
 pub mod sweep;
 pub mod telemetry;
+mod timings;
 pub mod view;
 
 pub use checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFile};
@@ -155,8 +155,8 @@ pub use model::{Model, Override};
 pub use prepared::{PartError, Prepared, StartError};
 pub use report::{EnergyChange, RunError, RunReport, Stopped};
 pub use session::{Checkpoints, Progress, ReadError, Session, SessionError, SessionSnapshot, columns};
-pub use spent::Seconds;
 pub use state_writer::StateWriter;
+pub use timings::Seconds;
 
 /// Version of the program, as it stands in every summary.
 pub const VERSION: &str = env!("CARGO_PKG_VERSION");

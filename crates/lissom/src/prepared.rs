@@ -66,6 +66,9 @@ pub enum PartError {
     /// The id belongs to another model.
     #[error(transparent)]
     Foreign(#[from] ForeignId),
+    /// The state is of another model.
+    #[error("the state has no input `{0}`: it belongs to another model")]
+    NoInput(String),
     /// A beam has many nodes.
     #[error("`{0}` is a beam: set the motion of its nodes in the state")]
     Beam(String),
@@ -152,9 +155,7 @@ impl Prepared {
         let name = self.ids()?.name(input)?;
         let held =
             self.lowered.system.signals().input(name).and_then(|held| state.kinematics.held.get_mut(held));
-        if let Some(held) = held {
-            *held = value;
-        }
+        *held.ok_or_else(|| PartError::NoInput(name.to_owned()))? = value;
         Ok(())
     }
 

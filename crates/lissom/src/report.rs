@@ -8,7 +8,7 @@ use lissom_core::elements::Energy;
 
 use serde::{Deserialize, Serialize};
 
-use crate::spent::Seconds;
+use crate::timings::Seconds;
 
 /// Why a run ended early.
 #[derive(Debug, thiserror::Error)]

@@ -111,6 +111,9 @@ fn states_that_do_not_fit_are_refused() {
     );
     assert!(refused(&|state| state.kinematics.nodes[1].twist[0] = f64::NAN).contains("not finite"));
     assert!(refused(&|state| state.kinematics.nodes.truncate(1)).contains("1 nodes, the model 2"));
+    let mut session = prepared.session().unwrap();
+    assert!(session.step_to(f64::NAN).unwrap_err().to_string().contains("finite"));
+    assert!(session.step_to(f64::INFINITY).is_err());
     // Small deviations are those of another way to compute the same place.
     let mut state = prepared.state().clone();
     state.kinematics.nodes[1].frame.position.x += 1e-12;

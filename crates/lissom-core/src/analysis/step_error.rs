@@ -57,6 +57,12 @@ pub enum StepError {
         /// What switches.
         what: String,
     },
+    /// A time to be stepped to is not finite.
+    #[error("a session cannot be stepped to the time {target} s: give a finite time")]
+    NoTime {
+        /// What was asked for [s].
+        target: f64,
+    },
     /// A signal is not finite.
     #[error("{0}")]
     Signal(crate::signals::SignalError),

@@ -10,7 +10,7 @@ use lissom_core::system::State;
 
 use super::Session;
 use crate::builder::{ForeignId, IdNames, InputId, OutputId, Quantity};
-use crate::spent::Spent;
+use crate::timings::Timings;
 
 /// An id that cannot be read or set.
 #[derive(Debug, thiserror::Error)]
@@ -22,6 +22,9 @@ pub enum ReadError {
     /// The id belongs to another model.
     #[error(transparent)]
     Foreign(#[from] ForeignId),
+    /// An override has taken the output away.
+    #[error("`{0}` is not recorded")]
+    NotRecorded(String),
     /// The input cannot be set.
     #[error(transparent)]
     Input(#[from] InputError),
@@ -48,10 +51,13 @@ impl Session {
     /// If the output belongs to another model.
     pub fn output(&self, output: OutputId) -> Result<Vec<f64>, ReadError> {
         let name = self.ids()?.name(output)?;
+        let channel = self.channels.iter().find(|channel| channel.name == name);
         let mut values = Vec::new();
-        if let Some(channel) = self.channels.iter().find(|channel| channel.name == name) {
-            channel.evaluate(self.simulation.system(), self.simulation.state(), &mut values);
-        }
+        channel.ok_or_else(|| ReadError::NotRecorded(name.to_owned()))?.evaluate(
+            self.simulation.system(),
+            self.simulation.state(),
+            &mut values,
+        );
         Ok(values)
     }
 
@@ -62,7 +68,8 @@ impl Session {
     pub fn columns_of(&self, output: OutputId) -> Result<Range<usize>, ReadError> {
         let name = self.ids()?.name(output)?;
         let is_own = |column: &crate::Column| column.output == name;
-        let first = self.columns.iter().position(is_own).unwrap_or(0);
+        let first = self.columns.iter().position(is_own);
+        let first = first.ok_or_else(|| ReadError::NotRecorded(name.to_owned()))?;
         Ok(first..first + self.columns.iter().filter(|column| is_own(column)).count())
     }
 
@@ -98,7 +105,7 @@ impl Session {
             signals: self.signals.clone(),
             schedule: self.schedule.clone(),
             tally: self.tally.clone(),
-            spent: Spent::new(),
+            timings: Timings::new(),
             scale: self.scale,
             telemetry: self.telemetry.clone(),
             state_writers: Vec::new(),

@@ -25,9 +25,9 @@ use crate::builder::IdNames;
 use crate::prepared::Prepared;
 use crate::report::{EnergyChange, RunError, RunReport, Stopped};
 use crate::schedule::{Next, Schedule};
-use crate::spent::Spent;
 use crate::state_writer::StateWriter;
 use crate::telemetry::Telemetry;
+use crate::timings::Timings;
 
 pub use handles::ReadError;
 use snapshot::NoCheckpoints;
@@ -72,7 +72,7 @@ pub struct Session {
     signals: BTreeMap<String, Argument>,
     schedule: Schedule,
     tally: Tally,
-    spent: Spent,
+    timings: Timings,
     scale: f64,
     telemetry: Telemetry,
     state_writers: Vec<Box<dyn StateWriter>>,
@@ -126,11 +126,11 @@ impl Session {
         let schedule = Schedule::new(plan, settings.step_size);
         let simulation = Simulation::new(system, state, settings)?;
         let violations = vec![0.0; simulation.system().layout().multiplier_rows().len()];
-        let mut spent = Spent::new();
-        spent.start = began.elapsed();
+        let mut timings = Timings::new();
+        timings.start = began.elapsed();
         Ok(Self {
             columns: columns(&channels),
-            spent,
+            timings,
             tally: Tally { violations, ..Tally::default() },
             scale: simulation.scaled().scale(),
             telemetry: Telemetry::default(),
@@ -147,7 +147,7 @@ impl Session {
 
     /// Gives up a step that is tried again and again, once `cancelled` is set; the run then counts as interrupted.
     pub fn cancel_by(&mut self, cancelled: Arc<AtomicBool>) {
-        self.spent.cancelled = Some(cancelled);
+        self.timings.cancelled = Some(cancelled);
     }
 
     /// The simulation: system, state, totals.
@@ -259,7 +259,7 @@ impl Session {
     /// If the step has no solution.
     pub fn advance(&mut self) -> Result<StepReport, StepError> {
         let outcome = self.step();
-        self.spent.pause();
+        self.timings.pause();
         outcome.map(|(report, _)| report)
     }
 
@@ -268,7 +268,7 @@ impl Session {
     /// [`run`](Self::run), go on from there.
     ///
     /// # Errors
-    /// If a step has no solution; the session then stands at the end of the last one that has.
+    /// If `time` is not finite, or a step has no solution; the session then stands at the end of the last one that has.
     pub fn step_to(&mut self, time: f64) -> Result<(), StepError> {
         self.step_to_watched(time, &mut |_| ControlFlow::Continue(())).map(|_| ())
     }
@@ -284,7 +284,7 @@ impl Session {
         watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, StepError> {
         let outcome = self.go_to(time, watch);
-        self.spent.pause();
+        self.timings.pause();
         outcome
     }
 
@@ -293,6 +293,9 @@ impl Session {
         time: f64,
         watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
     ) -> Result<ControlFlow<()>, StepError> {
+        if !time.is_finite() {
+            return Err(StepError::NoTime { target: time });
+        }
         let is_controlled = self.schedule.plan().is_controlled;
         while time - self.schedule.time() > WHOLE * self.schedule.step_size() {
             if watch(&self.progress()).is_break() {
@@ -353,12 +356,12 @@ impl Session {
             }
             Next::Until(limit) => limit,
         };
-        self.spent.begin_step();
-        let outcome = self.simulation.step_watched(limit, &mut self.spent);
-        self.spent.end_step();
+        self.timings.begin_step();
+        let outcome = self.simulation.step_watched(limit, &mut self.timings);
+        self.timings.end_step();
         let report = outcome?;
         if self.telemetry.will_estimate(&self.simulation, &report) {
-            self.spent.pause();
+            self.timings.pause();
         }
         self.telemetry.note(&mut self.simulation, &report);
         Ok(report)
@@ -394,7 +397,7 @@ impl Session {
             Ok(ControlFlow::Break(())) => Stopped::Interrupted,
             Err(error) => Stopped::Failed(error),
         };
-        self.spent.pause();
+        self.timings.pause();
         let finished = writers.iter_mut().try_for_each(|writer| writer.finish());
         let simulation = &self.simulation;
         let states = self.state_writers.iter_mut().try_for_each(|writer| writer.finish(simulation));
@@ -410,8 +413,8 @@ impl Session {
             records: self.tally.records,
             totals: *self.simulation.totals(),
             wall: self.began.elapsed(),
-            solving: self.spent.steps(),
-            seconds: self.spent.seconds(),
+            solving: self.timings.steps(),
+            seconds: self.timings.seconds(),
             violation: self.tally.violation,
             energy: self.tally.energy,
             conditions: [self.telemetry.first_condition(), self.condition_estimate()],
@@ -485,7 +488,7 @@ impl Session {
         if !checkpoints.are_wanted() {
             return Ok(());
         }
-        self.spent.pause();
+        self.timings.pause();
         writers.iter_mut().try_for_each(|writer| writer.finish())?;
         self.state_writers.iter_mut().try_for_each(|writer| writer.flush())?;
         checkpoints.keep(&self.snapshot())
@@ -497,18 +500,18 @@ impl Session {
         if !self.state_writers.iter().any(|writer| writer.is_due(now)) {
             return Ok(());
         }
-        self.spent.pause();
+        self.timings.pause();
         let began = Instant::now();
         let known_from = known_from.unwrap_or(now);
         let simulation = &self.simulation;
         let mut due = self.state_writers.iter_mut().filter(|writer| writer.is_due(now));
         let written = due.try_for_each(|writer| writer.step(simulation, known_from));
-        self.spent.output += began.elapsed();
+        self.timings.output += began.elapsed();
         written
     }
 
     fn write_row(&mut self, writers: &mut [&mut dyn Writer]) -> io::Result<()> {
-        self.spent.pause();
+        self.timings.pause();
         let began = Instant::now();
         let mut values = std::mem::take(&mut self.tally.values);
         values.clear();
@@ -521,7 +524,7 @@ impl Session {
         self.tally.values = values;
         self.take_stock();
         let written = writers.iter_mut().try_for_each(|writer| writer.row(time, &self.tally.values));
-        self.spent.output += began.elapsed();
+        self.timings.output += began.elapsed();
         written
     }
 

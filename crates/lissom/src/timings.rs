@@ -40,7 +40,7 @@ impl Seconds {
 }
 
 /// Watches steps.
-pub(crate) struct Spent {
+pub(crate) struct Timings {
     by_phase: [Duration; Phase::COUNT],
     /// Of that, the first step's, which is like no other: it makes a tangent, and all memory is new to it.
     first: [Duration; Phase::COUNT],
@@ -59,7 +59,7 @@ pub(crate) struct Spent {
     pub(crate) cancelled: Option<Arc<AtomicBool>>,
 }
 
-impl Spent {
+impl Timings {
     pub(crate) fn new() -> Self {
         Self {
             by_phase: [Duration::ZERO; Phase::COUNT],
@@ -150,7 +150,7 @@ impl Spent {
     }
 }
 
-impl Stopwatch for Spent {
+impl Stopwatch for Timings {
     fn begin(&mut self, phase: Phase) {
         if self.watching {
             self.note(Instant::now());
@@ -169,18 +169,18 @@ mod tests {
 
     #[test]
     fn the_parts_are_the_whole() {
-        let mut spent = Spent::new();
+        let mut timings = Timings::new();
         for _ in 0..40 {
-            spent.begin_step();
+            timings.begin_step();
             for phase in [Phase::Evaluation, Phase::Solve, Phase::Linearisation, Phase::Factorisation] {
-                spent.begin(phase);
+                timings.begin(phase);
                 std::hint::black_box((0..1000).fold(0_u64, |sum, k| std::hint::black_box(sum ^ k)));
             }
-            spent.end_step();
+            timings.end_step();
         }
-        spent.pause();
-        let seconds = spent.seconds();
-        assert!((seconds.steps() - spent.steps().as_secs_f64()).abs() < 1e-9);
+        timings.pause();
+        let seconds = timings.seconds();
+        assert!((seconds.steps() - timings.steps().as_secs_f64()).abs() < 1e-9);
         assert!(seconds.evaluation > 0.0 && seconds.factorisation > 0.0 && seconds.solve > 0.0);
     }
 }
