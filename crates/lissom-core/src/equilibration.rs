@@ -17,7 +17,7 @@ const NOTHING: f64 = 1e-14;
 
 /// The factors of rows and columns.
 #[derive(Clone, Debug)]
-pub struct Equilibration {
+pub(crate) struct Equilibration {
     factors: Vec<f64>,
     /// Rows before this one belong to coordinates, the others to multipliers.
     coordinate_count: usize,
@@ -25,12 +25,12 @@ pub struct Equilibration {
 
 impl Equilibration {
     /// No change yet, for `size` unknowns of which the first `coordinate_count` are coordinates.
-    pub fn new(size: usize, coordinate_count: usize) -> Self {
+    pub(crate) fn new(size: usize, coordinate_count: usize) -> Self {
         Self { factors: vec![1.0; size], coordinate_count }
     }
 
     /// Factor of each row and column.
-    pub fn factors(&self) -> &[f64] {
+    pub(crate) fn factors(&self) -> &[f64] {
         &self.factors
     }
 
@@ -40,7 +40,7 @@ impl Equilibration {
     }
 
     /// Finds the factors of the tangent with `values` on `pattern` and applies them to it.
-    pub fn apply<S: Scalar>(&mut self, pattern: &Pattern, values: &mut [S]) {
+    pub(crate) fn apply<S: Scalar>(&mut self, pattern: &Pattern, values: &mut [S]) {
         let (starts, rows) = (pattern.column_starts(), pattern.row_indices());
         let count = self.coordinate_count;
         for column in 0..pattern.size() {
@@ -70,7 +70,7 @@ impl Equilibration {
     }
 
     /// Right-hand side of the equilibrated tangent, or from its solution to the tangent's own.
-    pub fn scale(&self, vector: &mut [f64]) {
+    pub(crate) fn scale(&self, vector: &mut [f64]) {
         for (value, factor) in vector.iter_mut().zip(&self.factors) {
             *value *= factor;
         }

@@ -5,7 +5,7 @@
 
 pub mod analysis;
 pub mod elements;
-pub mod equilibration;
+pub(crate) mod equilibration;
 pub mod joints;
 pub mod judge;
 mod lanes;

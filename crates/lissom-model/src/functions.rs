@@ -23,7 +23,7 @@ impl TimeFunction for Expression {
 }
 
 /// An expression as a shared function of time; one that does not depend on time becomes a [`Constant`].
-pub fn of_expression(expression: Expression) -> Function {
+pub(crate) fn of_expression(expression: Expression) -> Function {
     match expression.constant() {
         Some(value) => Arc::new(Constant(value)),
         None => Arc::new(expression),

@@ -136,7 +136,7 @@ impl Line {
     }
 
     /// Whether the line runs along `up` somewhere.
-    pub fn is_parallel_somewhere(&self, up: &Vector3) -> bool {
+    pub(crate) fn is_parallel_somewhere(&self, up: &Vector3) -> bool {
         (0..=SAMPLES).any(|i| {
             let tangent = self.derivative(f64::from(i) / f64::from(SAMPLES));
             are_parallel(&tangent, up)
@@ -153,7 +153,7 @@ impl Line {
     }
 
     /// Global z where the line does not run along it, else global y, else global x.
-    pub fn default_up(&self) -> Vector3 {
+    pub(crate) fn default_up(&self) -> Vector3 {
         let choices = [Vector3::z(), Vector3::y(), Vector3::x()];
         choices.into_iter().find(|up| !self.is_parallel_somewhere(up)).unwrap_or_else(Vector3::z)
     }

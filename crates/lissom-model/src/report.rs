@@ -121,7 +121,7 @@ impl Problem {
     }
 
     /// Adds a remedy, if there is one.
-    pub fn maybe_help(mut self, help: Option<String>) -> Self {
+    pub(crate) fn maybe_help(mut self, help: Option<String>) -> Self {
         self.help = help.or(self.help);
         self
     }

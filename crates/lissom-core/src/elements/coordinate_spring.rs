@@ -9,7 +9,7 @@ use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Para
 use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
 
 /// Registry entry of the spring on a rotation.
-pub const TORSIONAL: ElementKind = ElementKind {
+pub(crate) const TORSIONAL: ElementKind = ElementKind {
     name: "torsional",
     summary: "Spring and damper on a joint's relative rotation.",
     sample: "stiffness = 10.0",
@@ -56,7 +56,7 @@ pub const TORSIONAL: ElementKind = ElementKind {
 };
 
 /// Registry entry of the spring on a displacement.
-pub const AXIAL: ElementKind = ElementKind {
+pub(crate) const AXIAL: ElementKind = ElementKind {
     name: "axial",
     summary: "Spring and damper on a joint's relative displacement.",
     sample: "stiffness = 1000.0",
@@ -99,7 +99,7 @@ pub const AXIAL: ElementKind = ElementKind {
 
 /// Spring and damper on an algebraic coordinate.
 #[derive(Clone, Debug)]
-pub struct CoordinateSpring {
+pub(crate) struct CoordinateSpring {
     coordinate: [CoordinateId; 1],
     law: ForceLaw,
     /// Where it is free of force.

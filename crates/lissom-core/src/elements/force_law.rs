@@ -15,7 +15,7 @@ use super::sides::is_above;
 use crate::registry::{Force, Parameter, ParameterError, ParameterType, Parameters};
 
 /// On which side of the free length it acts, for lengths.
-pub const SIDE_OF_LENGTH: Parameter = Parameter::optional(
+pub(crate) const SIDE_OF_LENGTH: Parameter = Parameter::optional(
     "side",
     ParameterType::Choice(&["both", "tension", "compression"]),
     "",
@@ -23,7 +23,7 @@ pub const SIDE_OF_LENGTH: Parameter = Parameter::optional(
 );
 
 /// The same for angles.
-pub const SIDE_OF_ANGLE: Parameter = Parameter::optional(
+pub(crate) const SIDE_OF_ANGLE: Parameter = Parameter::optional(
     "side",
     ParameterType::Choice(&["both", "positive", "negative"]),
     "",
@@ -40,7 +40,7 @@ enum Side {
 
 /// A force and its derivatives.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Response {
+pub(crate) struct Response {
     /// The force [N, N m], positive where it pulls together.
     pub force: f64,
     /// By the elongation [N/m, N m/rad].
@@ -51,7 +51,7 @@ pub struct Response {
 
 /// The law of a spring and damper.
 #[derive(Clone, Debug)]
-pub struct ForceLaw {
+pub(crate) struct ForceLaw {
     stiffness: f64,
     damping: f64,
     elastic: Option<Force>,
@@ -69,7 +69,7 @@ impl ForceLaw {
     ///
     /// # Errors
     /// If a parameter is of the wrong kind.
-    pub fn new(parameters: &Parameters, [elastic, damper]: [&str; 2]) -> Result<Self, ParameterError> {
+    pub(crate) fn new(parameters: &Parameters, [elastic, damper]: [&str; 2]) -> Result<Self, ParameterError> {
         let side = match parameters.word("side")? {
             Some("tension" | "positive") => Side::Positive,
             Some("compression" | "negative") => Side::Negative,
@@ -96,7 +96,7 @@ impl ForceLaw {
     }
 
     /// Whether it may put energy in, so that its work is counted instead of its potential energy.
-    pub fn is_active(&self) -> bool {
+    pub(crate) fn is_active(&self) -> bool {
         self.is_active
     }
 
@@ -107,7 +107,7 @@ impl ForceLaw {
     }
 
     /// How many kinks it has as far as [`switches`](Self::switches) tells.
-    pub fn switch_count(&self) -> usize {
+    pub(crate) fn switch_count(&self) -> usize {
         let laws = [&self.elastic, &self.damper].into_iter().flatten();
         let kinks: usize = laws.map(|law| law.switches().len()).sum();
         let limits = self.limits.iter().filter(|limit| is_passed(**limit)).count();
@@ -115,12 +115,12 @@ impl ForceLaw {
     }
 
     /// Appends numbers that change their sign where the force begins or ends, at kinks of its expressions, and at limits.
-    pub fn switches(&self, elongation: f64, rate: f64, sides: &[f64], out: &mut Vec<f64>) {
+    pub(crate) fn switches(&self, elongation: f64, rate: f64, sides: &[f64], out: &mut Vec<f64>) {
         self.walk(elongation, rate, sides, |value| out.push(value));
     }
 
     /// The force at an elongation and its rate, continued from known `sides` of its switches.
-    pub fn evaluate(&self, elongation: f64, rate: f64, sides: &[f64]) -> Response {
+    pub(crate) fn evaluate(&self, elongation: f64, rate: f64, sides: &[f64]) -> Response {
         self.walk(elongation, rate, sides, |_| ())
     }
 
@@ -182,7 +182,7 @@ impl ForceLaw {
     }
 
     /// Potential energy [J]; zero at the free length.
-    pub fn energy(&self, elongation: f64) -> f64 {
+    pub(crate) fn energy(&self, elongation: f64) -> f64 {
         let past = elongation - elongation.clamp(-self.play, self.play);
         let is_free =
             (self.side == Side::Positive && past < 0.0) || (self.side == Side::Negative && past > 0.0);

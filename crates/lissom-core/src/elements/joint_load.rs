@@ -6,7 +6,7 @@ use crate::registry::{COORDINATE, Function, Parameter, ParameterError, Parameter
 use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
 
 /// Registry entry of the torque on a rotation.
-pub const TORQUE: ElementKind = ElementKind {
+pub(crate) const TORQUE: ElementKind = ElementKind {
     name: "joint_torque",
     summary: "Torque of an actuator on a joint's relative rotation, from the base on the tip.",
     sample: "torque = \"2*sin(t)\"",
@@ -24,7 +24,7 @@ pub const TORQUE: ElementKind = ElementKind {
 };
 
 /// Registry entry of the force on a displacement.
-pub const FORCE: ElementKind = ElementKind {
+pub(crate) const FORCE: ElementKind = ElementKind {
     name: "joint_force",
     summary: "Force of an actuator on a joint's relative displacement, from the base on the tip.",
     sample: "force = \"2*sin(t)\"",
@@ -43,7 +43,7 @@ pub const FORCE: ElementKind = ElementKind {
 
 /// Generalised force on an algebraic coordinate.
 #[derive(Clone, Debug)]
-pub struct JointLoad {
+pub(crate) struct JointLoad {
     coordinate: [CoordinateId; 1],
     size: Function,
 }

@@ -6,17 +6,17 @@
 pub mod beam;
 pub mod blocks;
 pub mod bushing;
-pub mod coordinate_spring;
+pub(crate) mod coordinate_spring;
 pub mod force;
-pub mod force_law;
+pub(crate) mod force_law;
 pub mod friction;
 pub mod gyrostat;
 pub mod inertia;
 mod inertia_blocks;
-pub mod joint_load;
+pub(crate) mod joint_load;
 pub mod moment;
 pub mod passage;
-pub mod point_spring;
+pub(crate) mod point_spring;
 pub mod quadrature;
 pub(crate) mod rolling;
 pub mod shape;
@@ -243,7 +243,7 @@ impl Attached {
     ///
     /// # Errors
     /// If the attachment is of another form.
-    pub fn one_node(self) -> Result<(NodeId, Vector3), ParameterError> {
+    pub(crate) fn one_node(self) -> Result<(NodeId, Vector3), ParameterError> {
         match self {
             Self::OneNode(node, point) => Ok((node, point)),
             _ => Err(ParameterError::new("on", "must name one node")),

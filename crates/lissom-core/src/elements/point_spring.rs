@@ -16,7 +16,7 @@ use crate::system::state::split;
 use crate::system::{Builder, Kinematics, NodeId, NodeMotion};
 
 /// Registry entry.
-pub const KIND: ElementKind = ElementKind {
+pub(crate) const KIND: ElementKind = ElementKind {
     name: "point",
     summary: "Spring and damper between two points, along the line that joins them.",
     sample: "stiffness = 100.0\ndamping = 1.0",
@@ -56,7 +56,7 @@ pub const KIND: ElementKind = ElementKind {
 
 /// Spring and damper between two points.
 #[derive(Clone, Debug)]
-pub struct PointSpring {
+pub(crate) struct PointSpring {
     nodes: [NodeId; 2],
     points: [Vector3; 2],
     law: ForceLaw,

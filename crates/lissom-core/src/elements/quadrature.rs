@@ -1,7 +1,7 @@
 //! Gauss-Legendre and Gauss-Lobatto rules on [-1, 1].
 
 /// Points and weights of the Gauss-Legendre rule, exact to degree 2 n - 1, for n = 1 … 4.
-pub fn gauss_legendre(points: usize) -> &'static [(f64, f64)] {
+pub(crate) fn gauss_legendre(points: usize) -> &'static [(f64, f64)] {
     const ONE: [(f64, f64); 1] = [(0.0, 2.0)];
     const TWO: [(f64, f64); 2] = [(-0.577_350_269_189_625_8, 1.0), (0.577_350_269_189_625_8, 1.0)];
     const THREE: [(f64, f64); 3] =

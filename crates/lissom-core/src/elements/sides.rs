@@ -11,7 +11,7 @@ pub struct Sides {
 
 impl Sides {
     /// `count` sides from the held value `first` on.
-    pub fn held_at(first: usize, count: usize) -> Self {
+    pub(crate) fn held_at(first: usize, count: usize) -> Self {
         Self { held: Some((first, count)) }
     }
 

@@ -159,13 +159,13 @@ impl<'a> LinearModel<'a> {
     }
 
     /// Whether it has neither damping nor gyroscopic terms and a symmetric stiffness: squares of eigenvalues are real.
-    pub fn is_conservative(&self) -> bool {
+    pub(crate) fn is_conservative(&self) -> bool {
         self.is_conservative
     }
 
     /// Directions in which the energy falls and which the constraints leave, at rest; none where the stiffness belongs to
     /// no energy or cannot be factored.
-    pub fn unstable_directions(&self) -> Option<usize> {
+    pub(crate) fn unstable_directions(&self) -> Option<usize> {
         if !self.is_at_rest || !is_symmetric(self.system, &self.representative, &self.parts) {
             return None;
         }

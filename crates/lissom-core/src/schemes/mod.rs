@@ -119,7 +119,7 @@ pub struct Tableau {
 
 impl Tableau {
     /// Whether the last stage is the end of the step in every respect.
-    pub fn is_stiffly_accurate(&self) -> bool {
+    pub(crate) fn is_stiffly_accurate(&self) -> bool {
         self.dissipation == 1.0
     }
 }

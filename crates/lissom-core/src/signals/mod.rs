@@ -124,7 +124,7 @@ impl Graph {
     }
 
     /// Names of the inputs: held values that are no samples.
-    pub fn input_names(&self) -> impl Iterator<Item = &str> {
+    pub(crate) fn input_names(&self) -> impl Iterator<Item = &str> {
         let is_input = |&held: &HeldId| {
             !self.signals.iter().any(|signal| signal.sampling.is_some_and(|own| own.held == held))
         };

@@ -295,7 +295,7 @@ impl System {
     }
 
     /// ∂c/∂t by multiplier.
-    pub fn constraint_velocities(&self, at: &Kinematics, out: &mut [f64]) {
+    pub(crate) fn constraint_velocities(&self, at: &Kinematics, out: &mut [f64]) {
         out.fill(0.0);
         for drive in &self.drives {
             out[drive.multiplier] = -drive.prescribed.value.first_derivative(at.time);

@@ -5,6 +5,7 @@ mod coupling;
 mod drawn;
 mod motion;
 mod rolling;
+mod signals;
 
 use std::sync::Arc;
 
@@ -29,9 +30,7 @@ use crate::joints::coupling::Coupling;
 use crate::joints::derivatives::{LOCAL, OWN, TIP};
 use crate::joints::{Build, Geometry, JointKind, Quantity};
 use crate::registry::{Function, ParameterError, Parameters};
-use crate::signals::event::Event;
-use crate::signals::measurement::Measurement;
-use crate::signals::{Argument, Graph, HeldId, MOST_ARGUMENTS, MeasurementId, Signal, SignalId};
+use crate::signals::{Graph, SignalId};
 
 /// Why a system could not be built.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -289,83 +288,6 @@ impl Builder {
         base.rotation.apply_inverse(&frame.rotation.apply(&normal)).z.abs() > 1.0 - 1e-12
     }
 
-    /// Adds a held value, an input or the last sample of a signal, with its value at the start.
-    pub fn add_held(&mut self, name: &str, start: f64) -> HeldId {
-        self.graph.held.push((name.to_owned(), start));
-        self.graph.held.len() - 1
-    }
-
-    /// Adds a first-order state with its value at the start and its usual magnitude. Its derivative is given with
-    /// [`drive_state`](Self::drive_state).
-    pub fn add_state(&mut self, name: &str, value: f64, magnitude: f64) -> CoordinateId {
-        self.coordinates.push(Coordinate { name: name.to_owned(), value, quantity: Quantity::State });
-        self.states.push((self.coordinates.len() - 1, magnitude));
-        self.coordinates.len() - 1
-    }
-
-    /// Adds a measurement.
-    pub fn add_measurement<M: Measurement + 'static>(&mut self, measurement: M) -> MeasurementId {
-        self.graph.measurements.push(Box::new(measurement));
-        self.graph.measurements.len() - 1
-    }
-
-    /// Adds a signal, after those that it names.
-    ///
-    /// # Errors
-    /// If it names a later signal, or has too many arguments.
-    pub fn add_signal(&mut self, signal: Signal) -> Result<SignalId, ParameterError> {
-        let next = self.graph.signals.len();
-        let is_there = |argument: &Argument| match *argument {
-            Argument::Held(held) => held < self.graph.held.len(),
-            Argument::Signal(earlier) => earlier < next,
-            Argument::Measured(measurement) => measurement < self.graph.measurements.len(),
-        };
-        if !signal.arguments.iter().all(is_there) {
-            return Err(ParameterError::new(&signal.name, "names what is not there yet"));
-        }
-        if signal.arguments.len() > MOST_ARGUMENTS {
-            let problem = format!("names more than {MOST_ARGUMENTS} quantities");
-            return Err(ParameterError::new(&signal.name, problem));
-        }
-        self.graph.signals.push(signal);
-        Ok(next)
-    }
-
-    /// Makes a signal the derivative of a first-order state.
-    pub fn drive_state(&mut self, state: CoordinateId, signal: SignalId) {
-        self.targets.push((Target::State([state]), signal));
-    }
-
-    /// Adds an event.
-    ///
-    /// # Errors
-    /// If it names signals or held values that are not there.
-    pub fn add_event(&mut self, event: Event) -> Result<(), ParameterError> {
-        let is_there = |&(held, signal): &(HeldId, SignalId)| {
-            held < self.graph.held.len() && signal < self.graph.signals.len()
-        };
-        if event.root >= self.graph.signals.len() || !event.sets.iter().all(is_there) {
-            return Err(ParameterError::new(&event.name, "names what is not there"));
-        }
-        self.graph.events.push(event);
-        Ok(())
-    }
-
-    /// Adds with `build` a load of size one whose size is a signal.
-    ///
-    /// # Errors
-    /// As `build`.
-    pub fn add_driven<T, E>(
-        &mut self,
-        signal: SignalId,
-        build: impl FnOnce(&mut Self) -> Result<T, E>,
-    ) -> Result<T, E> {
-        self.driver = Some(signal);
-        let built = build(self);
-        self.driver = None;
-        built
-    }
-
     /// Name of a coordinate.
     pub(crate) fn coordinate_name(&self, coordinate: CoordinateId) -> &str {
         &self.coordinates[coordinate].name
@@ -466,9 +388,7 @@ impl Builder {
         if !feedback.is_empty() {
             self.batches.push(Box::new(Arc::clone(&feedback)));
         }
-        let element_count = self.batches.iter().map(|batch| batch.len()).sum();
         let system = System {
-            body_count: self.nodes.len() - 1,
             layout,
             batches: self.batches,
             joint_batches: Batches::new(&self.joints),
@@ -481,7 +401,6 @@ impl Builder {
             joint_rows: joint_rows.concat(),
             inertias,
             gravity: self.gravity.acceleration,
-            element_count,
             feedback,
         };
         Ok((system, state))

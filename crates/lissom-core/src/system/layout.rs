@@ -142,7 +142,7 @@ impl Layout {
     }
 
     /// Name of a node, as a person would call it.
-    pub fn name_of_node(&self, node: NodeId) -> &str {
+    pub(crate) fn name_of_node(&self, node: NodeId) -> &str {
         &self.node_names[node]
     }
 

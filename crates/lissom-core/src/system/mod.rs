@@ -78,8 +78,6 @@ pub struct System {
     pub(crate) joint_starts: Vec<usize>,
     pub(crate) inertias: Vec<Inertia>,
     pub(crate) gravity: Vector3,
-    pub(crate) body_count: usize,
-    pub(crate) element_count: usize,
     /// Signals and what they act on.
     pub(crate) feedback: Arc<Feedback>,
 }
@@ -133,16 +131,6 @@ impl System {
     /// Gravity [m/s²].
     pub fn gravity(&self) -> &Vector3 {
         &self.gravity
-    }
-
-    /// Number of elements, inertias included.
-    pub fn element_count(&self) -> usize {
-        self.element_count
-    }
-
-    /// Number of nodes with mass or freedom.
-    pub fn body_count(&self) -> usize {
-        self.body_count
     }
 
     /// Kinetic, elastic and potential energy [J].
@@ -200,14 +188,14 @@ impl System {
     }
 
     /// The largest rate at which an element deforms [1/s], with one of its nodes; none where nothing can be bent.
-    pub fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
+    pub(crate) fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
         let rates = self.batches.iter().filter_map(|batch| batch.deformation_rate(at));
         rates.reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
     }
 
     /// The two nodes of an element that are turned most against each other, and the cosine of half the angle between
     /// them; none where no element turns with two nodes.
-    pub fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+    pub(crate) fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
         let pairs = self.batches.iter().filter_map(|batch| batch.least_aligned(at));
         pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
     }

@@ -42,11 +42,6 @@ impl NodeMotion {
     pub fn angular_velocity(&self) -> Vector3 {
         self.frame.rotation.apply(&split(&self.twist).1)
     }
-
-    /// Angular acceleration in the inertial frame [rad/s²].
-    pub fn angular_acceleration(&self) -> Vector3 {
-        self.frame.rotation.apply(&split(&self.acceleration).1)
-    }
 }
 
 /// Translation and rotation parts of a twist or wrench.
@@ -101,7 +96,7 @@ impl MotionChange {
     }
 
     /// log H of a small change, without cancellation: relative error |θ|⁶/20.
-    pub fn small_logarithm(&self) -> Vector6 {
+    pub(crate) fn small_logarithm(&self) -> Vector6 {
         let sine = axial(&self.turn);
         let square = sine.norm_squared();
         let theta = sine * (1.0 + square * (1.0 / 6.0 + square * 0.075));
@@ -110,7 +105,7 @@ impl MotionChange {
 
     /// The same change of a frame carried at `offset`: O⁻¹ (E, p) O.
     #[must_use]
-    pub fn carried_at(&self, offset: &Motion) -> Self {
+    pub(crate) fn carried_at(&self, offset: &Motion) -> Self {
         if offset.rotation == Rotation::IDENTITY {
             return Self { turn: self.turn, shift: self.shift + self.turn * offset.position };
         }

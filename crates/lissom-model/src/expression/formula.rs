@@ -37,7 +37,7 @@ impl Formula {
     }
 
     /// The same number at all times.
-    pub fn of_constant(value: f64) -> Self {
+    pub(crate) fn of_constant(value: f64) -> Self {
         Self { steps: vec![Step::Constant(value)], arguments: Vec::new(), text: value.to_string() }
     }
 
@@ -54,12 +54,12 @@ impl Formula {
     }
 
     /// Whether it names the time.
-    pub fn depends_on_time(&self) -> bool {
+    pub(crate) fn depends_on_time(&self) -> bool {
         self.steps.contains(&Step::Variable)
     }
 
     /// The expression of time alone that is left where the arguments are these numbers, one for each.
-    pub fn with_arguments(&self, arguments: &[f64]) -> Expression {
+    pub(crate) fn with_arguments(&self, arguments: &[f64]) -> Expression {
         let number = |step: &Step| match *step {
             Step::Argument(index) => Step::Constant(arguments[index]),
             other => other,
@@ -68,7 +68,7 @@ impl Formula {
     }
 
     /// Values of an argument at which it is known not to be smooth while other arguments are 0, in ascending order.
-    pub fn kinks_of(&self, argument: usize) -> Vec<f64> {
+    pub(crate) fn kinks_of(&self, argument: usize) -> Vec<f64> {
         let alone: Vec<Step> = (self.steps.iter())
             .map(|step| match *step {
                 Step::Argument(index) if index == argument => Step::Variable,

@@ -67,7 +67,7 @@ impl Expression {
     }
 
     /// The same number everywhere.
-    pub fn of_constant(value: f64) -> Self {
+    pub(crate) fn of_constant(value: f64) -> Self {
         Self { steps: vec![Step::Constant(value)] }
     }
 
@@ -158,7 +158,7 @@ impl Step {
 }
 
 /// Words that no parameter may be called.
-pub fn is_reserved(word: &str) -> bool {
+pub(crate) fn is_reserved(word: &str) -> bool {
     matches!(word, "t" | "s" | "pi") || Function::named(word).is_some()
 }
 

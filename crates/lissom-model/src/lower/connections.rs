@@ -119,7 +119,9 @@ fn joint(
     let added = match kind.build {
         Build::Motion if on_tip.is_some() => {
             let message = format!("the motion `{name}` begins where the parts are placed");
-            return Err(Problem::error(component.name.span, message).help("leave out what is said of the tip"));
+            return Err(
+                Problem::error(component.name.span, message).help("leave out what is said of the tip")
+            );
         }
         Build::Motion => builder.add_motion(name, &placement, parameters),
         _ => builder.add_joint_apart(name, kind, placed, parameters),

@@ -89,7 +89,7 @@ impl Shape {
     }
 
     /// Shear coefficients for shear along axes 2 and 3 [–].
-    pub fn shear_coefficients(&self, theory: ShearTheory, poisson: f64) -> [f64; 2] {
+    pub(crate) fn shear_coefficients(&self, theory: ShearTheory, poisson: f64) -> [f64; 2] {
         match *self {
             Self::Rectangle { width, height } => {
                 [theory.rectangle(width, height, poisson), theory.rectangle(height, width, poisson)]
@@ -120,7 +120,7 @@ pub struct SectionProperties {
 
 impl SectionProperties {
     /// A homogeneous section of one isotropic material; without damping.
-    pub fn homogeneous(shape: &Shape, material: &Isotropic, shear: Shear) -> Self {
+    pub(crate) fn homogeneous(shape: &Shape, material: &Isotropic, shear: Shear) -> Self {
         let Integrals { area, second, torsion } = shape.integrals();
         let [k2, k3] = match shear {
             Shear::Theory(theory) => shape.shear_coefficients(theory, material.poisson()),
@@ -157,7 +157,7 @@ impl SectionProperties {
 
 /// The mass matrix of a slice: mass per length [kg/m], inertia per length about the centre of mass [kg m], and
 /// the centre of mass along axes 2 and 3 [m].
-pub fn mass_matrix(per_length: f64, inertia: &Matrix3, center: [f64; 2]) -> Matrix6 {
+pub(crate) fn mass_matrix(per_length: f64, inertia: &Matrix3, center: [f64; 2]) -> Matrix6 {
     // A point of the slice moves with v - c × ω: momentum m(v - c̃ω), moment of momentum c̃p + Jω.
     let c = skew(&Vector3::new(0.0, center[0], center[1]));
     let mut mass = Matrix6::zeros();

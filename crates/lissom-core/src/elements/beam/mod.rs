@@ -117,7 +117,7 @@ impl<const N: usize> Beam<N> {
     }
 
     /// Length of the stress-free reference line per ξ at ξ [m].
-    pub fn length_per_xi(&self, xi: f64) -> f64 {
+    pub(crate) fn length_per_xi(&self, xi: f64) -> f64 {
         let (shape, slope) = lagrange::<N>(xi);
         let twist = tangent_times(&combine(&shape, &self.natural), &combine(&slope, &self.natural));
         twist.fixed_rows::<3>(0).norm()
@@ -179,7 +179,7 @@ impl<const N: usize> Beam<N> {
     }
 
     /// Strain at ξ ∈ [-1, 1]: axial, shear 2, shear 3 [-], twist, curvature 2, curvature 3 [1/m].
-    pub fn strain_at(&self, at: &Kinematics, xi: f64) -> Vector6 {
+    pub(crate) fn strain_at(&self, at: &Kinematics, xi: f64) -> Vector6 {
         let (shape, slope) = lagrange::<N>(xi);
         let twist = |d: &Relative<N>| tangent_times(&combine(&shape, d), &combine(&slope, d));
         let natural = twist(&self.natural);

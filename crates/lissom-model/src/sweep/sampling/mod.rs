@@ -9,7 +9,7 @@ mod normal;
 mod random;
 mod sobol;
 
-pub use normal::normal_quantile;
+pub(crate) use normal::normal_quantile;
 
 /// How a sampling fills the table of members by varied paths, member by member.
 pub(super) enum Draw {

@@ -1,7 +1,7 @@
 //! The quantile of the standard normal distribution.
 
 /// x with Φ(x) = `u`, for `u` between 0 and 1, to about sixteen digits: algorithm AS 241 [Wichura 1988], PPND16.
-pub fn normal_quantile(u: f64) -> f64 {
+pub(crate) fn normal_quantile(u: f64) -> f64 {
     let q = u - 0.5;
     if q.abs() <= 0.425 {
         let r = 0.180_625 - q * q;
