@@ -25,7 +25,7 @@ pub const COMPONENTS: [(&str, Quantity); 6] = [
 pub const KIND: JointKind = JointKind {
     name: "prescribed_motion",
     summary: "Prescribes displacements and rotations of the tip as functions of time; those that are not given are held.",
-    sample: "x = \"0.01*sin(2*pi*t)\"\nrz = \"0.1*t^2\"",
+    sample: "x = \"0.01*(1 - cos(2*pi*t))\"\nrz = \"0.1*t^2\"",
     parameters: &[
         displacement("x", "Displacement along `axis` from the start."),
         displacement("y", "Displacement along `second_axis`."),

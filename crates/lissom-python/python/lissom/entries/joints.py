@@ -432,6 +432,9 @@ class PrescribedMotion(Joint):
         ry: Rotation about `second_axis` as turned by `rx` [rad]; a function of time, or nothing.
         rz: Rotation about the third axis as turned by `rx` and `ry` [rad]; a function of time, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "prescribed_motion"
@@ -449,6 +452,9 @@ class PrescribedMotion(Joint):
     ry: Function | None = None
     rz: Function | None = None
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
+    second_axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -567,6 +573,8 @@ class Rolling(Joint):
         friction_coefficient: Coefficient of friction: a warning tells when rolling takes more; default: there is no limit; a number > 0, or nothing.
         creep: Velocity of sliding per force, a linear law of creep; default 0: it does not slide. Wheels that hold each other on one axle need it [m/(N s)]; a number ≥ 0, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "rolling"
@@ -582,6 +590,8 @@ class Rolling(Joint):
     friction_coefficient: Number | None = None
     creep: Number | None = None
     friction: Table | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)

@@ -2,7 +2,7 @@
 //! What holds nodes together, one type per kind.
 
 use super::words;
-use crate::builder::entry::{entry, nested};
+use crate::builder::entry::{entry, keys, nested};
 use crate::builder::expression::{Expression, Function};
 use crate::builder::ids::JointId;
 use crate::builder::values::Node;
@@ -17,12 +17,6 @@ entry! {
     /// - `other`: the joint whose coordinate follows
     /// - `profile`: The other coordinate as a function of the first, `x` \[m or rad\]
     new(joint: JointId = "joint", other: JointId = "other", profile: Function = "profile")
-    /// Which coordinate of `joint`, counted from 1; may be left out where it has one.
-    coordinate: f64 = "coordinate";
-    /// Which coordinate of `other`, counted from 1; may be left out where it has one.
-    other_coordinate: f64 = "other_coordinate";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
 }
 
 entry! {
@@ -34,12 +28,6 @@ entry! {
     /// - `base`: the node it starts from: "ground", "body", "beam.end" …
     /// - `tip`: the node it leads to
     new(base: Node = "base", tip: Node = "tip")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
 }
 
 entry! {
@@ -52,16 +40,8 @@ entry! {
     /// - `tip`: the node it leads to
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
     /// Direction of the tip's shaft at the start, global axes; default `axis`, which is that of the base's shaft.
     tip_axis: [f64; 3] = "tip_axis";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
-    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -74,18 +54,6 @@ entry! {
     /// - `tip`: the node it leads to
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Value of the relative rotation at the start; default 0 \[rad\].
-    angle: f64 = "angle";
-    /// Value of the relative displacement at the start; default 0 \[m\].
-    displacement: f64 = "displacement";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
-    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -101,8 +69,6 @@ entry! {
     at_base: [f64; 3] = "at_base";
     /// Location on the tip; default: the node's place \[m\].
     at_tip: [f64; 3] = "at_tip";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
 }
 
 entry! {
@@ -113,8 +79,6 @@ entry! {
     ///
     /// - `equation`: What is zero: an expression of coordinates such as `arm.angle` and `slide.displacement`, and of `t`
     new(equation: Expression = "equation")
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
 }
 
 entry! {
@@ -127,12 +91,6 @@ entry! {
     /// - `other`: the joint whose coordinate follows
     /// - `ratio`: Change of the other coordinate per change of the first; negative for gears that mesh outside \[1, m/rad or rad/m\]
     new(joint: JointId = "joint", other: JointId = "other", ratio: f64 = "ratio")
-    /// Which coordinate of `joint`, counted from 1; may be left out where it has one.
-    coordinate: f64 = "coordinate";
-    /// Which coordinate of `other`, counted from 1; may be left out where it has one.
-    other_coordinate: f64 = "other_coordinate";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
 }
 
 entry! {
@@ -145,20 +103,6 @@ entry! {
     /// - `tip`: the node it leads to
     /// - `locked`: What cannot move: x along `axis`, y along `second_axis`, z across both; rx, ry, rz about them
     new(base: Node = "base", tip: Node = "tip", locked: Vec<words::Locked> = "locked")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Direction of x at the start, global axes; default: global x.
-    axis: [f64; 3] = "axis";
-    /// Direction of y at the start, global axes; default: global y.
-    second_axis: [f64; 3] = "second_axis";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
-    axis_at_tip: [f64; 3] = "axis_at_tip";
-    /// Direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`.
-    second_axis_at_tip: [f64; 3] = "second_axis_at_tip";
 }
 
 entry! {
@@ -171,14 +115,6 @@ entry! {
     /// - `tip`: the node it leads to
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
-    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -191,16 +127,6 @@ entry! {
     /// - `tip`: the node it leads to
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Value of the relative rotation at the start; default 0 \[rad\].
-    angle: f64 = "angle";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
-    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -214,16 +140,6 @@ entry! {
     /// - `axis`: direction at the start, global axes
     /// - `second_axis`: second direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", second_axis: [f64; 3] = "second_axis")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
-    axis_at_tip: [f64; 3] = "axis_at_tip";
-    /// Direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`.
-    second_axis_at_tip: [f64; 3] = "second_axis_at_tip";
 }
 
 entry! {
@@ -236,16 +152,6 @@ entry! {
     /// - `tip`: the node it leads to
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Value of the relative rotation at the start; default 0 \[rad\].
-    angle: f64 = "angle";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
-    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -258,14 +164,6 @@ entry! {
     /// - `tip`: the node it leads to
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
-    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -278,16 +176,6 @@ entry! {
     /// - `tip`: the node it leads to
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Value of the relative displacement at the start; default 0 \[m\].
-    displacement: f64 = "displacement";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
-    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -299,8 +187,6 @@ entry! {
     /// - `joint`: the joint whose relative displacement it acts on
     /// - `displacement`: The relative displacement as a function of time \[m\]
     new(joint: JointId = "joint", displacement: Function = "displacement")
-    /// Which of the joint's coordinates, counted from 1; default the first that fits.
-    coordinate: f64 = "coordinate";
 }
 
 entry! {
@@ -312,12 +198,6 @@ entry! {
     /// - `base`: the node it starts from: "ground", "body", "beam.end" …
     /// - `tip`: the node it leads to
     new(base: Node = "base", tip: Node = "tip")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Direction of x at the start, global axes; default: global x.
-    axis: [f64; 3] = "axis";
-    /// Direction of y at the start, global axes; default: global y.
-    second_axis: [f64; 3] = "second_axis";
     /// Displacement along `axis` from the start \[m\].
     x: Function = "x";
     /// Displacement along `second_axis` \[m\].
@@ -330,8 +210,6 @@ entry! {
     ry: Function = "ry";
     /// Rotation about the third axis as turned by `rx` and `ry` \[rad\].
     rz: Function = "rz";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
 }
 
 entry! {
@@ -343,8 +221,6 @@ entry! {
     /// - `joint`: the joint whose relative rotation it acts on
     /// - `rotation`: The relative rotation as a function of time \[rad\]
     new(joint: JointId = "joint", rotation: Function = "rotation")
-    /// Which of the joint's coordinates, counted from 1; default the first that fits.
-    coordinate: f64 = "coordinate";
 }
 
 entry! {
@@ -357,16 +233,6 @@ entry! {
     /// - `tip`: the node it leads to
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Value of the relative displacement at the start; default 0 \[m\].
-    displacement: f64 = "displacement";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
-    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -379,16 +245,6 @@ entry! {
     /// - `tip`: the node it leads to
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Value of the relative rotation at the start; default 0 \[rad\].
-    angle: f64 = "angle";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
-    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -400,12 +256,6 @@ entry! {
     /// - `base`: the node it starts from: "ground", "body", "beam.end" …
     /// - `tip`: the node it leads to
     new(base: Node = "base", tip: Node = "tip")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
 }
 
 entry! {
@@ -419,8 +269,6 @@ entry! {
     /// - `axis`: direction at the start, global axes
     /// - `wheel_axis`: Axis of the wheel at the start, global axes; it goes through the tip's place, the wheel's centre
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", wheel_axis: [f64; 3] = "wheel_axis")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
     /// Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 makes a ball of radius `rim` \[m\].
     radius: f64 = "radius";
     /// Radius of the rounding of the rim; default 0, a sharp edge \[m\].
@@ -429,8 +277,6 @@ entry! {
     friction_coefficient: f64 = "friction_coefficient";
     /// Velocity of sliding per force, a linear law of creep; default 0: it does not slide. Wheels that hold each other on one axle need it \[m/(N s)\].
     creep: f64 = "creep";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
 }
 
 entry! {
@@ -444,16 +290,6 @@ entry! {
     /// - `axis`: direction at the start, global axes
     /// - `lead`: Displacement along `axis` per turn; negative for a left-handed thread \[m\]
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", lead: f64 = "lead")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Value of the relative rotation at the start; default 0 \[rad\].
-    angle: f64 = "angle";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
-    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -465,12 +301,6 @@ entry! {
     /// - `base`: the node it starts from: "ground", "body", "beam.end" …
     /// - `tip`: the node it leads to
     new(base: Node = "base", tip: Node = "tip")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
 }
 
 entry! {
@@ -483,16 +313,8 @@ entry! {
     /// - `tip`: the node it leads to
     /// - `axis`: direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
     /// Value of the arm's angle at the start; default 0 \[rad\].
     angle: f64 = "angle";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
-    axis_at_tip: [f64; 3] = "axis_at_tip";
 }
 
 entry! {
@@ -506,16 +328,6 @@ entry! {
     /// - `axis`: direction at the start, global axes
     /// - `second_axis`: second direction at the start, global axes
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", second_axis: [f64; 3] = "second_axis")
-    /// Location; default: the tip node's place \[m\].
-    at: [f64; 3] = "at";
-    /// Friction on its only coordinate.
-    friction: Friction = "friction";
-    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
-    at_tip: [f64; 3] = "at_tip";
-    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
-    axis_at_tip: [f64; 3] = "axis_at_tip";
-    /// Direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`.
-    second_axis_at_tip: [f64; 3] = "second_axis_at_tip";
 }
 
 nested! {
@@ -535,4 +347,64 @@ nested! {
     deflection: f64 = "deflection";
     /// Of the elastic motion, default 0 \[N s/m, N m s/rad\].
     damping: f64 = "damping";
+}
+
+keys! {
+    [Cam, Gear]
+    /// Which coordinate of `joint`, counted from 1; may be left out where it has one.
+    coordinate: f64 = "coordinate";
+    /// Which coordinate of `other`, counted from 1; may be left out where it has one.
+    other_coordinate: f64 = "other_coordinate";
+}
+
+keys! {
+    [Cam, Clamp, ConstantVelocity, Cylindrical, Distance, Equation, Gear, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Spherical, SwingArm, Universal]
+    /// Friction on its only coordinate.
+    friction: Friction = "friction";
+}
+
+keys! {
+    [Clamp, ConstantVelocity, Cylindrical, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Spherical, SwingArm, Universal]
+    /// Location; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+    /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
+    at_tip: [f64; 3] = "at_tip";
+}
+
+keys! {
+    [ConstantVelocity, Cylindrical, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, Rolling, Screw, SwingArm, Universal]
+    /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
+    axis_at_tip: [f64; 3] = "axis_at_tip";
+}
+
+keys! {
+    [Cylindrical, ParallelAxes, Planar, Revolute, Screw]
+    /// Value of the relative rotation at the start; default 0 \[rad\].
+    angle: f64 = "angle";
+}
+
+keys! {
+    [Cylindrical, PointOnLine, Prismatic]
+    /// Value of the relative displacement at the start; default 0 \[m\].
+    displacement: f64 = "displacement";
+}
+
+keys! {
+    [Generic, PrescribedMotion]
+    /// Direction of x at the start, global axes; default: global x.
+    axis: [f64; 3] = "axis";
+    /// Direction of y at the start, global axes; default: global y.
+    second_axis: [f64; 3] = "second_axis";
+}
+
+keys! {
+    [Generic, PerpendicularAxes, PrescribedMotion, Universal]
+    /// Direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`.
+    second_axis_at_tip: [f64; 3] = "second_axis_at_tip";
+}
+
+keys! {
+    [PrescribedDisplacement, PrescribedRotation]
+    /// Which of the joint's coordinates, counted from 1; default the first that fits.
+    coordinate: f64 = "coordinate";
 }

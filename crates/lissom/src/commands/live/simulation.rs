@@ -98,7 +98,7 @@ pub(super) fn start(model: PathBuf, set: Vec<Override>, shared: &Arc<Shared>) {
             let is_current = || Seen::of(&model, &included, &shared) == now;
             let message = simulate(text, &set, &now.parameters, &mut bases, &is_current);
             let is_mistake = message.as_ref().is_some_and(|message| message["result"].is_null());
-            let sure = if now.length == 0 { SURE_TO_BE_EMPTY } else { SURE };
+            let sure = if now.has_empty_file() { SURE_TO_BE_EMPTY } else { SURE };
             while is_mistake && now.modified.is_some() && now.is_younger_than(sure) && is_current() {
                 std::thread::sleep(LOOK);
             }
@@ -138,6 +138,11 @@ impl Seen {
             asked: state.asked,
             parameters: state.parameters.clone(),
         }
+    }
+
+    /// Whether the model or a file that it includes is empty.
+    fn has_empty_file(&self) -> bool {
+        self.length == 0 || self.included.iter().any(|(length, _)| *length == 0)
     }
 
     /// Whether a file was changed so shortly before.
