@@ -33,16 +33,16 @@ fn a_new_model_runs_as_it_is() {
 #[test]
 fn an_imported_robot_runs_as_it_is() {
     let folder = Folder::new("import");
-    folder.write("arm.urdf", include_str!("../machines/robots/ur5.urdf"));
-    let made = lissom(&["import", "arm.urdf", "--position", "elbow_joint=0.5"], folder.path());
+    folder.write("arm.urdf", include_str!("../machines/robots/two_links.urdf"));
+    let made = lissom(&["import", "arm.urdf", "--position", "elbow=0.5"], folder.path());
     assert_eq!((made.code, made.errors.as_str()), (0, ""));
-    assert!(made.output.contains("6 joints that move"), "{}", made.output);
+    assert!(made.output.contains("2 joints that move"), "{}", made.output);
     let run =
         lissom(&["run", "arm.toml", "--no-plots", "--quiet", "--set", "analysis.end=0.05"], folder.path());
     assert_eq!((run.code, run.errors.as_str()), (0, ""));
     let table = fs::read_to_string(folder.path().join("out/arm/history.csv")).unwrap();
     let record = lissom::Record::from_csv(&table).unwrap();
-    assert!((record.column("elbow_joint", "angle").unwrap()[0] - 0.5).abs() < 1e-12);
+    assert!((record.column("elbow", "angle").unwrap()[0] - 0.5).abs() < 1e-12);
     let again = lissom(&["import", "arm.urdf"], folder.path());
     assert_eq!(again.code, 2);
     assert!(again.errors.contains("there already"), "{}", again.errors);

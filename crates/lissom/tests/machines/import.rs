@@ -1,7 +1,8 @@
-//! Robots from URDF files against Pinocchio 4.1: accelerations, kinetic energy and mass; a passive fall; what is refused.
+//! Robots from URDF files against a closed form and Pinocchio 4.1: accelerations, kinetic energy and mass; a passive fall; what is
+//! refused.
 //!
-//! `robots/` has the inertias and joints of robots of the package example-robot-data 6.0.0, without their shapes, and
-//! what Pinocchio says of them.
+//! `robots/pinocchio.json` has what Pinocchio says of robots of the package example-robot-data 6.0.0. Their files are read where the
+//! variable `LISSOM_REFERENCES` names a folder that has them in `urdf/`, and left out otherwise.
 
 use std::fmt::Write;
 
@@ -11,14 +12,17 @@ use lissom_motion::Vector6;
 use serde_json::Value;
 
 const REFERENCE: &str = include_str!("robots/pinocchio.json");
-const ROBOTS: [(&str, &str); 5] = [
-    ("double_pendulum", include_str!("robots/double_pendulum.urdf")),
-    ("ur5", include_str!("robots/ur5.urdf")),
-    ("panda", include_str!("robots/panda.urdf")),
-    ("z1", include_str!("robots/z1.urdf")),
-    ("solo12", include_str!("robots/solo12.urdf")),
-];
+const ROBOTS: [&str; 5] = ["double_pendulum", "ur5", "panda", "z1", "solo12"];
+const TWO_LINKS: &str = include_str!("robots/two_links.urdf");
 const BARE: Options = Options { root: Root::Held, limits: false, friction: false, mimic: false };
+
+/// Name and description of the robots that are at hand.
+fn robots() -> Vec<(&'static str, String)> {
+    let Some(folder) = std::env::var_os("LISSOM_REFERENCES") else { return Vec::new() };
+    let folder = std::path::Path::new(&folder).join("urdf");
+    let read = |name| std::fs::read_to_string(folder.join(format!("{name}.urdf"))).ok();
+    ROBOTS.iter().filter_map(|name| Some((*name, read(name)?))).collect()
+}
 
 struct Known {
     /// Joints that move, without the floating one.
@@ -68,8 +72,8 @@ fn pose(known: &Known, moves: bool) -> Pose {
 
 #[test]
 fn accelerations_are_those_of_pinocchio() {
-    for (name, text) in ROBOTS {
-        let (robot, known) = (from_urdf(text).expect("a robot"), known(name));
+    for (name, text) in robots() {
+        let (robot, known) = (from_urdf(&text).expect("a robot"), known(name));
         let root = if name == "solo12" { Root::Floating } else { Root::Held };
         let options = Options { root, ..BARE };
         let mut model = model_text(&robot, &pose(&known, true), options).expect("a model");
@@ -105,6 +109,49 @@ fn accelerations_are_those_of_pinocchio() {
     }
 }
 
+/// Two links in the plane, with angles q and torques τ: M q'' = τ + G - C.
+#[test]
+fn accelerations_of_two_links_are_those_of_lagrange() {
+    let robot = from_urdf(TWO_LINKS).expect("a robot");
+    let (q, v, torques) = ([0.4_f64, -0.9_f64], [1.3, -2.1], [3.0, -1.5]);
+    let by_name =
+        |values: [f64; 2]| ["shoulder", "elbow"].map(str::to_owned).into_iter().zip(values).collect();
+    let pose = Pose { values: by_name(q), rates: by_name(v), ..Pose::default() };
+    let mut model = model_text(&robot, &pose, BARE).expect("a model");
+    for (joint, torque) in ["shoulder", "elbow"].iter().zip(torques) {
+        let _ = write!(
+            model,
+            "\n[loads.of_{joint}]\nkind = \"joint_torque\"\njoint = \"{joint}\"\ntorque = {torque:?}\n\
+             [outputs.a_{joint}]\nkind = \"relative_acceleration\"\nof = \"{joint}\"\n"
+        );
+    }
+    let record = run(&model, &[set("analysis.end", "1e-3"), set("analysis.step", "1e-4")]);
+    let (upper, lower) = ((2.5, 0.35, 0.12), (1.2, 0.2, 0.03));
+    let own = lower.2 + lower.0 * lower.1 * lower.1;
+    let coupled = lower.0 * 0.8 * lower.1;
+    let (sine, cosine) = q[1].sin_cos();
+    let corner = own + coupled * cosine;
+    let first = upper.2 + upper.0 * upper.1 * upper.1 + lower.0 * 0.8 * 0.8 + own + 2.0 * coupled * cosine;
+    let (along, beyond) = (q[0].cos(), (q[0] + q[1]).cos());
+    let weight = 9.81 * lower.0 * lower.1 * beyond;
+    let forces = [
+        torques[0]
+            + 9.81 * (upper.0 * upper.1 + lower.0 * 0.8) * along
+            + weight
+            + coupled * sine * (2.0 * v[0] * v[1] + v[1] * v[1]),
+        torques[1] + weight - coupled * sine * v[0] * v[0],
+    ];
+    let determinant = first * own - corner * corner;
+    let wanted = [
+        (own * forces[0] - corner * forces[1]) / determinant,
+        (first * forces[1] - corner * forces[0]) / determinant,
+    ];
+    for (joint, wanted) in ["shoulder", "elbow"].iter().zip(wanted) {
+        let found = column(&record, &format!("a_{joint}"), "a")[0];
+        assert!((found / wanted - 1.0).abs() < 1e-10, "{joint}: {found} {wanted}");
+    }
+}
+
 /// The largest error of a joint at the end of a second's fall.
 fn error_of_fall(name: &str, text: &str, scheme: &str, step: &str) -> f64 {
     let (robot, known) = (from_urdf(text).expect("a robot"), known(name));
@@ -123,7 +170,7 @@ fn error_of_fall(name: &str, text: &str, scheme: &str, step: &str) -> f64 {
 /// its fall would take long.
 #[test]
 fn a_passive_fall_ends_where_it_should() {
-    for (name, text) in &ROBOTS[..4] {
+    for (name, text) in &robots() {
         let bound = match *name {
             "ur5" => 5e-8,
             "z1" => 1e-4,
@@ -132,9 +179,11 @@ fn a_passive_fall_ends_where_it_should() {
         let errors = ["1e-3", "5e-4"].map(|step| error_of_fall(name, text, "radau-iia", step));
         assert!(errors[1] < bound && errors[0] / errors[1] > 7.0, "{name}: {errors:?}");
     }
-    for scheme in SCHEMES {
-        let error = error_of_fall("ur5", ROBOTS[1].1, scheme, "1e-3");
-        assert!(error < 1e-3, "{scheme}: {error}");
+    for (name, text) in robots().iter().filter(|(name, _)| *name == "ur5") {
+        for scheme in SCHEMES {
+            let error = error_of_fall(name, text, scheme, "1e-3");
+            assert!(error < 1e-3, "{scheme}: {error}");
+        }
     }
 }
 
