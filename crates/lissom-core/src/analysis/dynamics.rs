@@ -11,13 +11,13 @@ use super::equilibrium;
 use super::held_values::settle;
 use super::initial::{Initial, InitialError};
 use super::phase::{Stopwatch, Unwatched};
+use super::projection::Projection;
 use super::step_error::{StepError, convergence_hint, pivot_hint};
 use super::workspace::Workspace;
-use crate::joints::Quantity;
 use crate::judge::{self, Judge, Ledger, Warning};
 use crate::newton::{self, Equations, Failure, Limits, Memory, Outcome};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
-use crate::schemes::{Coupling, Scheme, Tableau};
+use crate::schemes::{Coupling, Scheme};
 use crate::stepping::{Controller, Impacts, MethodMemory, Parts, StepControl, Watch};
 use crate::system::{Kinematics, Layout, Linearization, MotionChange, State, System, Threads};
 
@@ -546,46 +546,6 @@ fn compensate(start: &State, changes: &[MotionChange], next: &mut State) {
 
 fn layout_has_constraints(system: &System) -> bool {
     !system.layout().multiplier_rows().is_empty()
-}
-
-/// Takes away what the velocities have across the constraints after a step that is not stiffly accurate: the
-/// projection is orthogonal in the kinetic energy, which therefore falls; the share 1 - α of that is given back by
-/// scaling all velocities.
-struct Projection {
-    initial: Initial,
-    tableau: Tableau,
-}
-
-impl Projection {
-    fn new(
-        system: &System,
-        state: &State,
-        representative: &Representative,
-        solver: &SolverKind,
-        tableau: Tableau,
-    ) -> Self {
-        Self { initial: Initial::new(system, state, representative, solver), tableau }
-    }
-
-    fn apply(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {
-        let before = system.energy(&state.kinematics).kinetic;
-        self.initial.velocities(system, state)?;
-        let after = system.energy(&state.kinematics).kinetic;
-        let wanted = after + (1.0 - self.tableau.dissipation) * (before - after);
-        let is_driven = !system.drives().is_empty() || system.has_timed_coupling(&state.kinematics);
-        if !is_driven && after > 0.0 && wanted > after {
-            let factor = (wanted / after).sqrt();
-            for node in &mut state.kinematics.nodes {
-                node.twist *= factor;
-            }
-            for (index, coordinate) in state.kinematics.coordinates.iter_mut().enumerate() {
-                if system.layout().coordinate_quantity(index) != Quantity::State {
-                    coordinate.rate *= factor;
-                }
-            }
-        }
-        Ok(())
-    }
 }
 
 fn describe(failure: &Failure, layout: &Layout, time: f64, settings: &Settings, worst: &str) -> StepError {

@@ -15,6 +15,7 @@ pub mod initial;
 pub mod mobility;
 pub mod path;
 pub mod phase;
+mod projection;
 mod secants;
 mod sensitivity;
 pub(crate) mod snapshot_parts;

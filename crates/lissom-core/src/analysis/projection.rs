@@ -1,0 +1,49 @@
+//! Velocities made consistent after a step of a scheme that leaves the constraints a little.
+
+use lissom_solver::SolverKind;
+
+use super::initial::{Initial, InitialError};
+use crate::joints::Quantity;
+use crate::scaling::Representative;
+use crate::schemes::Tableau;
+use crate::system::{State, System};
+
+/// Takes away what the velocities have across the constraints after a step that is not stiffly accurate: the
+/// projection is orthogonal in the kinetic energy, which therefore falls; the share 1 - α of that is given back by
+/// scaling all velocities.
+pub(crate) struct Projection {
+    initial: Initial,
+    tableau: Tableau,
+}
+
+impl Projection {
+    pub(crate) fn new(
+        system: &System,
+        state: &State,
+        representative: &Representative,
+        solver: &SolverKind,
+        tableau: Tableau,
+    ) -> Self {
+        Self { initial: Initial::new(system, state, representative, solver), tableau }
+    }
+
+    pub(crate) fn apply(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {
+        let before = system.energy(&state.kinematics).kinetic;
+        self.initial.velocities(system, state)?;
+        let after = system.energy(&state.kinematics).kinetic;
+        let wanted = after + (1.0 - self.tableau.dissipation) * (before - after);
+        let is_driven = !system.drives().is_empty() || system.has_timed_coupling(&state.kinematics);
+        if !is_driven && after > 0.0 && wanted > after {
+            let factor = (wanted / after).sqrt();
+            for node in &mut state.kinematics.nodes {
+                node.twist *= factor;
+            }
+            for (index, coordinate) in state.kinematics.coordinates.iter_mut().enumerate() {
+                if system.layout().coordinate_quantity(index) != Quantity::State {
+                    coordinate.rate *= factor;
+                }
+            }
+        }
+        Ok(())
+    }
+}
