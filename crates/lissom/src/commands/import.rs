@@ -1,25 +1,26 @@
-//! `lissom import`: a model file from a robot description.
+//! `lissom import`: a model file from a robot description of another program.
 
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use lissom::import::{Options, Pose, Root, from_urdf, model_text};
+use lissom::import::{Freedom, Options, Pose, Root, Unsupported, from_description, model_text};
 use lissom::{Model, SessionError};
 use lissom_model::files;
 
 use super::{Exit, Failure};
 use crate::terminal;
 
-/// Write a model file from a robot description (URDF): bodies, joints, limits, damping and friction.
+/// Write a model file from a robot description (URDF, MJCF): bodies, joints, limits, springs, damping and friction.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   lissom import ur5.urdf                           writes ur5.toml
   lissom import ur5.urdf --position elbow_joint=0.5 --out elbow.toml
-  lissom import solo12.urdf --floating --without limits,friction")]
+  lissom import solo12.urdf --floating --without limits,friction
+  lissom import hopper.xml                         MJCF, the description of MuJoCo")]
 pub(super) struct Import {
-    /// The description.
-    #[arg(value_name = "ROBOT.urdf")]
+    /// The description: URDF or MJCF, whatever its name ends with.
+    #[arg(value_name = "ROBOT")]
     file: PathBuf,
     /// The model file to write; default: the name of the description with the ending toml, in the folder of work.
     #[arg(long, value_name = "MODEL.toml")]
@@ -30,7 +31,8 @@ pub(super) struct Import {
     /// Let the root move freely instead of holding it to the ground.
     #[arg(long)]
     floating: bool,
-    /// Leave out: stops at limits, damping and friction, joints that follow others; may be given for several.
+    /// Leave out: stops at limits, damping and friction, joints that follow others, or what no model can hold; may be given for
+    /// several.
     #[arg(long, value_name = "WHAT", value_delimiter = ',')]
     without: Vec<Part>,
 }
@@ -41,6 +43,7 @@ enum Part {
     Limits,
     Friction,
     Mimic,
+    Unsupported,
 }
 
 fn joint_value(text: &str) -> Result<(String, f64), String> {
@@ -68,13 +71,18 @@ impl Import {
             return Err(Failure::new(Exit::BadModel, message));
         }
         let text = files::read_text(&self.file).map_err(|error| Failure::file(Exit::BadModel, &error))?;
-        let robot = from_urdf(&text).map_err(|error| bad(&error))?;
+        let robot = from_description(&text).map_err(|error| bad(&error))?;
         let pose = Pose { values: self.positions.iter().cloned().collect(), ..Pose::default() };
         let options = Options {
             root: if self.floating { Root::Floating } else { Root::Held },
             limits: !self.without.contains(&Part::Limits),
             friction: !self.without.contains(&Part::Friction),
             mimic: !self.without.contains(&Part::Mimic),
+            unsupported: if self.without.contains(&Part::Unsupported) {
+                Unsupported::LeftOut
+            } else {
+                Unsupported::Refused
+            },
         };
         let model = model_text(&robot, &pose, options).map_err(|error| bad(&error))?;
         // What cannot start is not written.
@@ -84,9 +92,12 @@ impl Import {
             Err(error) => return Err(bad(&error)),
         }
         files::write(&out, model.as_bytes()).map_err(|error| Failure::file(Exit::Failed, &error))?;
-        let moving = robot.joints.iter().filter(|joint| joint.moves()).count();
+        let moving =
+            robot.joints.iter().filter(|joint| joint.moves() || joint.freedom == Freedom::Ball).count();
+        let left_out = robot.left_out.iter().chain(&robot.unsupported);
+        let left_out: String = left_out.flat_map(|what| ["  left out: ", what, "\n"]).collect();
         terminal::print(&format!(
-            "{} is written: {} links, {moving} joints that move. Next:\n  lissom view {} --open    simulate it and watch it \
+            "{} is written: {} links, {moving} joints that move.\n{left_out}Next:\n  lissom view {} --open    simulate it and watch it \
              move\n",
             out.display(),
             robot.links.len(),

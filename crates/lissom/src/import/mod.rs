@@ -1,25 +1,54 @@
 //! Models from files of other programs: read into a [`Robot`], written as a text of the model file that a person can go on
-//! with. A new format is one file that makes a [`Robot`].
+//! with. A new format is one file that makes a [`Robot`], and a branch in [`from_description`].
 
+mod chains;
+mod joint_text;
+mod mjcf;
 mod model_text;
 mod urdf;
+mod xml;
 
 use std::collections::BTreeMap;
 
 use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
 
-pub use model_text::{Options, Root, model_text};
+pub use mjcf::from_mjcf;
+pub use model_text::{Options, Root, Unsupported, model_text};
 pub use urdf::from_urdf;
+
+/// Reads a robot from a URDF or MJCF text: the root of the text tells which it is.
+///
+/// # Errors
+/// If it is neither, or holds what a [`Robot`] cannot say.
+pub fn from_description(text: &str) -> Result<Robot, ImportError> {
+    match xml::root_tag(text)?.as_str() {
+        "robot" => from_urdf(text),
+        "mujoco" => from_mjcf(text),
+        other => {
+            let message =
+                format!("this is neither URDF nor MJCF: its root is <{other}>, not <robot> or <mujoco>");
+            Err(ImportError::new(message))
+        }
+    }
+}
 
 /// Bodies in a tree of joints.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     /// Its name.
     pub name: String,
+    /// Acceleration of gravity, in the axes of the root [m/s²].
+    pub gravity: Vector3,
     /// Its links; the first is the root.
     pub links: Vec<Link>,
+    /// Whether the root is the world, which cannot move.
+    pub is_root_the_world: bool,
     /// Its joints, each after the one that carries its parent.
     pub joints: Vec<RobotJoint>,
+    /// What the description holds and a model does not get, one sentence each.
+    pub left_out: Vec<String>,
+    /// What acts on the robot and no model can hold, one sentence each: refused unless it is told to be left out.
+    pub unsupported: Vec<String>,
 }
 
 /// A link with its inertia, none for a mere frame.
@@ -51,6 +80,8 @@ pub enum Freedom {
     Rotation,
     /// The displacement along its axis.
     Displacement,
+    /// All rotations about a point.
+    Ball,
     /// Everything.
     Floating,
 }
@@ -66,30 +97,62 @@ pub struct RobotJoint {
     pub parent: usize,
     /// Index of the link that it carries.
     pub child: usize,
-    /// Place of the child's frame in the parent's at zero.
+    /// Place of the child's frame in the parent's at the reference value.
     pub origin: Motion,
     /// Direction of the axis in the child's frame, of length one.
     pub axis: Vector3,
+    /// A point of the axis in the child's frame [m].
+    pub anchor: Vector3,
+    /// Value of the coordinate at which the child's frame is at `origin` [rad, m].
+    pub reference: f64,
     /// Least and greatest value [rad, m].
     pub range: Option<[f64; 2]>,
     /// Greatest torque or force of its motor [N m, N].
     pub effort: Option<f64>,
+    /// Stiffness of the spring at the joint [N m/rad, N/m].
+    pub stiffness: f64,
+    /// Value at which that spring is free of force [rad, m].
+    pub rest: f64,
     /// Viscous friction [N m s/rad, N s/m].
     pub damping: f64,
     /// Coulomb friction [N m, N].
     pub friction: f64,
+    /// Inertia of the motor's rotor, as it acts on the coordinate [kg m², kg].
+    pub armature: f64,
     /// The joint that it follows by a factor and an offset.
     pub follows: Option<(String, f64, f64)>,
 }
 
 impl RobotJoint {
+    /// A joint without friction, limits or springs, along x.
+    fn new(name: String, freedom: Freedom, parent: usize, child: usize, origin: Motion) -> Self {
+        Self {
+            name,
+            freedom,
+            parent,
+            child,
+            origin,
+            axis: Vector3::x(),
+            anchor: Vector3::zeros(),
+            reference: 0.0,
+            range: None,
+            effort: None,
+            stiffness: 0.0,
+            rest: 0.0,
+            damping: 0.0,
+            friction: 0.0,
+            armature: 0.0,
+            follows: None,
+        }
+    }
+
     /// Whether it has a coordinate.
     pub fn moves(&self) -> bool {
         matches!(self.freedom, Freedom::Rotation | Freedom::Displacement)
     }
 }
 
-/// Values of joints and their rates at the start, by name; those that are not named are zero.
+/// Values of joints and their rates at the start, by name; those that are not named have their reference value, and no rate.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
     /// Rotations and displacements [rad, m].

@@ -12,7 +12,9 @@ use std::fmt::Write;
 
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, Vector6, rotation_part, screw, translation_part};
 
-use super::{Freedom, ImportError, LinkInertia, Pose, Robot, RobotJoint};
+use super::chains::{Composite, composites};
+use super::joint_text::{Placed, write_follower, write_joint, write_resistance, write_rotor};
+use super::{Freedom, ImportError, LinkInertia, Pose, Robot};
 
 /// What becomes of the root.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,6 +24,16 @@ pub enum Root {
     Held,
     /// It moves freely.
     Floating,
+}
+
+/// What becomes of what acts on a robot and no model can hold.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Unsupported {
+    /// The robot is refused.
+    #[default]
+    Refused,
+    /// It is left out, and the model says so.
+    LeftOut,
 }
 
 /// What is written, and how.
@@ -35,11 +47,19 @@ pub struct Options {
     pub friction: bool,
     /// Whether joints follow others where they mimic them.
     pub mimic: bool,
+    /// What becomes of what acts on the robot and no model can hold.
+    pub unsupported: Unsupported,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { root: Root::Held, limits: true, friction: true, mimic: true }
+        Self {
+            root: Root::Held,
+            limits: true,
+            friction: true,
+            mimic: true,
+            unsupported: Unsupported::Refused,
+        }
     }
 }
 
@@ -61,8 +81,10 @@ struct Group {
 /// The model file of `robot` with its joints at `pose`, held to the ground at its root or floating.
 ///
 /// # Errors
-/// If a link that moves has no mass, if the pose names no joint of the robot, or leaves the range of one.
+/// If a link that moves has no mass, if the pose names no joint of the robot, or leaves the range of one, or if something acts
+/// on the robot that no model can hold.
 pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String, ImportError> {
+    check_support(robot, options)?;
     check_pose(robot, pose, options)?;
     let names = Names::of(robot);
     let (frames, twists, group_of) =
@@ -83,8 +105,15 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
             group.mass = Some(together(group.mass.as_ref(), &carried(mass, &offset)));
         }
     }
+    let massive: Vec<bool> =
+        groups.iter().map(|group| group.mass.is_some_and(|mass| mass.mass > 0.0)).collect();
+    let composites = composites(robot, &frames, &number, &massive)?;
+    let inner: BTreeSet<usize> =
+        composites.iter().flat_map(|composite| composite.inner_groups.iter().copied()).collect();
     let mut text = header(robot, options);
-    for group in groups.iter().filter(|group| group.name != "ground") {
+    for (_, group) in
+        groups.iter().enumerate().filter(|(number, group)| group.name != "ground" && !inner.contains(number))
+    {
         let link = &robot.links[group.link].name;
         let mass = group.mass.filter(|mass| mass.mass > 0.0).ok_or_else(|| {
             ImportError::new(format!(
@@ -93,22 +122,107 @@ pub fn model_text(robot: &Robot, pose: &Pose, options: Options) -> Result<String
         })?;
         write_body(&mut text, group, &mass, names.links[group.link] != *link, link);
     }
-    for (index, joint) in robot.joints.iter().enumerate() {
-        let ends = [joint.parent, joint.child].map(|link| groups[number[link]].name.as_str());
-        let name = &names.joints[index];
-        let value = pose.values.get(&joint.name).copied().unwrap_or(0.0);
-        write_joint(&mut text, joint, (name, ends), &frames[joint.child], value);
-        write_resistance(&mut text, joint, name, options);
-        if let Some((leader, factor, _)) = joint.follows.as_ref().filter(|_| options.mimic) {
-            let leader = names.of_joint(robot, leader)?;
-            let _ = write!(
-                text,
-                "\n[joints.{name}_follows]\nkind = \"gear\"\njoint = \"{leader}\"\nother = \"{name}\"\nratio = {factor:?}\n"
-            );
+    let group_name = |link: usize| groups[number[link]].name.as_str();
+    let placed: Vec<Placed> = (0..robot.joints.len())
+        .map(|index| placed(robot, pose, &names, &composites, (index, &frames)))
+        .collect();
+    for (joint, place) in robot.joints.iter().zip(&placed) {
+        let composite = composites.iter().find(|composite| composite.joints.contains(&place.index));
+        match composite {
+            Some(composite) if composite.joints.last() == Some(&place.index) => {
+                let base = robot.joints[composite.joints[0]].parent;
+                composite.write(
+                    &mut text,
+                    &robot.joints,
+                    &place.joint,
+                    [group_name(base), group_name(joint.child)],
+                    &placed,
+                );
+            }
+            Some(_) => {}
+            None => write_joint(&mut text, joint, place, [group_name(joint.parent), group_name(joint.child)]),
         }
     }
-    text.push_str(&footer(robot, &names));
+    for (joint, place) in robot.joints.iter().zip(&placed) {
+        write_resistance(&mut text, joint, place, options);
+        write_rotor(&mut text, joint, place, &robot.gravity);
+        if let Some((leader, factor, _)) = joint.follows.as_ref().filter(|_| options.mimic) {
+            let leader = robot.joints.iter().position(|own| own.name == *leader).ok_or_else(|| {
+                ImportError::new(format!("a joint mimics `{leader}`, which does not exist"))
+            })?;
+            write_follower(&mut text, place, &placed[leader], *factor);
+        }
+    }
+    text.push_str(&footer(robot, &placed));
     Ok(text)
+}
+
+/// Where the coordinate of a robot's joint is in the model.
+fn placed(
+    robot: &Robot,
+    pose: &Pose,
+    names: &Names,
+    composites: &[Composite],
+    (index, frames): (usize, &[Motion]),
+) -> Placed {
+    let joint = &robot.joints[index];
+    let frame = &frames[joint.child];
+    let value = pose.values.get(&joint.name).copied().unwrap_or(joint.reference);
+    let own = names.joints[index].clone();
+    let of = composites.iter().find(|composite| composite.joints.contains(&index));
+    let (joint_name, coordinate) = match of {
+        // A joint of several has the name of the last.
+        Some(composite) => {
+            let last = composite.joints[composite.joints.len() - 1];
+            (names.joints[last].clone(), composite.coordinate(index))
+        }
+        None => (own.clone(), None),
+    };
+    // Joints that know no value at the start count from there.
+    let start = if of.is_some_and(Composite::counts_from_the_start) { 0.0 } else { value };
+    Placed {
+        index,
+        own,
+        joint: joint_name,
+        coordinate,
+        value: start,
+        shift: start - value,
+        rate: pose.rates.get(&joint.name).copied().unwrap_or(0.0),
+        at: frame.transform_point(&joint.anchor),
+        axis: frame.rotation.apply(&joint.axis),
+    }
+}
+
+/// Refuses what no model can hold.
+fn check_support(robot: &Robot, options: Options) -> Result<(), ImportError> {
+    if robot.is_root_the_world && options.root == Root::Floating {
+        return Err(ImportError::new(
+            "the root of this description is the world, which cannot move: bodies that move freely have a <freejoint/>",
+        ));
+    }
+    if options.unsupported == Unsupported::Refused && !robot.unsupported.is_empty() {
+        let message = format!(
+            "the model would move otherwise than the robot: {}; take it out of the description, or leave it out by `--without \
+             unsupported`",
+            robot.unsupported.join("; ")
+        );
+        return Err(ImportError::new(message));
+    }
+    for joint in robot.joints.iter().filter(|joint| !joint.moves()) {
+        if options.limits && joint.range.is_some() {
+            let message =
+                format!("joint `{}`: limits of a ball joint are unknown here: leave out limits", joint.name);
+            return Err(ImportError::new(message));
+        }
+        if options.friction && (joint.damping > 0.0 || joint.friction > 0.0) {
+            let message = format!(
+                "joint `{}`: damping and friction of ball and free joints are unknown here: leave out friction",
+                joint.name
+            );
+            return Err(ImportError::new(message));
+        }
+    }
+    Ok(())
 }
 
 /// Refuses values of joints that do not exist or lie beyond a limit, and followers that do not follow.
@@ -121,7 +235,13 @@ fn check_pose(robot: &Robot, pose: &Pose, options: Options) -> Result<(), Import
             return Err(ImportError::new(message));
         }
     }
-    let value = |of: &BTreeMap<String, f64>, name: &str| of.get(name).copied().unwrap_or(0.0);
+    let reference = |name: &str| {
+        robot.joints.iter().find(|joint| joint.name == name).map_or(0.0, |joint| joint.reference)
+    };
+    let value = |of: &BTreeMap<String, f64>, name: &str| {
+        let default = if std::ptr::eq(of, &raw const pose.values) { reference(name) } else { 0.0 };
+        of.get(name).copied().unwrap_or(default)
+    };
     for joint in robot.joints.iter().filter(|joint| joint.moves()) {
         let own = value(&pose.values, &joint.name);
         if let Some([low, high]) = joint.range.filter(|_| options.limits)
@@ -157,18 +277,19 @@ fn places(robot: &Robot, pose: &Pose, root: Vector6) -> (Vec<Motion>, Vec<Vector
     let mut twists = vec![root; count];
     let mut group_of: Vec<usize> = (0..count).collect();
     for joint in &robot.joints {
-        let value = pose.values.get(&joint.name).copied().unwrap_or(0.0);
+        let value = pose.values.get(&joint.name).copied().unwrap_or(joint.reference) - joint.reference;
         let rate = pose.rates.get(&joint.name).copied().unwrap_or(0.0);
-        let zero = Vector3::zeros();
         let (step, own) = match joint.freedom {
-            Freedom::Rotation => (
-                Motion::new(Rotation::about_axis(&joint.axis, value), zero),
-                screw(&zero, &(rate * joint.axis)),
-            ),
-            Freedom::Displacement => {
-                (Motion::translation(value * joint.axis), screw(&(rate * joint.axis), &zero))
+            Freedom::Rotation => {
+                let turn = Motion::new(Rotation::about_axis(&joint.axis, value), Vector3::zeros());
+                let anchor = Motion::translation(joint.anchor);
+                let spin = rate * joint.axis;
+                (anchor * turn * anchor.inverse(), screw(&joint.anchor.cross(&spin), &spin))
             }
-            Freedom::Fixed | Freedom::Floating => (Motion::identity(), Vector6::zeros()),
+            Freedom::Displacement => {
+                (Motion::translation(value * joint.axis), screw(&(rate * joint.axis), &Vector3::zeros()))
+            }
+            Freedom::Fixed | Freedom::Ball | Freedom::Floating => (Motion::identity(), Vector6::zeros()),
         };
         let offset = joint.origin * step;
         frames[joint.child] = frames[joint.parent] * offset;
@@ -181,7 +302,7 @@ fn places(robot: &Robot, pose: &Pose, root: Vector6) -> (Vec<Motion>, Vec<Vector
 }
 
 /// The mass of a link whose frame lies at `offset` in another.
-fn carried(mass: &LinkInertia, offset: &Motion) -> LinkInertia {
+pub(super) fn carried(mass: &LinkInertia, offset: &Motion) -> LinkInertia {
     let turn = offset.rotation.matrix();
     LinkInertia {
         mass: mass.mass,
@@ -190,7 +311,8 @@ fn carried(mass: &LinkInertia, offset: &Motion) -> LinkInertia {
     }
 }
 
-fn together(one: Option<&LinkInertia>, other: &LinkInertia) -> LinkInertia {
+/// The mass of two links that move as one.
+pub(super) fn together(one: Option<&LinkInertia>, other: &LinkInertia) -> LinkInertia {
     let Some(one) = one else { return *other };
     let mass = one.mass + other.mass;
     if mass == 0.0 {
@@ -218,13 +340,6 @@ impl Names {
         let joints = robot.joints.iter().map(|joint| free_name(&joint.name, &mut taken)).collect();
         Self { links, joints }
     }
-
-    fn of_joint(&self, robot: &Robot, name: &str) -> Result<&str, ImportError> {
-        let index = robot.joints.iter().position(|joint| joint.name == name);
-        index
-            .map(|index| self.joints[index].as_str())
-            .ok_or_else(|| ImportError::new(format!("a joint mimics `{name}`, which does not exist")))
-    }
 }
 
 /// A name that can stand in expressions: letters, digits and underscores.
@@ -243,15 +358,20 @@ fn free_name(name: &str, taken: &mut BTreeSet<String>) -> String {
 fn header(robot: &Robot, options: Options) -> String {
     let title = robot.name.replace('\\', "\\\\").replace('"', "\\\"");
     let mut text = String::new();
+    // Writing to a string cannot fail.
     let _ = write!(
         text,
-        "lissom = 1\ntitle = \"{title}\"\ngravity = [0, 0, -9.81]\n\n\
-         # Imported from a robot description. Bodies have the frames of its links, with those that are fixed to them."
+        "lissom = 1\ntitle = \"{title}\"\ngravity = {}\n\n\
+         # Imported from a robot description. Bodies have the frames of its links, with those that are fixed to them.",
+        list(&robot.gravity)
     );
     if options.limits {
         text.push_str(
             "\n# Stops are as stiff as `stop_stiffness` [N m/rad, N/m], which the description does not have.",
         );
+    }
+    for what in robot.left_out.iter().chain(&robot.unsupported) {
+        let _ = write!(text, "\n# Left out: {}.", what.escape_debug());
     }
     text.push('\n');
     if options.limits && robot.joints.iter().any(|joint| joint.range.is_some()) {
@@ -260,18 +380,21 @@ fn header(robot: &Robot, options: Options) -> String {
     text
 }
 
-fn footer(robot: &Robot, names: &Names) -> String {
+fn footer(robot: &Robot, placed: &[Placed]) -> String {
     let mut text = String::new();
-    for (joint, name) in robot.joints.iter().zip(&names.joints) {
-        if joint.moves() {
-            let _ = write!(text, "\n[outputs.{name}]\nkind = \"relative\"\nof = \"{name}\"\n");
+    let mut recorded = BTreeSet::new();
+    for (joint, place) in robot.joints.iter().zip(placed) {
+        if joint.moves() && recorded.insert(&place.joint) {
+            let _ = write!(text, "\n[outputs.{0}]\nkind = \"relative\"\nof = \"{0}\"\n", place.joint);
         }
     }
     text + "\n[outputs.energy]\nkind = \"energy\"\n\n[analysis]\nkind = \"dynamics\"\nend = 1.0\nstep = 1e-3\n"
 }
 
-fn list(vector: &Vector3) -> String {
-    format!("[{:?}, {:?}, {:?}]", vector.x, vector.y, vector.z)
+/// Numbers as the model file has them. A zero has no sign: it would be noise in the text.
+pub(super) fn list(vector: &Vector3) -> String {
+    let [x, y, z] = [vector.x + 0.0, vector.y + 0.0, vector.z + 0.0];
+    format!("[{x:?}, {y:?}, {z:?}]")
 }
 
 fn write_body(text: &mut String, group: &Group, mass: &LinkInertia, renamed: bool, link: &str) {
@@ -293,62 +416,5 @@ fn write_body(text: &mut String, group: &Group, mass: &LinkInertia, renamed: boo
         let velocity = group.frame.rotation.apply(&translation_part(&group.twist));
         let angular = rotation_part(&group.twist);
         let _ = write!(text, "velocity = {}\nangular_velocity = {}\n", list(&velocity), list(&angular));
-    }
-}
-
-fn write_joint(
-    text: &mut String,
-    joint: &RobotJoint,
-    (name, [base, tip]): (&str, [&str; 2]),
-    frame: &Motion,
-    value: f64,
-) {
-    let (kind, key) = match joint.freedom {
-        Freedom::Rotation => ("revolute", "angle"),
-        Freedom::Displacement => ("prismatic", "displacement"),
-        Freedom::Fixed | Freedom::Floating => return,
-    };
-    let _ = write!(
-        text,
-        "\n[joints.{name}]\nkind = \"{kind}\"\nbase = \"{base}\"\ntip = \"{tip}\"\nat = {}\naxis = {}\n",
-        list(&frame.position),
-        list(&frame.rotation.apply(&joint.axis)),
-    );
-    if value != 0.0 {
-        let _ = writeln!(text, "{key} = {value:?}");
-    }
-    if let Some(effort) = joint.effort {
-        let unit = if joint.freedom == Freedom::Rotation { "N m" } else { "N" };
-        let _ = writeln!(text, "# its motor gives at most {effort:?} {unit}");
-    }
-}
-
-/// Stops, damping and friction of a joint.
-fn write_resistance(text: &mut String, joint: &RobotJoint, name: &str, options: Options) {
-    let word = match joint.freedom {
-        Freedom::Rotation => "torsional",
-        Freedom::Displacement => "axial",
-        Freedom::Fixed | Freedom::Floating => return,
-    };
-    if let Some([low, high]) = joint.range.filter(|[low, high]| options.limits && low < high) {
-        let _ = write!(
-            text,
-            "\n[springs.{name}_limits]\nkind = \"{word}_stop\"\njoint = \"{name}\"\nrange = [{low:?}, {high:?}]\n\
-             stiffness = \"stop_stiffness\"\n"
-        );
-    }
-    if options.friction && joint.damping > 0.0 {
-        let _ = write!(
-            text,
-            "\n[springs.{name}_damping]\nkind = \"{word}\"\njoint = \"{name}\"\ndamping = {:?}\n",
-            joint.damping
-        );
-    }
-    if options.friction && joint.friction > 0.0 {
-        let _ = write!(
-            text,
-            "\n[springs.{name}_friction]\nkind = \"{word}_friction\"\njoint = \"{name}\"\ncoulomb = {:?}\n",
-            joint.friction
-        );
     }
 }

@@ -4,17 +4,20 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
-use roxmltree::{Document, Node};
+use roxmltree::Node;
 
+use super::xml::{self, children, line};
 use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint};
+
+/// Gravity as in ROS [m/s²].
+const GRAVITY: Vector3 = Vector3::new(0.0, 0.0, -9.81);
 
 /// Reads a robot from the text of a URDF file.
 ///
 /// # Errors
 /// If it is no URDF, a number is wrong, a link is missing, or the joints make no tree.
 pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
-    let document =
-        Document::parse(text).map_err(|error| ImportError::new(format!("this is no XML text: {error}")))?;
+    let document = xml::parse(text)?;
     let root = document.root_element();
     if !root.has_tag_name("robot") {
         let message = format!("this is no URDF: its root is <{}>, not <robot>", root.tag_name().name());
@@ -30,12 +33,42 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
     // Transmissions and simulators have elements of the same name elsewhere: only those of the robot itself count.
     let joints = children(root, "joint").map(|node| joint(node, &numbers)).collect::<Result<Vec<_>, _>>()?;
     let name = root.attribute("name").unwrap_or("robot").to_owned();
-    in_order(Robot { name, links, joints })
+    let left_out = left_out(root);
+    in_order(Robot {
+        name,
+        gravity: GRAVITY,
+        links,
+        is_root_the_world: false,
+        joints,
+        left_out,
+        unsupported: Vec::new(),
+    })
+}
+
+/// What a model does not get.
+fn left_out(root: Node<'_, '_>) -> Vec<String> {
+    let known = ["link", "joint"];
+    let others = root
+        .children()
+        .filter(|child| child.is_element() && !known.iter().any(|tag| child.has_tag_name(*tag)));
+    let mut words = xml::counted(others.map(|child| child.tag_name().name().to_owned()));
+    let inside = |tag: &'static str, inner: &'static str| {
+        children(root, tag).flat_map(move |own| children(own, inner)).count()
+    };
+    for (tag, inner) in
+        [("link", "visual"), ("link", "collision"), ("joint", "safety_controller"), ("joint", "calibration")]
+    {
+        match inside(tag, inner) {
+            0 => {}
+            count => words.push(format!("{count} <{inner}>")),
+        }
+    }
+    if words.is_empty() { Vec::new() } else { vec![format!("elements: {}", words.join(", "))] }
 }
 
 /// Puts the root first and joints behind those that carry them.
 fn in_order(robot: Robot) -> Result<Robot, ImportError> {
-    let Robot { name, links, joints } = robot;
+    let Robot { links, joints, .. } = &robot;
     let mut names = BTreeSet::new();
     let mut carrier: Vec<Option<usize>> = vec![None; links.len()];
     for (number, joint) in joints.iter().enumerate() {
@@ -80,23 +113,13 @@ fn in_order(robot: Robot) -> Result<Robot, ImportError> {
         child: place[joint.child],
         ..joint.clone()
     };
-    Ok(Robot {
-        name,
-        joints: sorted.iter().map(|&number| moved(&joints[number])).collect(),
-        links: order.iter().map(|&link| links[link].clone()).collect(),
-    })
-}
-
-fn children<'a>(node: Node<'a, 'a>, tag: &'static str) -> impl Iterator<Item = Node<'a, 'a>> {
-    node.children().filter(move |child| child.has_tag_name(tag))
+    let joints = sorted.iter().map(|&number| moved(&joints[number])).collect();
+    let links = order.iter().map(|&link| links[link].clone()).collect();
+    Ok(Robot { links, joints, ..robot })
 }
 
 fn child<'a>(node: Node<'a, 'a>, tag: &'static str) -> Option<Node<'a, 'a>> {
     children(node, tag).next()
-}
-
-fn line(node: Node<'_, '_>) -> u32 {
-    node.document().text_pos_at(node.range().start).row
 }
 
 fn name(node: Node<'_, '_>) -> Result<String, ImportError> {
@@ -108,9 +131,7 @@ fn name(node: Node<'_, '_>) -> Result<String, ImportError> {
 /// Numbers of an attribute.
 fn numbers<const N: usize>(node: Node<'_, '_>, key: &str) -> Result<Option<[f64; N]>, ImportError> {
     let Some(text) = node.attribute(key) else { return Ok(None) };
-    let parts: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse).collect();
-    let values = parts.ok().filter(|values| values.iter().all(|value| value.is_finite()));
-    values.and_then(|values| values.try_into().ok()).map(Some).ok_or_else(|| {
+    xml::finite_numbers(text).and_then(|values| values.try_into().ok()).map(Some).ok_or_else(|| {
         let message = format!("line {}: `{key}` must be {N} finite numbers, and is `{text}`", line(node));
         ImportError::new(message)
     })
@@ -221,18 +242,6 @@ fn joint(node: Node<'_, '_>, links: &BTreeMap<String, usize>) -> Result<RobotJoi
         }
     };
     let (damping, friction) = (of_dynamics("damping")?, of_dynamics("friction")?);
-    let origin = origin(node)?;
-    Ok(RobotJoint {
-        name,
-        freedom,
-        parent,
-        child: child_link,
-        origin,
-        axis,
-        range,
-        effort,
-        damping,
-        friction,
-        follows,
-    })
+    let joint = RobotJoint::new(name, freedom, parent, child_link, origin(node)?);
+    Ok(RobotJoint { axis, range, effort, damping, friction, follows, ..joint })
 }

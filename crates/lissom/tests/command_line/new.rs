@@ -52,6 +52,41 @@ fn an_imported_robot_runs_as_it_is() {
     assert!(!folder.path().join("b.toml").exists());
 }
 
+/// The description of MuJoCo, by the same command: what is left out is told, what acts and is unknown refused.
+#[test]
+fn an_imported_robot_of_mujoco_runs_as_it_is() {
+    let folder = Folder::new("import-mjcf");
+    let robot = "<mujoco model='cart'><option gravity='0 0 -9.81'/><worldbody><light pos='0 0 3'/>
+        <body name='cart'><joint name='rail' type='slide' axis='1 0 0' damping='0.5'/><geom type='box' size='0.2 0.1 0.1'/>
+         <body name='pole'><joint name='hinge' axis='0 1 0' ref='0'/><geom type='capsule' size='0.02' fromto='0 0 0 0 0 0.6'/></body>
+        </body></worldbody>TENDON<actuator><motor joint='rail'/></actuator></mujoco>";
+    folder.write("cart.xml", &robot.replace("TENDON", ""));
+    let made = lissom(&["import", "cart.xml", "--position", "hinge=0.1"], folder.path());
+    assert_eq!((made.code, made.errors.as_str()), (0, ""));
+    for words in ["3 links, 2 joints that move", "left out: actuators", "1 <motor>", "1 <light>"] {
+        assert!(made.output.contains(words), "{}", made.output);
+    }
+    let run =
+        lissom(&["run", "cart.toml", "--no-plots", "--quiet", "--set", "analysis.end=0.05"], folder.path());
+    assert_eq!((run.code, run.errors.as_str()), (0, ""));
+    let table = fs::read_to_string(folder.path().join("out/cart/history.csv")).unwrap();
+    let record = lissom::Record::from_csv(&table).unwrap();
+    assert!((record.column("hinge", "angle").unwrap()[0] - 0.1).abs() < 1e-12);
+    assert!(*record.column("hinge", "angle").unwrap().last().unwrap() > 0.1, "it falls");
+    folder
+        .write("held.xml", &robot.replace("TENDON", "<tendon><spatial name='rope' stiffness='3'/></tendon>"));
+    let refused = lissom(&["import", "held.xml"], folder.path());
+    assert_eq!(refused.code, 2);
+    assert!(
+        refused.errors.contains("the tendon `rope`") && refused.errors.contains("--without unsupported"),
+        "{}",
+        refused.errors
+    );
+    let told = lissom(&["import", "held.xml", "--without", "unsupported"], folder.path());
+    assert_eq!(told.code, 0, "{}", told.errors);
+    assert!(told.output.contains("left out: the tendon `rope`"), "{}", told.output);
+}
+
 #[test]
 fn what_is_there_is_not_overwritten() {
     let folder = Folder::new("new-there");

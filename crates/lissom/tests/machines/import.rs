@@ -7,14 +7,20 @@
 use std::fmt::Write;
 
 use crate::runs::{SCHEMES, column, last, run, set};
-use lissom::import::{Options, Pose, Root, from_urdf, model_text};
+use lissom::import::{Options, Pose, Root, Unsupported, from_urdf, model_text};
 use lissom_motion::Vector6;
 use serde_json::Value;
 
 const REFERENCE: &str = include_str!("robots/pinocchio.json");
 const ROBOTS: [&str; 5] = ["double_pendulum", "ur5", "panda", "z1", "solo12"];
 const TWO_LINKS: &str = include_str!("robots/two_links.urdf");
-const BARE: Options = Options { root: Root::Held, limits: false, friction: false, mimic: false };
+const BARE: Options = Options {
+    root: Root::Held,
+    limits: false,
+    friction: false,
+    mimic: false,
+    unsupported: Unsupported::Refused,
+};
 
 /// Name and description of the robots that are at hand.
 fn robots() -> Vec<(&'static str, String)> {

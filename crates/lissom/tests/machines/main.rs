@@ -3,6 +3,7 @@
 
 mod gallery;
 mod import;
+mod mjcf;
 mod prescribed_motion;
 mod rolling;
 #[path = "../support/runs.rs"]

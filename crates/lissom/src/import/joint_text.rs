@@ -1,0 +1,162 @@
+//! Joints of a robot in the text of the model file, with what resists their motion.
+
+use std::fmt::Write;
+
+use lissom_motion::Vector3;
+
+use super::model_text::{Options, list};
+use super::{Freedom, RobotJoint};
+
+/// Where the coordinate of a robot's joint is in the model.
+pub(super) struct Placed {
+    /// Index of the robot's joint.
+    pub(super) index: usize,
+    /// Its name among the names of the model.
+    pub(super) own: String,
+    /// The joint of the model that has its coordinate; of several that became one, the same.
+    pub(super) joint: String,
+    /// Which coordinate of that joint it is, counted from 1, if there are several.
+    pub(super) coordinate: Option<usize>,
+    /// The coordinate's value at the start, and what to add to values of the robot's coordinate [rad, m].
+    pub(super) value: f64,
+    pub(super) shift: f64,
+    /// Its rate at the start [rad/s, m/s].
+    pub(super) rate: f64,
+    /// A point of its axis and its direction at the start, in global axes.
+    pub(super) at: Vector3,
+    pub(super) axis: Vector3,
+}
+
+impl Placed {
+    fn coordinate_line(&self, key: &str) -> String {
+        self.coordinate.map(|number| format!("{key} = {number}\n")).unwrap_or_default()
+    }
+}
+
+/// A joint alone between two bodies.
+pub(super) fn write_joint(text: &mut String, joint: &RobotJoint, place: &Placed, [base, tip]: [&str; 2]) {
+    let name = &place.joint;
+    let (kind, key) = match joint.freedom {
+        Freedom::Rotation => ("revolute", "angle"),
+        Freedom::Displacement => ("prismatic", "displacement"),
+        Freedom::Ball => {
+            // Writing to a string cannot fail.
+            let _ = write!(
+                text,
+                "\n[joints.{name}]\nkind = \"spherical\"\nbase = \"{base}\"\ntip = \"{tip}\"\nat = {}\n",
+                list(&place.at)
+            );
+            if joint.stiffness > 0.0 {
+                let k = joint.stiffness;
+                let _ = write!(
+                    text,
+                    "\n[springs.{}_stiffness]\nkind = \"bushing\"\nbase = \"{base}\"\ntip = \"{tip}\"\nat_base = {at}\n\
+                     at_tip = {at}\nstiffness = [0, 0, 0, {k:?}, {k:?}, {k:?}]\n",
+                    place.own,
+                    at = list(&place.at)
+                );
+            }
+            return;
+        }
+        Freedom::Fixed | Freedom::Floating => return,
+    };
+    let _ = write!(
+        text,
+        "\n[joints.{name}]\nkind = \"{kind}\"\nbase = \"{base}\"\ntip = \"{tip}\"\nat = {}\naxis = {}\n",
+        list(&place.at),
+        list(&place.axis),
+    );
+    if place.value != 0.0 {
+        let _ = writeln!(text, "{key} = {:?}", place.value);
+    }
+    write_effort(text, joint);
+}
+
+/// The greatest torque of a motor, as a comment.
+pub(super) fn write_effort(text: &mut String, joint: &RobotJoint) {
+    if let Some(effort) = joint.effort {
+        let unit = if joint.freedom == Freedom::Rotation { "N m" } else { "N" };
+        let _ =
+            writeln!(text, "# the motor of {} gives at most {effort:?} {unit}", joint.name.escape_debug());
+    }
+}
+
+/// Stops, springs, damping and friction of a joint with a coordinate.
+pub(super) fn write_resistance(text: &mut String, joint: &RobotJoint, place: &Placed, options: Options) {
+    let (word, rest_key) = match joint.freedom {
+        Freedom::Rotation => ("torsional", "angle"),
+        Freedom::Displacement => ("axial", "displacement"),
+        Freedom::Fixed | Freedom::Ball | Freedom::Floating => return,
+    };
+    let (own, coordinate) = (&place.own, place.coordinate_line("coordinate"));
+    let mut entry = |name: &str, kind: &str, rest: &str| {
+        let _ = write!(
+            text,
+            "\n[springs.{own}_{name}]\nkind = \"{word}{kind}\"\njoint = \"{}\"\n{rest}{coordinate}",
+            place.joint
+        );
+    };
+    if let Some([low, high]) = joint.range.filter(|[low, high]| options.limits && low < high) {
+        let [low, high] = [low + place.shift, high + place.shift];
+        entry("limits", "_stop", &format!("range = [{low:?}, {high:?}]\nstiffness = \"stop_stiffness\"\n"));
+    }
+    if joint.stiffness > 0.0 {
+        let rest = joint.rest + place.shift;
+        entry("stiffness", "", &format!("stiffness = {:?}\n{rest_key} = {rest:?}\n", joint.stiffness));
+    }
+    if options.friction && joint.damping > 0.0 {
+        entry("damping", "", &format!("damping = {:?}\n", joint.damping));
+    }
+    if options.friction && joint.friction > 0.0 {
+        entry("friction", "_friction", &format!("coulomb = {:?}\n", joint.friction));
+    }
+}
+
+/// The inertia of a rotor as it acts on a coordinate alone: ½ a q̇² is the energy of a body on the ground that a gear of ratio one
+/// turns or shifts with the coordinate, across gravity.
+pub(super) fn write_rotor(text: &mut String, joint: &RobotJoint, place: &Placed, gravity: &Vector3) {
+    if joint.armature <= 0.0 || !joint.moves() {
+        return;
+    }
+    let (own, armature) = (&place.own, joint.armature);
+    let (kind, axis, mass, inertia, moving) = if joint.freedom == Freedom::Rotation {
+        let spin = list(&(place.rate * place.axis));
+        ("revolute", place.axis, 1.0, armature, format!("angular_velocity = {spin}\n"))
+    } else {
+        let across = across(gravity);
+        let velocity = list(&(place.rate * across));
+        ("prismatic", across, armature, armature, format!("velocity = {velocity}\n"))
+    };
+    let moving = if place.rate == 0.0 { "" } else { &moving };
+    let at = list(&place.at);
+    let _ = write!(
+        text,
+        "\n# The armature of {name}: a rotor on the ground that goes with the joint.\n\
+         [bodies.{own}_rotor]\nmass = {mass:?}\ninertia = [{inertia:?}, {inertia:?}, {inertia:?}]\nposition = {at}\n{moving}\
+         \n[joints.{own}_rotor]\nkind = \"{kind}\"\nbase = \"ground\"\ntip = \"{own}_rotor\"\nat = {at}\naxis = {}\n\
+         \n[joints.{own}_armature]\nkind = \"gear\"\njoint = \"{}\"\nother = \"{own}_rotor\"\nratio = 1.0\n{}",
+        list(&axis),
+        place.joint,
+        place.coordinate_line("coordinate"),
+        name = joint.name.escape_debug(),
+    );
+}
+
+/// A direction across `gravity`.
+fn across(gravity: &Vector3) -> Vector3 {
+    let away = if gravity.x.abs() > gravity.y.abs() { Vector3::y() } else { Vector3::x() };
+    gravity.cross(&away).try_normalize(0.0).unwrap_or_else(Vector3::x)
+}
+
+/// A coordinate that follows another.
+pub(super) fn write_follower(text: &mut String, own: &Placed, leader: &Placed, factor: f64) {
+    let _ = write!(
+        text,
+        "\n[joints.{}_follows]\nkind = \"gear\"\njoint = \"{}\"\nother = \"{}\"\nratio = {factor:?}\n{}{}",
+        own.own,
+        leader.joint,
+        own.joint,
+        leader.coordinate_line("coordinate"),
+        own.coordinate_line("other_coordinate"),
+    );
+}

@@ -1,0 +1,153 @@
+//! Elements of MJCF with the attributes that they have of their own and by default.
+
+use std::collections::BTreeMap;
+
+use roxmltree::Node;
+
+use super::super::ImportError;
+use super::super::xml::{finite_numbers, line};
+
+type Attributes = BTreeMap<String, String>;
+
+/// Default attributes by class and tag; a class has those of the classes around it.
+pub(super) struct Classes {
+    by_name: BTreeMap<String, BTreeMap<String, Attributes>>,
+    /// Name of the outermost.
+    main: String,
+}
+
+impl Classes {
+    /// Those of `<default>`, of which there may be several.
+    pub(super) fn read(root: Node<'_, '_>) -> Result<Self, ImportError> {
+        let mut classes = Self { by_name: BTreeMap::new(), main: "main".to_owned() };
+        for node in root.children().filter(|child| child.has_tag_name("default")) {
+            let name = node.attribute("class").unwrap_or("main");
+            name.clone_into(&mut classes.main);
+            let around = classes.by_name.get(name).cloned().unwrap_or_default();
+            classes.add(node, name, around)?;
+        }
+        Ok(classes)
+    }
+
+    fn add(
+        &mut self,
+        node: Node<'_, '_>,
+        name: &str,
+        mut by_tag: BTreeMap<String, Attributes>,
+    ) -> Result<(), ImportError> {
+        let elements = || node.children().filter(Node::is_element);
+        for element in elements().filter(|element| !element.has_tag_name("default")) {
+            let own = by_tag.entry(element.tag_name().name().to_owned()).or_default();
+            own.extend(
+                element
+                    .attributes()
+                    .map(|attribute| (attribute.name().to_owned(), attribute.value().to_owned())),
+            );
+        }
+        for inner in elements().filter(|element| element.has_tag_name("default")) {
+            let name = inner.attribute("class").ok_or_else(|| {
+                ImportError::new(format!("line {}: a <default> within another has no class", line(inner)))
+            })?;
+            self.add(inner, name, by_tag.clone())?;
+        }
+        self.by_name.insert(name.to_owned(), by_tag);
+        Ok(())
+    }
+
+    /// An element with its defaults: of its own class, or else of `around`, the class of the bodies around it.
+    pub(super) fn element(&self, node: Node<'_, '_>, around: Option<&str>) -> Result<Element, ImportError> {
+        let tag = node.tag_name().name();
+        let own = node.attribute("class");
+        let class = own.or(around).unwrap_or(&self.main);
+        let mut attributes = match self.by_name.get(class) {
+            Some(by_tag) => by_tag.get(tag).cloned().unwrap_or_default(),
+            None if class == self.main => Attributes::new(),
+            None => {
+                let message = format!("line {}: there is no default class `{class}`", line(node));
+                return Err(ImportError::new(message));
+            }
+        };
+        attributes.extend(node.attributes().map(|own| (own.name().to_owned(), own.value().to_owned())));
+        Ok(Element { tag: tag.to_owned(), line: line(node), attributes })
+    }
+}
+
+/// An element.
+pub(super) struct Element {
+    tag: String,
+    line: u32,
+    attributes: Attributes,
+}
+
+impl Element {
+    /// An element without defaults.
+    pub(super) fn bare(node: Node<'_, '_>) -> Self {
+        let attributes =
+            node.attributes().map(|own| (own.name().to_owned(), own.value().to_owned())).collect();
+        Self { tag: node.tag_name().name().to_owned(), line: line(node), attributes }
+    }
+
+    /// Complains about this element.
+    pub(super) fn fault(&self, message: impl std::fmt::Display) -> ImportError {
+        let name = self.text("name").map(|name| format!(" `{name}`")).unwrap_or_default();
+        ImportError::new(format!("line {}: <{}>{name}: {message}", self.line, self.tag))
+    }
+
+    /// Complains about attributes that nobody here has heard of, for they may matter.
+    pub(super) fn check_known(&self, used: &[&str], harmless: &[&str]) -> Result<(), ImportError> {
+        let unknown = self.attributes.keys().find(|key| {
+            !used.contains(&key.as_str())
+                && !harmless.contains(&key.as_str())
+                && *key != "name"
+                && *key != "class"
+        });
+        match unknown {
+            None => Ok(()),
+            Some(key) => Err(self
+                .fault(format!("the attribute `{key}` is unknown here: take it out if it does not matter"))),
+        }
+    }
+
+    pub(super) fn has_tag(&self, tag: &str) -> bool {
+        self.tag == tag
+    }
+
+    pub(super) fn text(&self, key: &str) -> Option<&str> {
+        self.attributes.get(key).map(String::as_str)
+    }
+
+    /// As many finite numbers as there are.
+    pub(super) fn list(&self, key: &str) -> Result<Option<Vec<f64>>, ImportError> {
+        let Some(text) = self.text(key) else { return Ok(None) };
+        let values = finite_numbers(text);
+        values.map(Some).ok_or_else(|| self.fault(format!("`{key}` must be finite numbers, and is `{text}`")))
+    }
+
+    pub(super) fn numbers<const N: usize>(&self, key: &str) -> Result<Option<[f64; N]>, ImportError> {
+        let Some(values) = self.list(key)? else { return Ok(None) };
+        let text = self.text(key).unwrap_or_default();
+        let wrong = |_| self.fault(format!("`{key}` must be {N} numbers, and is `{text}`"));
+        values.try_into().map(Some).map_err(wrong)
+    }
+
+    /// A number, or what it is where it is left out.
+    pub(super) fn number(&self, key: &str, default: f64) -> Result<f64, ImportError> {
+        Ok(self.numbers::<1>(key)?.map_or(default, |[value]| value))
+    }
+
+    /// A number that may not be negative; zero where it is left out.
+    pub(super) fn not_negative(&self, key: &str) -> Result<f64, ImportError> {
+        let value = self.number(key, 0.0)?;
+        if value < 0.0 { Err(self.fault(format!("`{key}` is negative: {value}"))) } else { Ok(value) }
+    }
+
+    /// A word that says yes or no.
+    pub(super) fn flag(&self, key: &str, default: bool) -> Result<bool, ImportError> {
+        match self.text(key) {
+            None => Ok(default),
+            Some("true") => Ok(true),
+            Some("false") => Ok(false),
+            Some(other) => Err(self.fault(format!("`{key}` must be true or false, and is `{other}`"))),
+        }
+    }
+}

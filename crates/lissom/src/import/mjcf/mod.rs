@@ -1,0 +1,294 @@
+//! MJCF, the robot description of MuJoCo: bodies with joints, inertia given or that of their shapes, default classes, gravity.
+//! Contacts, actuators and sensors are left out; what acts on the motion and is unknown here is refused.
+
+mod element;
+mod frame;
+mod geom;
+mod joint;
+mod outside;
+
+use std::collections::BTreeSet;
+
+use lissom_motion::{Matrix3, Motion};
+use roxmltree::Node;
+
+use self::element::{Classes, Element};
+use self::frame::Angles;
+use self::geom::Geom;
+use super::model_text::{carried, together};
+use super::xml::{self, children};
+use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint};
+
+/// Elements of a body that are only seen or measured.
+const SEEN: [&str; 3] = ["site", "camera", "light"];
+
+/// Reads a robot from the text of an MJCF file.
+///
+/// # Errors
+/// If it is no MJCF, a number is wrong, or it holds what is neither known nor without influence on the motion.
+pub fn from_mjcf(text: &str) -> Result<Robot, ImportError> {
+    let document = xml::parse(text)?;
+    let root = document.root_element();
+    if !root.has_tag_name("mujoco") {
+        let message = format!("this is no MJCF: its root is <{}>, not <mujoco>", root.tag_name().name());
+        return Err(ImportError::new(message));
+    }
+    let mut compilers = children(root, "compiler");
+    let compiler = compilers.next().map_or_else(|| Element::bare(root), Element::bare);
+    if let Some(second) = compilers.next() {
+        return Err(Element::bare(second).fault("there is a <compiler> already: put both in one"));
+    }
+    outside::check_compiler(&compiler)?;
+    let mut reader = Reader {
+        angles: Angles::read(&compiler)?,
+        autolimits: compiler.flag("autolimits", true)?,
+        from_geoms: Inertias::read(&compiler)?,
+        groups: compiler.numbers::<2>("inertiagrouprange")?.unwrap_or([0.0, 5.0]),
+        classes: Classes::read(root)?,
+        touching: 0,
+        seen: Vec::new(),
+        robot: Robot {
+            name: root.attribute("model").unwrap_or("robot").to_owned(),
+            gravity: outside::gravity(root)?,
+            links: vec![Link { name: "world".to_owned(), inertia: None }],
+            is_root_the_world: true,
+            joints: Vec::new(),
+            left_out: Vec::new(),
+            unsupported: Vec::new(),
+        },
+    };
+    for world in children(root, "worldbody") {
+        let class = world.attribute("childclass");
+        let place =
+            Place { offset: Motion::identity(), class, is_world: true, needs_geoms: false, is_frame: false };
+        reader.content(world, &place, &mut Content::default())?;
+        reader.carried(world, 0, &place)?;
+    }
+    let Reader { mut robot, classes, seen, touching, .. } = reader;
+    outside::read(root, &classes, &mut robot)?;
+    let seen = xml::counted(seen.into_iter());
+    if !seen.is_empty() {
+        robot.left_out.push(format!("elements: {}", seen.join(", ")));
+    }
+    if touching > 1 {
+        robot.left_out.push("contacts: bodies pass through each other".to_owned());
+    }
+    check_names(&robot)?;
+    Ok(robot)
+}
+
+/// Where the inertia of a body comes from.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Inertias {
+    Given,
+    GivenOrGeoms,
+    Geoms,
+}
+
+impl Inertias {
+    fn read(compiler: &Element) -> Result<Self, ImportError> {
+        match compiler.text("inertiafromgeom").unwrap_or("auto") {
+            "auto" => Ok(Self::GivenOrGeoms),
+            "true" => Ok(Self::Geoms),
+            "false" => Ok(Self::Given),
+            other => {
+                Err(compiler
+                    .fault(format!("`inertiafromgeom` must be true, false or auto, and is `{other}`")))
+            }
+        }
+    }
+}
+
+struct Reader {
+    angles: Angles,
+    autolimits: bool,
+    from_geoms: Inertias,
+    groups: [f64; 2],
+    classes: Classes,
+    /// How many geoms may touch others.
+    touching: usize,
+    /// Tags of what is only seen.
+    seen: Vec<String>,
+    robot: Robot,
+}
+
+/// What a body is made of.
+#[derive(Default)]
+struct Content {
+    joints: Vec<Element>,
+    inertial: Option<LinkInertia>,
+    geoms: Option<LinkInertia>,
+}
+
+/// Where elements are read.
+#[derive(Clone)]
+struct Place<'a> {
+    /// Frame of the element around, in the body's.
+    offset: Motion,
+    /// Default class around.
+    class: Option<&'a str>,
+    is_world: bool,
+    /// Whether the body has the mass of its geoms.
+    needs_geoms: bool,
+    /// Whether they are in a frame of a body.
+    is_frame: bool,
+}
+
+impl Reader {
+    /// Reads what is in a body, or in a frame of it, but not the bodies in it.
+    fn content(
+        &mut self,
+        node: Node<'_, '_>,
+        place: &Place<'_>,
+        content: &mut Content,
+    ) -> Result<(), ImportError> {
+        let may_move = !place.is_world && !place.is_frame;
+        for child in node.children().filter(Node::is_element) {
+            match child.tag_name().name() {
+                "body" => {}
+                "frame" => self.content(child, &self.frame(child, place)?, content)?,
+                "joint" if may_move => content.joints.push(self.classes.element(child, place.class)?),
+                "freejoint" if may_move => content.joints.push(Element::bare(child)),
+                "inertial" if may_move => {
+                    let own = Element::bare(child);
+                    let read = inertial(&own, &frame::frame(&own, &self.angles)?)?;
+                    if content.inertial.replace(read).is_some() {
+                        return Err(own.fault("the body has two"));
+                    }
+                }
+                "geom" => {
+                    let geom = Geom::read(self.classes.element(child, place.class)?)?;
+                    self.touching += usize::from(geom.touches);
+                    if place.needs_geoms
+                        && (self.groups[0]..=self.groups[1]).contains(&geom.group)
+                        && let Some(mass) = geom.mass(&self.angles)?
+                    {
+                        let mass = carried(&mass, &place.offset);
+                        content.geoms = Some(together(content.geoms.as_ref(), &mass));
+                    }
+                }
+                "plugin" => self.robot.unsupported.push("a <plugin>".to_owned()),
+                tag if SEEN.contains(&tag) => self.seen.push(tag.to_owned()),
+                tag => {
+                    let message = format!("<{tag}> is unknown in this place: write out what it makes");
+                    return Err(Element::bare(child).fault(message));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// What is around the elements of a `<frame>`.
+    fn frame<'a>(&self, node: Node<'a, 'a>, around: &Place<'a>) -> Result<Place<'a>, ImportError> {
+        let own = Element::bare(node);
+        own.check_known(&frame::ATTRIBUTES, &["childclass"])?;
+        let offset = around.offset * frame::frame(&own, &self.angles)?;
+        let class = node.attribute("childclass").or(around.class);
+        Ok(Place { offset, class, is_frame: true, ..around.clone() })
+    }
+
+    /// Reads the bodies that link `parent` carries.
+    fn carried(&mut self, node: Node<'_, '_>, parent: usize, place: &Place<'_>) -> Result<(), ImportError> {
+        for child in node.children().filter(Node::is_element) {
+            if child.has_tag_name("frame") {
+                self.carried(child, parent, &self.frame(child, place)?)?;
+            } else if child.has_tag_name("body") {
+                self.body(child, parent, place)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Reads a body that link `parent` carries, and all bodies that this one carries.
+    fn body(&mut self, node: Node<'_, '_>, parent: usize, around: &Place<'_>) -> Result<(), ImportError> {
+        let own = Element::bare(node);
+        own.check_known(&frame::ATTRIBUTES, &["childclass", "mocap", "gravcomp", "user", "sleep"])?;
+        let mut origin = around.offset * frame::frame(&own, &self.angles)?;
+        let name = own.text("name").map_or_else(|| format!("body{}", self.robot.links.len()), str::to_owned);
+        if own.number("gravcomp", 0.0)? != 0.0 {
+            self.robot.unsupported.push(format!("the compensated weight of body `{name}`"));
+        }
+        if own.flag("mocap", false)? {
+            self.robot.left_out.push(format!("the prescribed motion of body `{name}`, which stands still"));
+        }
+        let has_inertial = children(node, "inertial").next().is_some();
+        let place = Place {
+            offset: Motion::identity(),
+            class: node.attribute("childclass").or(around.class),
+            is_world: false,
+            needs_geoms: match self.from_geoms {
+                Inertias::Given => false,
+                Inertias::GivenOrGeoms => !has_inertial,
+                Inertias::Geoms => true,
+            },
+            is_frame: false,
+        };
+        let mut content = Content::default();
+        self.content(node, &place, &mut content)?;
+        let inertia = if place.needs_geoms { content.geoms } else { content.inertial };
+
+        // Several joints of a body act one after the other, through links without mass.
+        let (mut carrier, count) = (parent, content.joints.len());
+        for (number, element) in content.joints.iter().enumerate() {
+            let is_last = number + 1 == count;
+            let child = self.robot.links.len();
+            let joint_name = match element.text("name") {
+                Some(name) => name.to_owned(),
+                None if count == 1 => format!("{name}_joint"),
+                None => format!("{name}_joint{}", number + 1),
+            };
+            let link = if is_last { name.clone() } else { format!("{name} behind {joint_name}") };
+            self.robot.links.push(Link { name: link, inertia: inertia.filter(|_| is_last) });
+            let compiled = (&self.angles, self.autolimits);
+            let joint = joint::joint(element, compiled, (joint_name, carrier, child, origin))?;
+            if joint.freedom == Freedom::Floating && (count > 1 || parent > 0) {
+                return Err(
+                    element.fault("a body that moves freely has no other joint, and no body that carries it")
+                );
+            }
+            self.robot.joints.push(joint);
+            (carrier, origin) = (child, Motion::identity());
+        }
+        if count == 0 {
+            let child = self.robot.links.len();
+            self.robot.links.push(Link { name: name.clone(), inertia });
+            let fixed = RobotJoint::new(format!("{name}_fixed"), Freedom::Fixed, parent, child, origin);
+            self.robot.joints.push(fixed);
+            carrier = child;
+        }
+        self.carried(node, carrier, &place)
+    }
+}
+
+/// The inertia that a body is given.
+fn inertial(own: &Element, placed: &Motion) -> Result<LinkInertia, ImportError> {
+    own.check_known(&frame::ATTRIBUTES, &["mass", "diaginertia", "fullinertia"])?;
+    let mass = own.numbers::<1>("mass")?.ok_or_else(|| own.fault("it has no `mass`"))?[0];
+    let tensor = match (own.numbers::<3>("diaginertia")?, own.numbers::<6>("fullinertia")?) {
+        (Some([x, y, z]), None) => Matrix3::from_diagonal(&[x, y, z].into()),
+        (None, Some([xx, yy, zz, xy, xz, yz])) => Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz),
+        _ => return Err(own.fault("give either `diaginertia` or `fullinertia`")),
+    };
+    if mass < 0.0 {
+        return Err(own.fault(format!("`mass` is negative: {mass}")));
+    }
+    let turn = placed.rotation.matrix();
+    Ok(LinkInertia { mass, centre: placed.position, inertia: turn * tensor * turn.transpose() })
+}
+
+/// Refuses names that occur twice.
+fn check_names(robot: &Robot) -> Result<(), ImportError> {
+    let twice = |names: Vec<&str>| {
+        let mut seen = BTreeSet::new();
+        names.into_iter().find(|name| !seen.insert(*name)).map(str::to_owned)
+    };
+    let joints = robot.joints.iter().filter(|joint| joint.freedom != Freedom::Fixed);
+    let found = [
+        ("bodies", twice(robot.links.iter().map(|link| link.name.as_str()).collect())),
+        ("joints", twice(joints.map(|joint| joint.name.as_str()).collect())),
+    ];
+    match found.into_iter().find_map(|(what, name)| Some((what, name?))) {
+        Some((what, name)) => Err(ImportError::new(format!("two {what} are called `{name}`"))),
+        None => Ok(()),
+    }
+}

@@ -1,0 +1,156 @@
+//! What an MJCF file holds beside bodies: what a robot gets of it, and what it does not.
+
+use std::collections::BTreeMap;
+
+use lissom_motion::Vector3;
+use roxmltree::Node;
+
+use super::super::xml::{children, counted};
+use super::super::{ImportError, Robot};
+use super::element::{Classes, Element};
+
+/// Sections without influence on the motion.
+const SHOWN: [&str; 7] = ["size", "visual", "statistic", "asset", "custom", "sensor", "keyframe"];
+/// Settings of a compiler that change masses, and their harmless values.
+const MASS_SETTINGS: [(&str, &[&str]); 4] = [
+    ("boundmass", &["0"]),
+    ("boundinertia", &["0"]),
+    ("settotalmass", &["-1"]),
+    ("balanceinertia", &["false"]),
+];
+/// What the flags of the options can switch off.
+const FORCES: [&str; 8] =
+    ["constraint", "equality", "frictionloss", "limit", "passive", "spring", "damper", "clampctrl"];
+
+/// Complains about settings of the compiler that are unknown here.
+pub(super) fn check_compiler(compiler: &Element) -> Result<(), ImportError> {
+    if compiler.text("coordinate").is_some_and(|word| word != "local") {
+        return Err(compiler.fault("only coordinate=\"local\" is known"));
+    }
+    for (key, harmless) in MASS_SETTINGS {
+        let value = compiler.text(key);
+        if value.is_some_and(|value| !harmless.contains(&value) && value.parse() != Ok(0.0)) {
+            return Err(compiler.fault(format!("`{key}` is unknown here: give the masses as they are")));
+        }
+    }
+    Ok(())
+}
+
+/// Gravity as `<option>` says [m/s²].
+pub(super) fn gravity(root: Node<'_, '_>) -> Result<Vector3, ImportError> {
+    let mut gravity = [0.0, 0.0, -9.81];
+    for node in children(root, "option") {
+        let option = Element::bare(node);
+        gravity = option.numbers::<3>("gravity")?.unwrap_or(gravity);
+        if children(node, "flag").any(|flag| flag.attribute("gravity") == Some("disable")) {
+            gravity = [0.0; 3];
+        }
+    }
+    Ok(gravity.into())
+}
+
+/// Reads all sections but bodies into `robot`.
+pub(super) fn read(root: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<(), ImportError> {
+    let handled = ["compiler", "default", "worldbody", "option", "contact", "equality", "tendon", "actuator"];
+    for node in root.children().filter(Node::is_element) {
+        let tag = node.tag_name().name();
+        match tag {
+            "option" => option(node, robot)?,
+            "equality" => equality(node, classes, robot)?,
+            "tendon" => tendons(node, classes, robot)?,
+            "actuator" => {
+                let all = counted(inner(node).map(|own| own.tag_name().name().to_owned()));
+                if !all.is_empty() {
+                    let words = format!(
+                        "actuators, also the forces they give without a command: {}; joints are driven by loads and signals",
+                        all.join(", ")
+                    );
+                    robot.left_out.push(words);
+                }
+            }
+            "keyframe" if inner(node).next().is_some() => {
+                robot.left_out.push("key frames: values at the start are given by --position".to_owned());
+            }
+            "include" => {
+                let file = node.attribute("file").unwrap_or_default();
+                return Err(Element::bare(node).fault(format!(
+                    "the file `{file}` is not read: put its text in the place of the <include>"
+                )));
+            }
+            _ if handled.contains(&tag) || SHOWN.contains(&tag) => {}
+            other => robot.unsupported.push(format!("<{other}>")),
+        }
+    }
+    Ok(())
+}
+
+fn inner<'a>(node: Node<'a, 'a>) -> impl Iterator<Item = Node<'a, 'a>> {
+    node.children().filter(Node::is_element)
+}
+
+fn option(node: Node<'_, '_>, robot: &mut Robot) -> Result<(), ImportError> {
+    let option = Element::bare(node);
+    for key in ["density", "viscosity"] {
+        if option.number(key, 0.0)? != 0.0 {
+            robot.unsupported.push(format!("forces of the fluid around it, `{key}` of <option>"));
+        }
+    }
+    for flag in children(node, "flag") {
+        for word in FORCES.iter().filter(|word| flag.attribute(**word) == Some("disable")) {
+            robot.unsupported.push(format!("the flag {word}=\"disable\" of <option>"));
+        }
+    }
+    Ok(())
+}
+
+/// Joints that follow others become followers; what else closes loops is told.
+fn equality(node: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<(), ImportError> {
+    for node in inner(node) {
+        let own = classes.element(node, None)?;
+        if !own.flag("active", true)? {
+            robot.left_out.push("an equality that is not active".to_owned());
+            continue;
+        }
+        let tag = node.tag_name().name();
+        let polynomial = own.list("polycoef")?.unwrap_or_else(|| vec![0.0, 1.0]);
+        let is_linear = polynomial.iter().skip(2).all(|factor| *factor == 0.0);
+        let (first, second) = (own.text("joint1"), own.text("joint2"));
+        let (Some(first), Some(second)) = (first.filter(|_| tag == "joint" && is_linear), second) else {
+            robot.unsupported.push(format!("<{tag}> of <equality>"));
+            continue;
+        };
+        let references: BTreeMap<&str, f64> =
+            robot.joints.iter().map(|joint| (joint.name.as_str(), joint.reference)).collect();
+        let reference = |name: &str| {
+            references.get(name).copied().ok_or_else(|| own.fault(format!("there is no joint `{name}`")))
+        };
+        // y - y₀ = a + b (x - x₀)
+        let (a, b) = (polynomial.first().copied().unwrap_or(0.0), polynomial.get(1).copied().unwrap_or(0.0));
+        let offset = reference(first)? + a - b * reference(second)?;
+        let follows = Some((second.to_owned(), b, offset));
+        for joint in robot.joints.iter_mut().filter(|joint| joint.name == first) {
+            if !joint.moves() || joint.follows.is_some() || b == 0.0 {
+                return Err(own.fault(format!("joint `{first}` cannot follow `{second}` in this way")));
+            }
+            joint.follows.clone_from(&follows);
+        }
+    }
+    Ok(())
+}
+
+/// Tendons that only lead actuators do nothing themselves.
+fn tendons(node: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<(), ImportError> {
+    for node in inner(node) {
+        let own = classes.element(node, None)?;
+        let acts = ["stiffness", "damping", "frictionloss", "armature", "range"].iter().any(|key| {
+            own.text(key).is_some_and(|text| text.split_whitespace().any(|word| word.parse() != Ok(0.0)))
+        });
+        let name = own.text("name").unwrap_or("without a name");
+        if acts {
+            robot.unsupported.push(format!("the tendon `{name}`"));
+        } else {
+            robot.left_out.push(format!("the tendon `{name}`, which only leads actuators"));
+        }
+    }
+    Ok(())
+}
