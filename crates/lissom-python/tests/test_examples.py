@@ -50,6 +50,28 @@ def test_a_stiffness_is_identified() -> None:
     assert course[-1] < 0.02 * course[0] and course[-1] == pytest.approx(301 / 2, rel=0.2), "what is left is the noise"
 
 
+def test_a_controller_is_tuned_to_the_optimal_one() -> None:
+    """The best PD law is the linear-quadratic regulator: k = r^(-1/2), d = (2 J k)^(1/2), and the integral is r k d."""
+    own = example("tune_controller")
+    study, course = own["tune"](show=False)
+    assert len(course) == len(study.trials) == 120 and all(later <= earlier for earlier, later in zip(course, course[1:]))
+    stiffness = own["EFFORT"] ** -0.5
+    damping = (2 * (1 / 12 + 1 / 4) * stiffness) ** 0.5
+    least = own["EFFORT"] * stiffness * damping / 2
+    assert course[-1] == study.best_value == pytest.approx(least, rel=5e-3) and course[-1] < 0.6 * course[0]
+    assert study.best_params["stiffness"] == pytest.approx(stiffness, rel=0.1)
+    assert study.best_params["damping"] == pytest.approx(damping, rel=0.1)
+    # The same seed gives the same study, and a trial is a run of the model with its gains.
+    again, _ = own["tune"](10, show=False)
+    assert [trial.value for trial in again.trials] == [trial.value for trial in study.trials[:10]]
+    model = lissom.loads(own["MODEL"], "arm.toml")
+    assert own["measure"](model, study.best_params) == study.best_value
+    # Runs without a solution are never taken for good ones.
+    failed, course = own["tune"](3, show=False, overrides={"analysis.max_iterations": 1})
+    assert all(trial.state.name == "PRUNED" and "max_iterations" in trial.user_attrs["diagnosis"] for trial in failed.trials)
+    assert not np.isfinite(course).any()
+
+
 def test_the_environment_is_one_of_gymnasium() -> None:
     from gymnasium.utils.env_checker import check_env
 
