@@ -78,7 +78,10 @@ pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered
     tell("unknowns", json!(layout.size()));
     tell("multipliers", json!(multipliers));
     let columns = columns(channels);
-    let column = |column: &crate::Column| json!({ "name": column.name(), "quantity": column.quantity, "unit": column.unit });
+    let column = |column: &crate::Column| {
+        let is_unique = !lowered.not_unique.contains(&column.name());
+        json!({ "name": column.name(), "quantity": column.quantity, "unit": column.unit, "unique": is_unique })
+    };
     tell("columns", columns.iter().map(column).collect());
     let warnings = document.warnings.problems().map(|problem| json!(problem.message));
     tell("warnings", warnings.collect());

@@ -24,6 +24,8 @@ mod parts;
 mod path;
 #[path = "command_line/plot.rs"]
 mod plot;
+#[path = "command_line/redundancy.rs"]
+mod redundancy;
 #[path = "command_line/silent.rs"]
 mod silent;
 #[path = "command_line/snapshot.rs"]

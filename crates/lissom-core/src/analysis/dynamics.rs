@@ -14,6 +14,7 @@ use super::phase::{Stopwatch, Unwatched};
 use super::projection::Projection;
 use super::step_error::{StepError, convergence_hint, pivot_hint};
 use super::workspace::Workspace;
+use crate::judge::singular::SingularPositions;
 use crate::judge::{self, Judge, Ledger, Warning};
 use crate::newton::{self, Equations, Failure, Limits, Memory, Outcome};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
@@ -134,6 +135,8 @@ pub struct Simulation {
     pub(crate) next_ledger: Ledger,
     /// Reasons to doubt the motion up to the state.
     pub(crate) warnings: Vec<Warning>,
+    /// Positions in which constraints of loops repeat each other.
+    pub(crate) singular: SingularPositions,
     /// The last load parameter at which the equilibrium was stable, in statics [s].
     pub(super) stable_at: Option<f64>,
     /// Numbers that may change their sign within a step.
@@ -224,6 +227,7 @@ impl Simulation {
             .map_err(|error| InitialError::Wrapped(Box::new(error)))?;
         let interval = settings.scheme.dynamic.then_some(settings.step_size);
         let ledger = Ledger::new(&system, &state.kinematics, &representative, interval);
+        let singular = SingularPositions::new(&system, &state.kinematics, representative.length);
         let controller = settings.control.filter(|_| settings.scheme.dynamic);
         let controller = controller.map(|_| Controller::new(settings.step_size));
         let kinks = if controller.is_some() { system.kinks() } else { Vec::new() };
@@ -258,6 +262,7 @@ impl Simulation {
             ledger,
             next_ledger: ledger,
             warnings,
+            singular,
             stable_at: None,
             watch,
             impacts,
@@ -487,6 +492,25 @@ impl Simulation {
         std::mem::swap(&mut self.state, &mut self.next);
         if let Some(memory) = &mut self.method_memory {
             memory.renew(self.scaled.step_size());
+        }
+        self.note_singular_positions();
+    }
+
+    /// Takes note of whether the step that was accepted has come through a singular position.
+    fn note_singular_positions(&mut self) {
+        if self.singular.is_empty() {
+            return;
+        }
+        let (before, at) = (&self.previous.kinematics, &self.state.kinematics);
+        let length = self.representative.length;
+        // Load steps have no velocities; each is looked at.
+        let way = if self.settings.scheme.dynamic && length > 0.0 {
+            self.representative.largest_speed(&self.system, at) / length * (at.time - before.time)
+        } else {
+            f64::INFINITY
+        };
+        if let Some(warning) = self.singular.look(&self.system, at, way) {
+            warn(&mut self.warnings, warning);
         }
     }
 

@@ -3,6 +3,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use lissom_motion::Vector3;
+
+use super::loops;
+use crate::joints::Equations;
 use crate::system::{Linearization, State, System};
 
 /// Entries below this part of a row's largest count as round-off.
@@ -11,8 +15,11 @@ const ROUND_OFF: f64 = 1e-9;
 /// A pivot is at least this part of its row's largest entry.
 const LARGE_ENOUGH: f64 = 0.1;
 
+/// What takes part in a dependence by less than this is round-off.
+const TAKES_PART: f64 = 1e-6;
+
 /// Count of freedoms.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mobility {
     /// Node freedoms and algebraic coordinates.
     pub coordinates: usize,
@@ -27,7 +34,7 @@ pub struct Mobility {
 }
 
 /// An equation that repeats others.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Redundant {
     /// Name of its joint.
     pub joint: String,
@@ -35,6 +42,11 @@ pub struct Redundant {
     pub equation: &'static str,
     /// Joints whose equations it follows from.
     pub among: Vec<String>,
+    /// The direction in inertial axes that its joint repeats, as `translation along y`; none of drives and couplings.
+    pub direction: Option<String>,
+    /// Multipliers, and their values, that are in equilibrium with each other without any load: what may be added to
+    /// those of a solution. The one of this equation is 1.
+    pub self_stress: Vec<(usize, f64)>,
 }
 
 /// A row of B after elimination with the rows before it.
@@ -43,8 +55,23 @@ struct Reduced {
     entries: BTreeMap<usize, f64>,
     /// Its multiplier.
     multiplier: usize,
-    /// Earlier reduced rows that went into it.
-    used: Vec<usize>,
+    /// Earlier reduced rows that were taken off it, and how often.
+    used: Vec<(usize, f64)>,
+}
+
+impl Redundant {
+    /// What is repeated, and by what, in words.
+    pub fn words(&self) -> String {
+        let named = self.among.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+        let others = if named.is_empty() { "its own other equations".to_owned() } else { named };
+        let what = self.direction.clone().unwrap_or_else(|| format!("its equation `{}`", self.equation));
+        format!("joint `{}` repeats {what}, given by {others}", self.joint)
+    }
+}
+
+/// Whether there are closed loops of joints, drives and relations, without which no constraint repeats others.
+pub fn has_loops(system: &System) -> bool {
+    !loops::of(system).is_empty()
 }
 
 /// Freedoms and redundant constraints of `system` at `state`.
@@ -67,13 +94,16 @@ pub fn mobility(system: &System, state: &State) -> Mobility {
             }
             Err(used) => {
                 let (joint, equation) = layout.constraint_name(k);
-                let names = origins(used, &reduced).into_iter().map(|k| layout.constraint_name(k).0);
+                let self_stress = self_stress(k, used, &reduced);
+                let names = self_stress.iter().map(|&(k, _)| layout.constraint_name(k).0);
                 let among: BTreeSet<String> =
                     names.filter(|&name| name != joint).map(str::to_owned).collect();
                 result.redundant.push(Redundant {
                     joint: joint.to_owned(),
                     equation,
                     among: among.into_iter().collect(),
+                    direction: direction(system, state, k, &self_stress),
+                    self_stress,
                 });
             }
         }
@@ -83,15 +113,68 @@ pub fn mobility(system: &System, state: &State) -> Mobility {
     result
 }
 
-/// Multipliers of all rows that went into the given ones.
-fn origins(mut open: Vec<usize>, reduced: &[Reduced]) -> BTreeSet<usize> {
-    let mut seen = BTreeSet::new();
-    while let Some(row) = open.pop() {
-        if seen.insert(row) {
-            open.extend(&reduced[row].used);
+/// Multipliers that are in equilibrium with each other: of the row `repeating`, off which so much of reduced rows was
+/// taken that nothing was left.
+fn self_stress(repeating: usize, used: Vec<(usize, f64)>, reduced: &[Reduced]) -> Vec<(usize, f64)> {
+    let mut open: BTreeMap<usize, f64> = BTreeMap::new();
+    for (row, factor) in used {
+        *open.entry(row).or_default() -= factor;
+    }
+    let mut stress = vec![(repeating, 1.0)];
+    // A reduced row is its own row less reduced ones before it.
+    while let Some((row, share)) = open.pop_last() {
+        stress.push((reduced[row].multiplier, share));
+        for &(earlier, factor) in &reduced[row].used {
+            *open.entry(earlier).or_default() -= share * factor;
         }
     }
-    seen.into_iter().map(|row| reduced[row].multiplier).collect()
+    let largest = stress.iter().fold(0.0_f64, |most, (_, value)| most.max(value.abs()));
+    stress.retain(|&(_, value)| value.abs() > TAKES_PART * largest);
+    stress.sort_unstable_by_key(|&(multiplier, _)| multiplier);
+    stress
+}
+
+/// What the joint of an equation holds besides, in words: the direction of the force and moment that it has in
+/// `stress`.
+fn direction(system: &System, state: &State, equation: usize, stress: &[(usize, f64)]) -> Option<String> {
+    let joint = system.joints().iter().find(|joint| {
+        (joint.first_multiplier..joint.first_multiplier + joint.equations()).contains(&equation)
+    })?;
+    let of = |share: f64| {
+        let mut mu = Equations::default();
+        for &(multiplier, value) in stress {
+            if let Some(own) = multiplier.checked_sub(joint.first_multiplier)
+                && own < joint.equations()
+            {
+                mu[own] = share * value;
+            }
+        }
+        joint.reaction(&state.kinematics, &mu)
+    };
+    let wrench = of(1.0) - of(0.0);
+    let [force, moment] = [0, 3].map(|first| wrench.fixed_rows::<3>(first).into_owned());
+    let largest = force.norm().max(moment.norm());
+    let mut words = Vec::new();
+    for (part, name) in [(force, "translation along"), (moment, "rotation about")] {
+        if part.norm() > TAKES_PART * largest {
+            words.push(format!("{name} {}", axis(&part.normalize())));
+        }
+    }
+    // A coordinate of its own that something else prescribes has neither.
+    (!words.is_empty()).then(|| words.join(" together with "))
+}
+
+/// An axis, by name where it is one of the inertial ones.
+fn axis(direction: &Vector3) -> String {
+    let named = ["x", "y", "z"].into_iter().zip(direction.iter());
+    let found = named.into_iter().find(|(_, part)| part.abs() > 1.0 - TAKES_PART * TAKES_PART);
+    // Of the two senses that in which the first component that is not zero is positive.
+    let first = direction.iter().find(|part| part.abs() > TAKES_PART).copied().unwrap_or(1.0);
+    let round = |value: f64| (1e3 * value * first.signum()).round() / 1e3 + 0.0;
+    found.map_or_else(
+        || format!("({}, {}, {})", round(direction.x), round(direction.y), round(direction.z)),
+        |(name, _)| name.to_owned(),
+    )
 }
 
 /// Eliminates a row with the earlier ones: a new independent row, or the reduced rows it follows from.
@@ -101,7 +184,7 @@ fn eliminate(
     reduced: &[Reduced],
     by_pivot: &BTreeMap<usize, usize>,
     of_nodes: usize,
-) -> Result<Reduced, Vec<usize>> {
+) -> Result<Reduced, Vec<(usize, f64)>> {
     let largest = entries.values().fold(0.0_f64, |most, value| most.max(value.abs()));
     let mut used = Vec::new();
     // Earlier rows in their order: each is free of the pivots before it.
@@ -120,7 +203,7 @@ fn eliminate(
                     waiting.insert(next);
                 }
             }
-            used.push(earlier);
+            used.push((earlier, factor));
         }
         entries.remove(&row.pivot);
     }

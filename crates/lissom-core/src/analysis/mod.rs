@@ -12,6 +12,7 @@ pub mod factorization_study;
 mod guess;
 mod held_values;
 pub mod initial;
+pub(crate) mod loops;
 pub mod mobility;
 pub mod path;
 pub mod phase;

@@ -7,6 +7,7 @@
 
 pub(crate) mod contact;
 mod ledger;
+pub(crate) mod singular;
 pub(crate) mod start;
 mod warning;
 

@@ -112,6 +112,30 @@ pub enum Warning {
         /// Normal force [N].
         normal: f64,
     },
+    /// A motion went through a position where constraints repeat each other.
+    #[error(
+        "at t = {time:.6e} s the mechanism is in a singular position: there the equations of {joints} repeat each other, one \
+         freedom more is free, and there is more than one way to go on, between which round-off decides; start and go on away \
+         from it, change the lengths that make it, or couple the joints that must keep their sense"
+    )]
+    SingularPosition {
+        /// When it was first seen [s].
+        time: f64,
+        /// Joints whose equations repeat each other there, in words.
+        joints: String,
+    },
+    /// Reactions of constraints that repeat each other.
+    #[error(
+        "{columns} not unique: constraints repeat each other there ({repeated}), and what is told are the least forces that \
+         hold the motion; a real mechanism shares them out by its stiffness: replace rigid joints by bushings, or free the \
+         directions that repeat"
+    )]
+    ReactionsNotUnique {
+        /// Names of the columns, in words.
+        columns: String,
+        /// The directions that repeat, in words.
+        repeated: String,
+    },
     /// A warning from the model file.
     #[error("{message}")]
     Model {
@@ -132,6 +156,8 @@ impl Warning {
             Self::ContactTooShort { .. } => "contact-too-short",
             Self::WheelLifts { .. } => "wheel-lifts",
             Self::WheelSlides { .. } => "wheel-slides",
+            Self::SingularPosition { .. } => "singular-position",
+            Self::ReactionsNotUnique { .. } => "reactions-not-unique",
             Self::Model { .. } => "model",
         }
     }

@@ -12,13 +12,14 @@ use serde::{Deserialize, Serialize};
 use super::{Controller, Impacts, MethodMemory, Parts, Watched};
 use crate::analysis::snapshot_parts::{Learned, TangentNumbers};
 use crate::analysis::{Settings, Simulation, Totals};
+use crate::judge::singular::Known;
 use crate::judge::{Ledger, Warning};
 use crate::newton::Memory;
 use crate::scaling::Scaled;
 use crate::system::{CoordinateMotion, Kinematics, NodeMotion, State};
 
 /// Changes whenever what a snapshot holds does.
-const VERSION: u32 = 5;
+const VERSION: u32 = 6;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -39,6 +40,7 @@ pub struct Snapshot {
     velocity_correction: f64,
     ledger: Ledger,
     warnings: Vec<Warning>,
+    singular: Vec<Known>,
     watched: Watched,
     impacts: Impacts,
     learned: Learned,
@@ -168,6 +170,7 @@ impl Simulation {
             velocity_correction: self.velocity_correction,
             ledger: self.ledger,
             warnings: self.warnings.clone(),
+            singular: self.singular.known.clone(),
             watched: self.watch.known.clone(),
             impacts: self.impacts.clone(),
             learned: self.work.learned(),
@@ -205,6 +208,7 @@ impl Simulation {
         self.velocity_correction = from.velocity_correction;
         self.ledger = from.ledger;
         self.warnings.clone_from(&from.warnings);
+        self.singular.known.clone_from(&from.singular);
         self.watch.known.clone_from(&from.watched);
         self.impacts.clone_from(&from.impacts);
         self.work.note_scales(self.system.layout(), &self.scaled);

@@ -9,6 +9,7 @@ mod couplings;
 mod distributed;
 mod measurements;
 mod parts;
+mod redundancy;
 pub mod registry;
 mod signals;
 
@@ -46,6 +47,8 @@ pub struct Lowered {
     pub plan: Plan,
     /// What is recorded.
     pub channels: Vec<Channel>,
+    /// Names of the columns that are not unique because constraints repeat each other at the start.
+    pub not_unique: Vec<String>,
     /// Where the parts of the model are among the nodes and coordinates, and its signals.
     pub names: Names,
     /// What is worth knowing of the model before it runs.
@@ -156,11 +159,14 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
         }
     }
     parts::velocities(document, &names, &system, &mut state.kinematics);
-    let warnings = beginning::drives(document, &system, &state, &mut problems);
+    let mut warnings = beginning::drives(document, &system, &state, &mut problems);
     couplings::check(document, &system, &state, &mut problems);
     let channels = output_channels::of(document, &system, (&drawn, &state), &names.resolver(), &mut problems);
     stop_at(document, &mut problems)?;
-    Ok(Lowered { system: Arc::new(system), state, settings, plan, channels, names, warnings, assembly })
+    let (not_unique, doubt) = redundancy::not_unique(&system, &state, &channels);
+    warnings.extend(doubt);
+    let system = Arc::new(system);
+    Ok(Lowered { system, state, settings, plan, channels, not_unique, names, warnings, assembly })
 }
 
 impl Names {

@@ -73,7 +73,7 @@ impl Check {
             Err(report) => return Ok(wrong(&report)),
         };
         let freedom = mobility(&lowered.system, &lowered.state);
-        let redundant = |redundant: &Redundant| json!({ "joint": redundant.joint, "equation": redundant.equation, "among": redundant.among });
+        let redundant = |redundant: &Redundant| json!({ "joint": redundant.joint, "equation": redundant.equation, "among": redundant.among, "direction": redundant.direction });
         let layout = lowered.system.layout();
         let mut facts = json!({
             "name": model.name(),
@@ -213,8 +213,9 @@ fn outputs(lowered: &Lowered) -> String {
 }
 
 fn warning(redundant: &Redundant) -> String {
-    let Redundant { joint, equation, among } = redundant;
+    let Redundant { joint, equation, among, direction, .. } = redundant;
     let others: Vec<String> = among.iter().map(|name| format!("`{name}`")).collect();
     let others = if others.is_empty() { "its own other equations".to_owned() } else { others.join(", ") };
-    format!("warning: redundant constraint: {equation} of joint `{joint}` follows from {others}\n")
+    let words = direction.as_ref().map_or(String::new(), |words| format!(": it repeats {words}"));
+    format!("warning: redundant constraint: {equation} of joint `{joint}` follows from {others}{words}\n")
 }

@@ -1,0 +1,209 @@
+//! Singular positions: where the constraints of a closed loop repeat each other though elsewhere they do not, as in a
+//! parallelogram whose bars lie in one line. There a mechanism has one freedom more, and more than one way to go on.
+//!
+//! Seen are the pivots of the loop's B Bᵀ = L D Lᵀ, taken without exchange, each over its largest value so far. Near a
+//! singular position one of them is a square of the way to it. It is followed from step to step there, and a parabola
+//! through three of its values tells whether it vanishes between steps.
+
+use nalgebra::DMatrix;
+use serde::{Deserialize, Serialize};
+
+use super::Warning;
+use crate::analysis::loops::{self, Loop};
+use crate::system::{Kinematics, System};
+
+/// Pivots below this part of their equation's square are round-off: the equation repeats others.
+const REPEATS: f64 = 1e-9;
+/// A pivot that was below is independent above this part.
+const INDEPENDENT: f64 = 1e-7;
+/// A pivot below this part of its largest value is looked at after every step: the sine of 13 degrees, squared.
+const NEAR: f64 = 0.05;
+/// A pivot of this part of its largest value is singular: a thousandth of a radian beside it.
+const SINGULAR: f64 = 1e-6;
+/// What a parabola through values between which parts turn by a quarter of a radian leaves at its zero.
+const MISSED: f64 = 2e-3;
+/// A minimum is told from zero where it is this part of the smallest value found.
+const VANISHES: f64 = 0.1;
+/// Motion between two looks, where none of the pivots is small [rad].
+const BETWEEN_LOOKS: f64 = 0.25;
+/// Loops of more equations are not watched: looking at them would take longer than a step.
+const MOST_EQUATIONS: usize = 100;
+/// An equation that takes part in a dependence by less than this is not named.
+const TAKES_PART: f64 = 1e-3;
+
+/// What is known of singular positions.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct SingularPositions {
+    loops: Vec<Loop>,
+    pub(crate) known: Vec<Known>,
+    length: f64,
+}
+
+/// What is known of a loop.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Known {
+    /// When the largest pivots were begun with [s].
+    since: f64,
+    /// Largest pivot of every equation so far, over its square; zero of those that repeat others.
+    references: Vec<f64>,
+    /// Time, equation and size of the smallest pivot at the last looks, the latest last.
+    looks: Vec<(f64, usize, f64)>,
+    /// Motion since the last look [rad].
+    moved: f64,
+}
+
+/// Pivots of B Bᵀ over its diagonal, with the factor L.
+struct Pivots {
+    pivots: Vec<f64>,
+    factor: DMatrix<f64>,
+}
+
+impl SingularPositions {
+    /// Begins to watch the loops of `system`; angles count as arcs at `length`.
+    pub(crate) fn new(system: &System, at: &Kinematics, length: f64) -> Self {
+        let length = if length > 0.0 { length } else { 1.0 };
+        let mut loops = loops::of(system);
+        loops.retain(|found| found.multipliers.len() <= MOST_EQUATIONS);
+        let known = |found: &Loop| {
+            let references = pivots(&found.gradient(system, at, length)).pivots;
+            let references = references.into_iter().map(independent).collect();
+            Known { since: at.time, references, looks: Vec::new(), moved: 0.0 }
+        };
+        let known = loops.iter().map(known).collect();
+        Self { loops, known, length }
+    }
+
+    /// Whether there is anything to look at.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.loops.is_empty()
+    }
+
+    /// Looks at where a step has led; `way` is how far the fastest node went, over the representative length. Gives the
+    /// first singular position since the last look.
+    pub(crate) fn look(&mut self, system: &System, at: &Kinematics, way: f64) -> Option<Warning> {
+        let mut told = None;
+        for (found, known) in self.loops.iter().zip(&mut self.known) {
+            known.moved += way;
+            let is_near = known.looks.last().is_some_and(|&(_, _, size)| size < NEAR);
+            if known.moved < BETWEEN_LOOKS && !is_near {
+                continue;
+            }
+            known.moved = 0.0;
+            let pivots = pivots(&found.gradient(system, at, self.length));
+            if let Some((time, equation)) = known.compare(at.time, &pivots.pivots) {
+                let joints = names(system, found, &pivots, equation);
+                told = told.or(Some(Warning::SingularPosition { time, joints }));
+            }
+        }
+        told
+    }
+}
+
+impl Known {
+    /// Time and equation of a singular position, if the motion has come through one.
+    fn compare(&mut self, time: f64, pivots: &[f64]) -> Option<(f64, usize)> {
+        let repeating = |values: &[f64]| values.iter().filter(|value| **value == 0.0).count();
+        let now: Vec<f64> = pivots.iter().copied().map(independent).collect();
+        let (before, after) = (repeating(&self.references), repeating(&now));
+        let woken = (0..now.len()).find(|&k| self.references[k] == 0.0 && pivots[k] > INDEPENDENT);
+        if let Some(equation) = woken {
+            // Others may repeat in its place; where none does, the last place known was the singular one.
+            let was_singular = after < before;
+            self.references = now;
+            self.looks.clear();
+            let since = std::mem::replace(&mut self.since, time);
+            return was_singular.then_some((since, equation));
+        }
+        let mut least = (f64::INFINITY, 0);
+        for (k, reference) in self.references.iter_mut().enumerate().filter(|(_, known)| **known > 0.0) {
+            *reference = reference.max(pivots[k]);
+            let size = pivots[k].max(0.0) / *reference;
+            if size < least.0 {
+                least = (size, k);
+            }
+        }
+        let (size, equation) = least;
+        self.looks.push((time, equation, size));
+        if self.looks.len() > 3 {
+            self.looks.remove(0);
+        }
+        if size < SINGULAR {
+            return Some((time, equation));
+        }
+        self.vanished().map(|time| (time, equation))
+    }
+
+    /// When the pivot vanished between the last three looks.
+    fn vanished(&self) -> Option<f64> {
+        let &[a, b, c] = self.looks.as_slice() else { return None };
+        let same = a.1 == b.1 && b.1 == c.1;
+        let smallest = a.2.min(b.2).min(c.2);
+        if !same || smallest > NEAR || b.0 <= a.0 || c.0 <= b.0 {
+            return None;
+        }
+        let slopes = [(b.2 - a.2) / (b.0 - a.0), (c.2 - b.2) / (c.0 - b.0)];
+        let bend = (slopes[1] - slopes[0]) / (c.0 - a.0);
+        if bend <= 0.0 {
+            return None;
+        }
+        let time = 0.5 * (a.0 + b.0) - 0.5 * slopes[0] / bend;
+        let least = a.2 + (slopes[0] + bend * (time - b.0)) * (time - a.0);
+        let vanishes = least < (VANISHES * smallest).min(MISSED);
+        (vanishes && time > a.0 && time < c.0).then_some(time)
+    }
+}
+
+fn independent(pivot: f64) -> f64 {
+    if pivot > REPEATS { pivot } else { 0.0 }
+}
+
+/// L D Lᵀ of B Bᵀ, rows of B brought to length 1; equations that repeat earlier ones are left out.
+fn pivots(gradient: &DMatrix<f64>) -> Pivots {
+    let count = gradient.nrows();
+    let mut rows = gradient.clone();
+    for mut row in rows.row_iter_mut() {
+        let size = row.norm();
+        if size > 0.0 {
+            row /= size;
+        }
+    }
+    let mut square = &rows * rows.transpose();
+    let mut pivots = vec![0.0; count];
+    for k in 0..count {
+        let pivot = square[(k, k)];
+        pivots[k] = pivot;
+        if pivot <= REPEATS {
+            (k + 1..count).for_each(|i| square[(i, k)] = 0.0);
+            continue;
+        }
+        for i in k + 1..count {
+            let factor = square[(i, k)] / pivot;
+            for j in k + 1..=i {
+                let upper = square[(j, k)];
+                square[(i, j)] -= factor * upper;
+            }
+        }
+        (k + 1..count).for_each(|i| square[(i, k)] /= pivot);
+    }
+    Pivots { pivots, factor: square }
+}
+
+/// Joints whose equations give the one that vanishes: its row of L, through those before it.
+fn names(system: &System, found: &Loop, pivots: &Pivots, equation: usize) -> String {
+    let mut shares: Vec<f64> = (0..equation).map(|k| pivots.factor[(equation, k)]).collect();
+    for k in (0..equation).rev() {
+        for j in k + 1..equation {
+            shares[k] -= pivots.factor[(j, k)] * shares[j];
+        }
+    }
+    let mut names: Vec<String> = Vec::new();
+    let takes_part = |k: &usize| shares[*k].abs() > TAKES_PART && pivots.pivots[*k] > REPEATS;
+    for k in (0..equation).filter(takes_part).chain([equation]) {
+        let (joint, _) = system.layout().constraint_name(found.multipliers[k]);
+        let name = format!("`{joint}`");
+        if !names.contains(&name) {
+            names.push(name);
+        }
+    }
+    names.join(", ")
+}
