@@ -16,7 +16,7 @@ use pyo3::prelude::*;
 use crate::errors::{ModelError, SolutionError, of_report};
 use crate::model::NativeModel;
 use crate::results::{Parts, json, parts};
-use crate::watch::Watch;
+use crate::watch::{Watch, interruptible};
 
 /// Names and texts of files, the summary as JSON, and what is to be doubted.
 pub(crate) type Files = (Vec<(String, String)>, String, Vec<String>);
@@ -96,8 +96,9 @@ pub(crate) fn modes(
     shift: Option<f64>,
 ) -> PyResult<Files> {
     let request = mode_request(count, state, shift)?;
-    py.detach(|| {
-        let found = found_modes(model, &request)?;
+    let model = model.clone();
+    interruptible(py, move || {
+        let found = found_modes(&model, &request)?;
         let summary = found.summary(model.model.name(), &model.overrides, &model.document()?);
         let tables = vec![("modes.csv", found.csv()), ("shapes.csv", found.shapes_csv())];
         Ok(files(tables, &summary, &found.warnings))
@@ -107,7 +108,8 @@ pub(crate) fn modes(
 /// What `lissom buckling` leaves.
 #[pyfunction]
 pub(crate) fn buckling(model: &NativeModel, py: Python<'_>, count: Option<usize>) -> PyResult<Files> {
-    py.detach(|| {
+    let model = model.clone();
+    interruptible(py, move || {
         let found =
             lissom::buckling::buckling(&model.model, &model.overrides, count).map_err(
                 |error| match error {
@@ -125,7 +127,9 @@ pub(crate) fn buckling(model: &NativeModel, py: Python<'_>, count: Option<usize>
 #[pyfunction]
 pub(crate) fn gradient(model: &NativeModel, py: Python<'_>, of: &str, by: Vec<String>) -> PyResult<Files> {
     let target: Target = of.parse().map_err(|words: String| ModelError::new_err(words))?;
-    py.detach(|| {
+    let of = of.to_owned();
+    let model = model.clone();
+    interruptible(py, move || {
         let found =
             lissom::gradient::gradient(&model.model, &model.overrides, &target, &by).map_err(|error| {
                 match error {
@@ -133,7 +137,7 @@ pub(crate) fn gradient(model: &NativeModel, py: Python<'_>, of: &str, by: Vec<St
                     other => refused(other.is_of_question(), &other),
                 }
             })?;
-        let summary = found.summary(model.model.name(), &model.overrides, &model.document()?, of);
+        let summary = found.summary(model.model.name(), &model.overrides, &model.document()?, &of);
         Ok(files(vec![("gradient.csv", found.csv())], &summary, &[]))
     })
 }
@@ -150,7 +154,8 @@ pub(crate) fn campbell(
 ) -> PyResult<Files> {
     let (from, to, values) = range;
     let request = CampbellRequest { path, from, to, values, count, rays };
-    py.detach(|| {
+    let model = model.clone();
+    interruptible(py, move || {
         let found = lissom::campbell::campbell(&model.model, &model.overrides, &request).map_err(
             |error| match error {
                 CampbellError::Model(report) => of_report(&report),
@@ -178,7 +183,8 @@ pub(crate) fn response(
 ) -> PyResult<Files> {
     let (from, to, points) = range;
     let request = ResponseRequest { about: about(state)?, inputs, outputs, from, to, points };
-    py.detach(|| {
+    let model = model.clone();
+    interruptible(py, move || {
         let found = lissom::response::response(&model.model, &model.overrides, &request)
             .map_err(|error| of_frequency(&error))?;
         let summary = found.summary(model.model.name(), &model.overrides, &model.document()?);
@@ -196,7 +202,8 @@ pub(crate) fn linearize(
     state: &str,
 ) -> PyResult<Files> {
     let request = LinearizeRequest { about: about(state)?, inputs, outputs };
-    py.detach(|| {
+    let model = model.clone();
+    interruptible(py, move || {
         let found = lissom::linearize::linearize(&model.model, &model.overrides, &request)
             .map_err(|error| of_frequency(&error))?;
         Ok(of_linear(&found, model.model.name(), &model.overrides, &model.document()?))
@@ -206,12 +213,16 @@ pub(crate) fn linearize(
 /// Follows the path of a model with an analysis of kind `path`: the results, and why it ended early, if it did.
 #[pyfunction]
 pub(crate) fn path<'py>(model: &NativeModel, py: Python<'py>) -> PyResult<(Parts<'py>, Option<String>)> {
-    let (record, summary, failure) = py.detach(|| {
-        let document = model.document()?;
-        let mut session = PathSession::new(&document).map_err(|error| match error {
+    let own = model.clone();
+    let (mut session, document) = interruptible(py, move || {
+        let document = own.document()?;
+        let session = PathSession::new(&document).map_err(|error| match error {
             PathSessionError::Model(report) => of_report(&report),
             other => refused(matches!(other, PathSessionError::NotAPath(_)), &other),
         })?;
+        Ok((session, document))
+    })?;
+    let (record, summary, failure) = py.detach(|| {
         let mut record = Record::default();
         let mut watch = Watch::new(None);
         let report = session.run(&mut [&mut record], &mut || watch.ask(0.0, 0.0));

@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 
 use crate::errors::{self, SolutionError, of_report};
 use crate::model::NativeModel;
-use crate::watch::Watch;
+use crate::watch::{Watch, interruptible};
 
 /// Bytes of a motion, shared with the recorder that a session owns.
 #[derive(Clone, Default)]
@@ -81,9 +81,10 @@ pub(crate) fn modes_animation(
     shift: Option<f64>,
 ) -> PyResult<String> {
     let request = crate::analyses::mode_request(count, state.as_deref(), shift)?;
-    py.detach(|| {
+    let model = model.clone();
+    interruptible(py, move || {
         let document = model.document()?;
-        let found = crate::analyses::found_modes(model, &request)?;
+        let found = crate::analyses::found_modes(&model, &request)?;
         let lowered = lower(&document).map_err(|report| of_report(&report))?;
         let scene = Scene::of(&document, &lowered);
         let bytes = Bytes::default();

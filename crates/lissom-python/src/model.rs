@@ -5,7 +5,7 @@ use std::num::NonZero;
 use std::path::PathBuf;
 
 use lissom::core::analysis::mobility::{Redundant, mobility};
-use lissom::{Document, Model, Override, Record, Session, SessionError, Stopped, summary};
+use lissom::{Document, Model, Override, Record, Session, SessionError, Stopped, Summary, summary};
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;
 use pyo3::exceptions::PyValueError;
@@ -15,9 +15,10 @@ use pyo3::types::PyDict;
 use crate::errors::{self, of_report, of_session};
 use crate::results::{Parts, json, parts};
 use crate::simulation::Simulation;
-use crate::watch::Watch;
+use crate::watch::{Watch, interruptible};
 
 /// A checked model.
+#[derive(Clone)]
 #[pyclass(frozen, module = "lissom._lissom")]
 pub(crate) struct NativeModel {
     pub(crate) model: Model,
@@ -144,53 +145,63 @@ impl NativeModel {
         progress: Option<Py<PyAny>>,
         threads: Option<NonZero<usize>>,
     ) -> PyResult<(Parts<'py>, Option<String>)> {
-        let outcome = py.detach(|| self.solve(progress.as_ref(), threads));
-        let (record, summary, failure) = outcome?;
-        Ok((parts(py, record, summary), failure))
+        // Assembly and the start may take long, too.
+        let model = self.clone();
+        let (session, mut summary) = interruptible(py, move || model.start(threads))?;
+        let mut session = match session {
+            Ok(session) => session,
+            Err(failure) => return Ok((parts(py, Record::default(), json(&summary)), Some(failure))),
+        };
+        let (record, failure) = py.detach(|| solve(&mut session, &mut summary, progress.as_ref()))?;
+        Ok((parts(py, record, json(&summary)), failure))
     }
 
     /// A session at the start of the model.
     fn simulation(slf: Bound<'_, Self>) -> PyResult<Simulation> {
-        let model = slf.get();
-        let (session, document) = slf.py().detach(|| {
+        let model = slf.get().clone();
+        let (session, document) = interruptible(slf.py(), move || {
             let document = model.document()?;
             let session = Session::new(&document).map_err(|error| of_session(&error))?;
-            Ok::<_, PyErr>((session, document))
+            Ok((session, document))
         })?;
         Ok(Simulation::new(session, document, slf.unbind()))
     }
 }
 
 impl NativeModel {
-    fn solve(
-        &self,
-        progress: Option<&Py<PyAny>>,
-        threads: Option<NonZero<usize>>,
-    ) -> PyResult<(Record, String, Option<String>)> {
+    /// A session at its start, or why there is none; and the facts that are known of it.
+    fn start(&self, threads: Option<NonZero<usize>>) -> PyResult<(Result<Session, String>, Summary)> {
         let document = self.document()?;
         let mut lowered = lower(&document).map_err(|report| of_report(&report))?;
         Self::in_time(&document)?;
         lowered.settings.threads = threads_or_all(threads).get();
         let mut summary = summary::of_model(self.model.name(), &self.overrides, &document, &lowered);
-        let mut session = match Session::start(lowered) {
-            Ok(session) => session,
+        match Session::start(lowered) {
+            Ok(session) => Ok((Ok(session), summary)),
             Err(error) => {
                 summary::of_failed_start(&mut summary, &error);
-                return Ok((Record::default(), json(&summary), Some(error.to_string())));
+                Ok((Err(error.to_string()), summary))
             }
-        };
-        let mut record = Record::default();
-        let mut watch = Watch::new(progress);
-        let report = session.run(&mut [&mut record], &mut |progress| {
-            watch.ask(progress.done as f64, progress.planned as f64)
-        });
-        watch.finish()?;
-        summary::of_run(&mut summary, &session, &report);
-        let failure = match &report.stopped {
-            Stopped::End => None,
-            Stopped::Interrupted => Some("interrupted".to_owned()),
-            Stopped::Failed(error) => Some(error.to_string()),
-        };
-        Ok((record, json(&summary), failure))
+        }
     }
+}
+
+/// Runs a session to its end, and says why it failed, if it did.
+fn solve(
+    session: &mut Session,
+    summary: &mut Summary,
+    progress: Option<&Py<PyAny>>,
+) -> PyResult<(Record, Option<String>)> {
+    let mut record = Record::default();
+    let mut watch = Watch::new(progress);
+    let report = session
+        .run(&mut [&mut record], &mut |progress| watch.ask(progress.done as f64, progress.planned as f64));
+    watch.finish()?;
+    summary::of_run(summary, session, &report);
+    let failure = match &report.stopped {
+        Stopped::End => None,
+        Stopped::Interrupted => Some("interrupted".to_owned()),
+        Stopped::Failed(error) => Some(error.to_string()),
+    };
+    Ok((record, failure))
 }

@@ -1,12 +1,46 @@
 //! Looks after Python while the interpreter lock is released: Ctrl-C, and a function that is told how far things are.
 
 use std::ops::ControlFlow;
+use std::panic::resume_unwind;
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
 use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
 
 /// How often Python is asked.
 const EVERY: Duration = Duration::from_millis(50);
+
+/// Stack of a thread that works for Python, as large as that of a main thread.
+const STACK: usize = 8 << 20;
+
+/// Does work that asks nothing on its way, with the interpreter lock released. It is done in another thread, so that this one can
+/// look for Ctrl-C, which raises at once; the work then comes to its end unseen, and what it finds is dropped.
+pub(crate) fn interruptible<T: Send + 'static>(
+    py: Python<'_>,
+    work: impl FnOnce() -> PyResult<T> + Send + 'static,
+) -> PyResult<T> {
+    py.detach(|| {
+        let (sender, receiver) = mpsc::channel();
+        // Where nobody waits any more, there is nobody to tell.
+        let begun = thread::Builder::new().name("lissom".to_owned()).stack_size(STACK).spawn(move || {
+            let _ = sender.send(work());
+        });
+        let worker = begun?;
+        loop {
+            match receiver.recv_timeout(EVERY) {
+                Ok(outcome) => return outcome,
+                Err(RecvTimeoutError::Timeout) => Python::attach(|py| py.check_signals())?,
+                Err(RecvTimeoutError::Disconnected) => break,
+            }
+        }
+        // The sender is gone without a word: the work met a defect of the program.
+        match worker.join() {
+            Err(defect) => resume_unwind(defect),
+            Ok(()) => Err(crate::errors::SolutionError::new_err("the work ended without a result")),
+        }
+    })
+}
 
 /// What is asked now and then.
 pub(crate) struct Watch<'a> {
