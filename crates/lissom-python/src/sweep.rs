@@ -21,12 +21,15 @@ pub(crate) struct NativeSweep {
     sweep: Sweep,
 }
 
-/// An outcome as Python takes it: member, state, collected values, time, steps, largest violation, diagnosis.
-type Outcome = (usize, &'static str, Vec<f64>, Option<f64>, usize, Option<f64>, Option<String>);
+/// An outcome as Python takes it: member, state, collected values, time, steps, largest violation, diagnosis, histories as a
+/// Parquet file.
+type Outcome =
+    (usize, &'static str, Vec<f64>, Option<f64>, usize, Option<f64>, Option<String>, Option<Vec<u8>>);
 
-fn outcome(of: MemberOutcome) -> Outcome {
+fn outcome(of: MemberOutcome) -> PyResult<Outcome> {
     let state = of.state.name();
-    (of.member, state, of.values, of.time, of.steps, of.max_constraint_violation, of.diagnosis)
+    let history = of.history.map(|history| history.parquet(of.member)).transpose()?;
+    Ok((of.member, state, of.values, of.time, of.steps, of.max_constraint_violation, of.diagnosis, history))
 }
 
 #[pymethods]
@@ -96,7 +99,7 @@ impl NativeSweep {
             ended.and_then(|_| watch.finish())
         })?;
         outcomes.sort_by_key(|outcome| outcome.member);
-        Ok(outcomes.into_iter().map(outcome).collect())
+        outcomes.into_iter().map(outcome).collect()
     }
 
     /// Solves what a folder does not hold yet, and leaves there what `lissom sweep` leaves. All outcomes.
@@ -120,7 +123,8 @@ impl NativeSweep {
             let (found, count) = (outcomes.len(), self.sweep.len() as f64);
             let mut keep = |outcome: MemberOutcome| {
                 folder.append(&outcome).map_err(|error| of_file(&error))?;
-                outcomes.push(outcome);
+                // Histories are in their files now.
+                outcomes.push(MemberOutcome { history: None, ..outcome });
                 Ok::<(), PyErr>(())
             };
             let mut watch = Watch::new(progress.as_ref());
@@ -138,7 +142,7 @@ impl NativeSweep {
             }
             Ok::<_, PyErr>(outcomes)
         })?;
-        Ok(outcomes.into_iter().map(outcome).collect())
+        outcomes.into_iter().map(outcome).collect()
     }
 }
 

@@ -84,3 +84,17 @@ def test_members_that_fail_have_their_diagnosis(client: Any) -> None:
     with pytest.warns(lissom.SolutionWarning, match="1 of 3"):
         table = lissom.sweep(model, {"point_masses.bob.mass": [1, -1, 2]}, collect=COLLECT, client=client)
     assert list(table["state"]) == ["solved", "wrong_model", "solved"] and "greater than zero" in table["diagnosis"][1]
+
+
+def test_histories_come_from_the_workers(client: Any, tmp_path: Path) -> None:
+    import pandas
+
+    model = lissom.load(PENDULUM, **{"analysis.end": 0.1})
+    here, there = tmp_path / "here", tmp_path / "there"
+    for out, more in ((here, {"workers": 1}), (there, {"client": client, "batch": 2})):
+        lissom.sweep(model, {"point_masses.bob.mass": [1, 2, 3, 4, 5]}, collect=COLLECT, histories=["bob.x"], out=out, **more)
+    files = sorted((here / "histories").iterdir())
+    assert [file.name for file in files] == [f"member-{member:08}.parquet" for member in range(5)]
+    assert all(file.read_bytes() == (there / "_histories" / file.name).read_bytes() for file in files)
+    assert list(pandas.read_parquet(there)["member"]) == list(range(5)), "the parts are the table alone"
+    assert sorted(pandas.read_parquet(there / "_histories")["member"].unique()) == list(range(5))

@@ -39,6 +39,22 @@ def test_results_are_those_of_the_command_line(name: str, program: Program, tmp_
         assert there.summary == json.load(file)
 
 
+def test_a_run_is_exported_as_parquet(program: Program, tmp_path: Path) -> None:
+    import pandas
+    import pyarrow.parquet
+
+    assert program("run", PENDULUM, "--out", tmp_path, "--quiet").returncode == 0
+    ended = program("export", tmp_path, "--format", "parquet")
+    assert ended.returncode == 0, ended.stderr
+    there = lissom.read(tmp_path)
+    frame = pandas.read_parquet(tmp_path / "history.parquet")
+    assert list(frame.columns) == ["time", *there.names]
+    assert frame["time"].to_numpy().tobytes() == there.time.tobytes()
+    assert all(frame[name].to_numpy().tobytes() == there[name].tobytes() for name in there.names)
+    units = json.loads(pyarrow.parquet.read_metadata(tmp_path / "history.parquet").metadata[b"units"])
+    assert units == {"time": "s", **there.units}
+
+
 def test_columns_are_arrays() -> None:
     result = lissom.load(PENDULUM).run()
     assert result["bob.x"].dtype == np.float64 and result["bob.x"].shape == result.time.shape == (101,)

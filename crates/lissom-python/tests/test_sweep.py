@@ -74,6 +74,89 @@ def test_the_table_is_that_of_the_command_line(program: Program, tmp_path: Path)
         lissom.sweep(model, VARY, collect=COLLECT, sampling="sobol", members=20, seed=4, out=tmp_path / "here")
 
 
+THROWN = """
+lissom = 1
+[point_masses.stone]
+mass = 1
+velocity = [2, 0, 0]
+[outputs.stone]
+kind = "position"
+of = "stone"
+[events.far]
+zero_of = "stone.x - 0.5"
+stop = true
+[analysis]
+kind = "dynamics"
+end = 1
+step = 0.1
+"""
+
+
+def test_tables_and_histories_are_parquet(tmp_path: Path) -> None:
+    import pandas
+    import pyarrow.parquet
+
+    model = lissom.loads(THROWN)
+    speeds = [0.9, 2.0, 0.25, 4.0]
+    with pytest.warns(lissom.SolutionWarning, match="event `far` has not happened"):
+        table = lissom.sweep(
+            model,
+            {"point_masses.stone.velocity": [[speed, 0, 0] for speed in speeds], "analysis.scheme": ["hht", "radau-iia"]},
+            collect={"arrival": "time_of_event(far)", "x": "final(stone.x)"},
+            histories=["stone.x", "stone.y"],
+            out=tmp_path,
+        )
+    assert list(table.failed) == [4, 5]
+    assert np.allclose(table["arrival"][[0, 2, 6]], [0.5 / 0.9, 0.25, 0.125], rtol=0, atol=1e-12)
+    # One table, the same as the one that is text.
+    frame = pandas.read_parquet(tmp_path / "sweep.parquet")
+    text = pandas.read_csv(tmp_path / "sweep.csv", keep_default_na=False, na_values=[""])
+    assert list(frame.columns) == list(text.columns) == table.names and len(frame) == 8
+    for name in table.names:
+        wanted = table[name]
+        if wanted.dtype == object:
+            assert list(frame[name]) == list(wanted), name
+        else:
+            assert frame[name].to_numpy().tobytes() == wanted.tobytes(), name
+            assert np.array_equal(text[name].to_numpy(), wanted, equal_nan=True), name
+    assert pyarrow.parquet.read_metadata(tmp_path / "sweep.parquet").num_rows == 8
+    # Whole histories, of members that failed too, which are those of runs.
+    all_of_them = pandas.read_parquet(tmp_path / "histories")
+    assert sorted(set(all_of_them["member"])) == list(range(8))
+    for member in (0, 3, 5):
+        own = all_of_them[all_of_them["member"] == member].sort_values("time")
+        changes = {"point_masses.stone.velocity": [speeds[member // 2], 0, 0], "analysis.scheme": ["hht", "radau-iia"][member % 2]}
+        run = model.replace(changes).run()
+        assert own["time"].to_numpy().tobytes() == run.time.tobytes()
+        assert own["stone.x"].to_numpy().tobytes() == run["stone.x"].tobytes()
+    with pytest.raises(ValueError, match="`out`"):
+        lissom.sweep(model, {"analysis.end": [1]}, collect=["max(stone.x)"], histories=["stone.x"])
+    with pytest.raises(lissom.ModelError, match="its events are far"):
+        lissom.sweep(model, {"analysis.end": [1]}, collect=["time_of_event(near)"])
+
+
+def test_plots_show_every_member() -> None:
+    import matplotlib
+
+    matplotlib.use("Agg")
+    model = lissom.load(PENDULUM, **{"analysis.end": 0.1})
+    vary = {"point_masses.bob.mass": [1, 2, 3], "analysis.solver": ["sparse", "dense"]}
+    table = lissom.sweep(model, vary, collect=COLLECT)
+    axes = table.plot().axes
+    assert len(axes) == 4
+    (line,) = axes[0].lines
+    assert np.array_equal(line.get_xdata(), table["point_masses.bob.mass"])
+    assert np.array_equal(line.get_ydata(), table["swing"])
+    assert [tick.get_text() for tick in axes[3].get_xticklabels()] == ["sparse", "dense"]
+    (ax,) = table.plot_parallel().axes
+    lines = [line for line in ax.lines if len(line.get_xdata()) == 4]
+    assert len(lines) == 6 and [tick.get_text() for tick in ax.get_xticklabels()] == [*vary, *COLLECT]
+    with pytest.warns(lissom.SolutionWarning):
+        failed = lissom.sweep(model, {"point_masses.bob.mass": [1]}, collect=COLLECT, set={"analysis.max_iterations": 1})
+    with pytest.raises(ValueError, match="no member is solved"):
+        failed.plot()
+
+
 def test_members_that_fail_are_warned_of() -> None:
     model = lissom.load(PENDULUM)
     with pytest.warns(lissom.SolutionWarning, match="2 of 3 members are not solved; member 0: .*greater than zero"):

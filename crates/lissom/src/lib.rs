@@ -128,6 +128,7 @@ pub mod linearize;
 mod model;
 pub mod modes;
 pub mod motion;
+mod parquet;
 pub mod path;
 pub mod picture;
 mod ports;

@@ -12,6 +12,7 @@ mod record;
 mod render;
 mod spectrum;
 mod summary;
+mod sweep_plot;
 
 use std::io;
 
@@ -26,6 +27,7 @@ pub use plot::{Figure, FigureError, figures};
 pub use record::{Record, RecordError};
 pub use spectrum::Spectrum;
 pub use summary::Summary;
+pub use sweep_plot::{SweepAxis, SweepPicture, SweepPlot};
 
 /// What a column of results holds.
 #[derive(Clone, Debug, PartialEq, Eq)]

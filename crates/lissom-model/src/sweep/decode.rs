@@ -56,6 +56,7 @@ fn keys() -> Vec<Key> {
         optional("set", Shape::Table, "", "paths of the model and the value each has in all members"),
         required("vary", Shape::Table, "", "paths of the model and the values each takes"),
         required("collect", Shape::Table, "", "names and what each collects, as max(tip.u2)"),
+        optional("histories", Shape::Words, "", "columns whose whole histories are kept, as [\"tip.u2\"]"),
     ]
 }
 
@@ -68,6 +69,7 @@ fn decode(context: &Context<'_>, root: &Node) -> Option<SweepFile> {
     let set = set(context, &reader);
     let vary = vary(context, &reader, sampling)?;
     let collect = collect(context, &reader)?;
+    let histories = histories(context, &reader);
     check_columns(context, &vary, &collect, &set);
     if context.has_errors() {
         return None;
@@ -81,6 +83,7 @@ fn decode(context: &Context<'_>, root: &Node) -> Option<SweepFile> {
         seed,
         vary: vary.into_iter().map(|(varied, _)| varied).collect(),
         collect: collect.into_iter().map(|(collected, _)| collected).collect(),
+        histories,
         members,
         samples,
     })
@@ -304,6 +307,33 @@ fn collect(context: &Context<'_>, reader: &Reader<'_, '_>) -> Option<Vec<(Collec
     };
     let all: Vec<Option<_>> = entries.into_iter().map(of).collect();
     all.into_iter().collect()
+}
+
+/// Columns of which everything is kept, each once.
+fn histories(context: &Context<'_>, reader: &Reader<'_, '_>) -> Vec<String> {
+    let Some(node) = reader.node("histories") else { return Vec::new() };
+    let Value::List(entries) = &node.value else {
+        context.wrong_type::<()>(node, "`histories`", "a list of columns, as [\"tip.u2\"]");
+        return Vec::new();
+    };
+    let mut all: Vec<String> = Vec::new();
+    for entry in entries {
+        match &entry.value {
+            Value::Text(name) if all.contains(name) || name == "time" || name == "member" => {
+                let message = format!("the histories would have two columns `{name}`");
+                context.fail::<()>(
+                    entry.span,
+                    message,
+                    "name each column of the model once; member and time are always there",
+                );
+            }
+            Value::Text(name) => all.push(name.clone()),
+            _ => {
+                context.wrong_type::<()>(entry, "an entry of `histories`", "a text, as \"tip.u2\"");
+            }
+        }
+    }
+    all
 }
 
 /// Every column of the table needs a name of its own, and a path has either one value or several.

@@ -49,7 +49,7 @@ pub struct Collected {
     pub name: String,
     /// What is taken of the history.
     pub statistic: &'static str,
-    /// Name of the history's column, as `midspan.u2`.
+    /// Name of the history's column, as `midspan.u2`, or of an event.
     pub column: String,
 }
 
@@ -60,6 +60,11 @@ impl Collected {
     /// Never for what was read from a file: the name was looked up there.
     pub fn kind(&self) -> &'static Statistic {
         statistic::find(self.statistic).expect("the name was looked up when it was read")
+    }
+
+    /// Whether [`column`](Self::column) names an event.
+    pub fn is_of_event(&self) -> bool {
+        self.statistic == statistic::OF_EVENTS
     }
 }
 
@@ -79,6 +84,9 @@ pub struct SweepFile {
     pub vary: Vec<Varied>,
     /// What is collected.
     pub collect: Vec<Collected>,
+    /// Columns whose whole histories are kept.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub histories: Vec<String>,
     members: usize,
     /// Of each member, for each varied path: the number, or the index of a listed value.
     #[serde(skip)]

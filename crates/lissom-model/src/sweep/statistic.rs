@@ -14,7 +14,7 @@ pub struct Statistic {
 }
 
 /// All of them.
-pub static STATISTICS: [Statistic; 9] = [
+pub static STATISTICS: [Statistic; 10] = [
     Statistic { name: "max", summary: "Largest recorded value.", of: |history| history.most.1 },
     Statistic { name: "min", summary: "Smallest recorded value.", of: |history| history.least.1 },
     Statistic {
@@ -44,7 +44,15 @@ pub static STATISTICS: [Statistic; 9] = [
     },
     Statistic { name: "initial", summary: "First recorded value.", of: |history| history.first.1 },
     Statistic { name: "final", summary: "Last recorded value.", of: |history| history.last.1 },
+    Statistic {
+        name: OF_EVENTS,
+        summary: "Time at which an event first happens [s].",
+        of: |history| history.first.0,
+    },
 ];
+
+/// The statistic of events: what it names in brackets is no column.
+pub(super) const OF_EVENTS: &str = "time_of_event";
 
 /// The statistic called `name`.
 pub(super) fn find(name: &str) -> Option<&'static Statistic> {
@@ -145,9 +153,9 @@ mod tests {
         let values = all(&[(1.0, -3.0), (1.5, 1.0), (3.0, 1.0)]);
         let [duration, mean, square] = [2.0_f64, 0.25 * -2.0 + 1.5, 0.25 * (9.0 + 1.0) + 1.5];
         let (mean, rms) = (mean / duration, (square / duration).sqrt());
-        let wanted = [1.0, -3.0, 3.0, 1.5, 1.0, mean, rms, -3.0, 1.0];
+        let wanted = [1.0, -3.0, 3.0, 1.5, 1.0, mean, rms, -3.0, 1.0, 1.0];
         assert_eq!(values, wanted.map(Some));
-        assert_eq!(all(&[(0.0, -2.0)]), [-2.0, -2.0, 2.0, 0.0, 0.0, -2.0, 2.0, -2.0, -2.0].map(Some));
+        assert_eq!(all(&[(0.0, -2.0)]), [-2.0, -2.0, 2.0, 0.0, 0.0, -2.0, 2.0, -2.0, -2.0, 0.0].map(Some));
     }
 
     #[test]

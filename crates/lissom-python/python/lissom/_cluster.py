@@ -69,6 +69,17 @@ def _read(path: Path) -> SweepTable:
     return SweepTable(columns)
 
 
+def _write_histories(outcomes: list[Outcome], folder: Path) -> None:
+    """The histories that were asked for, a file per member. Readers of the folder of parts pass over names with `_`."""
+    for outcome in outcomes:
+        if outcome[7] is not None:
+            path = folder / "_histories" / f"member-{outcome[0]:08}.parquet"
+            path.parent.mkdir(exist_ok=True)
+            unfinished = path.with_name(f"_{path.name}.new")
+            unfinished.write_bytes(outcome[7])
+            os.replace(unfinished, path)
+
+
 def _batch(folder: Path | None, definition: str, restart: bool, batch: int) -> int:
     """Members per batch: what the folder has, if it holds this sweep."""
     if folder is None:
@@ -77,7 +88,7 @@ def _batch(folder: Path | None, definition: str, restart: bool, batch: int) -> i
     kept = folder / "_definition.json"
     if restart:
         kept.unlink(missing_ok=True)
-        for part in folder.glob("part-*.parquet"):
+        for part in [*folder.glob("part-*.parquet"), *folder.glob("_histories/member-*.parquet")]:
             part.unlink()
     if kept.exists():
         found = json.loads(kept.read_text(encoding="utf-8"))
@@ -137,9 +148,11 @@ def sweep_on_cluster(
         for future in as_completed(list(futures)):
             first = futures.pop(future)
             # An error of a task that was tried often enough is raised here.
-            table = table_of(native, future.result())
+            outcomes = future.result()
+            table = table_of(native, outcomes)
             future.release()
             if folder is not None:
+                _write_histories(outcomes, folder)
                 _write(table, folder / f"part-{first:08}.parquet")
             tables[first] = table
             done += len(table)
@@ -149,7 +162,8 @@ def sweep_on_cluster(
         client.cancel(list(futures))
         clear()
     ordered = [tables[first] for first in starts]
-    whole = SweepTable({column: np.concatenate([table[column] for table in ordered]) for column in ordered[0]})
+    columns = {column: np.concatenate([table[column] for table in ordered]) for column in ordered[0]}
+    whole = SweepTable(columns, native.paths(), native.collected())
     if not np.array_equal(whole["member"], np.arange(members)):
         raise RuntimeError(f"the files in `{folder}` do not hold every member once: discard them by `restart=True`")
     return whole

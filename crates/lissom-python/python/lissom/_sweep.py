@@ -30,8 +30,12 @@ class SweepTable:
     `state` (`solved`, `failed`, `wrong_model`), `time`, `steps`, `max_constraint_violation`, `diagnosis`.
     """
 
-    def __init__(self, columns: dict[str, np.ndarray[Any, Any]]) -> None:
+    def __init__(
+        self, columns: dict[str, np.ndarray[Any, Any]], varied: Sequence[str] = (), collected: Sequence[str] = ()
+    ) -> None:
         self._columns = columns
+        #: Names of the columns that were varied, and of those that were collected.
+        self.varied, self.collected = list(varied), list(collected)
 
     @property
     def names(self) -> list[str]:
@@ -61,6 +65,18 @@ class SweepTable:
 
         return pandas.DataFrame(self._columns)
 
+    def plot(self) -> Any:
+        """A figure of matplotlib: what was collected over what was varied, of the solved members."""
+        from ._plots import sweep_figure
+
+        return sweep_figure(self)
+
+    def plot_parallel(self) -> Any:
+        """A figure of matplotlib: parallel coordinates, a line per solved member, coloured by the last column collected."""
+        from ._plots import parallel_figure
+
+        return parallel_figure(self)
+
     def __repr__(self) -> str:
         return f"<lissom.SweepTable of {len(self)} members, {len(self.failed)} not solved>"
 
@@ -72,6 +88,7 @@ def _text(
     members: int | None,
     seed: int | None,
     set: Mapping[str, Any],
+    histories: Sequence[str],
 ) -> str:
     """The sweep file that means the same."""
     if not isinstance(collect, Mapping):
@@ -83,6 +100,8 @@ def _text(
         lines.append(f"members = {_toml.value(members)}")
     if seed is not None:
         lines.append(f"seed = {_toml.value(seed)}")
+    if histories:
+        lines.append(f"histories = {_toml.value(list(histories))}")
     for name, table in (("set", set), ("vary", vary), ("collect", collect)):
         lines.append(f"[{name}]")
         lines += [f"{_toml.value(str(path))} = {_toml.value(of)}" for path, of in table.items()]
@@ -112,7 +131,7 @@ def table_of(native: NativeSweep, outcomes: Sequence[Outcome]) -> SweepTable:
     columns["steps"] = np.array([outcome[4] for outcome in outcomes], dtype=np.int64)
     columns["max_constraint_violation"] = np.array([number(outcome[5]) for outcome in outcomes], dtype=np.float64)
     columns["diagnosis"] = np.array([outcome[6] or "" for outcome in outcomes], dtype=object)
-    return SweepTable(columns)
+    return SweepTable(columns, native.paths(), native.collected())
 
 
 def warn_of(table: SweepTable) -> None:
@@ -130,6 +149,7 @@ def sweep(
     vary: Mapping[str, Any],
     *,
     collect: Mapping[str, str] | Sequence[str],
+    histories: Sequence[str] = (),
     sampling: str = "grid",
     members: int | None = None,
     seed: int | None = None,
@@ -148,7 +168,9 @@ def sweep(
         vary: paths into the model and their values: a list, or a dictionary as `{"from": 1, "to": 3, "count": 5}`,
             `{"from": 1, "to": 3, "spacing": "logarithmic"}` or `{"mean": 1, "standard_deviation": 0.1}`.
         collect: names and what each collects of a column, as `{"swing": "max(bob.x)"}`, or a list of the latter.
-            Statistics: max, min, max_abs, time_of_max, time_of_min, mean, rms, initial, final.
+            Statistics: max, min, max_abs, time_of_max, time_of_min, mean, rms, initial, final; of events time_of_event.
+        histories: columns whose whole histories are kept, a Parquet file per member in `histories` below `out`; with
+            `client` in `_histories`.
         sampling: `grid`, `list`, `latin-hypercube`, `sobol` or `monte-carlo`.
         members: number of members, where values are drawn.
         seed: start of the random numbers.
@@ -168,7 +190,9 @@ def sweep(
         ModelError: if every member has a wrong model, or the sweep itself is wrong.
         ValueError: if `out` holds another sweep.
     """
-    text = _text(vary, collect, sampling, members, seed, set or {})
+    if histories and out is None:
+        raise ValueError("histories are kept in files: name a folder by `out`")
+    text = _text(vary, collect, sampling, members, seed, set or {}, histories)
     native = NativeSweep(model._native, text, "sweep")
     if client is not None:
         from ._cluster import sweep_on_cluster

@@ -25,7 +25,8 @@ const NAMED: usize = 5;
 /// Solve a model many times with other values, on all processors.
 ///
 /// The sweep file names the model, the paths that are varied, how they are sampled, and the scalars that are collected.
-/// The folder gets `sweep.csv` (one row per member), `sweep.json` (counts and times), and `members.jsonl`, to which every
+/// The folder gets `sweep.csv` and `sweep.parquet` (one row per member), pictures of this table, whole histories where they are
+/// asked for, `sweep.json` (counts and times), and `members.jsonl`, to which every
 /// member that ends adds a line: a sweep that was cut off goes on from there when it is started again.
 #[derive(Args)]
 #[command(after_help = "\
@@ -39,6 +40,7 @@ A sweep file:
   \"springs.spring.stiffness\" = { mean = 10, standard_deviation = 1 }
   [collect]
   swing = \"max(bob.x)\"      # max min max_abs time_of_max time_of_min mean rms initial final
+  latched = \"time_of_event(latch)\"
 
 Exit code: 0 every member is solved; 2 wrong model, sweep file or command line; 3 a member has no solution, or results
 cannot be written: the table is there all the same; 130 interrupted by Ctrl-C: start it again to go on.")]
@@ -62,6 +64,10 @@ pub(super) struct SweepCommand {
     /// Discard what an earlier sweep left in the folder.
     #[arg(long)]
     restart: bool,
+
+    /// No pictures of the table.
+    #[arg(long)]
+    no_plots: bool,
 
     /// No progress, no summary on the terminal.
     #[arg(long, short)]
@@ -108,7 +114,8 @@ impl SweepCommand {
         let bar = self.bar(sweep.len(), found);
         let mut keep = |outcome: MemberOutcome| {
             folder.append(&outcome)?;
-            outcomes.push(outcome);
+            // Histories are in their files now.
+            outcomes.push(MemberOutcome { history: None, ..outcome });
             Ok(())
         };
         let mut watch = |done: usize| {
@@ -134,6 +141,10 @@ impl SweepCommand {
         let table = folder
             .finish(&sweep, &outcomes, &summary)
             .map_err(|error| Failure::file(Exit::Failed, &error))?;
+        if !self.no_plots && outcomes.iter().any(|outcome| outcome.state == MemberState::Solved) {
+            let plot = lissom::sweep::plot(&sweep, &outcomes, sweep.model_name());
+            folder.write_plots(&plot).map_err(|error| Failure::folder(Exit::Failed, &error))?;
+        }
         if !self.quiet {
             terminal::print(&told(&sweep, &outcomes, (found, workers, seconds), &table));
         }

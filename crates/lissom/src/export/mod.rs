@@ -4,6 +4,7 @@ mod buffer;
 mod gltf;
 mod npy;
 mod npz;
+mod parquet;
 mod vtk;
 
 use std::path::{Path, PathBuf};
@@ -52,7 +53,7 @@ pub struct Format {
 }
 
 /// All formats.
-pub static FORMATS: &[Format] = &[gltf::FORMAT, npz::FORMAT, vtk::FORMAT];
+pub static FORMATS: &[Format] = &[gltf::FORMAT, npz::FORMAT, parquet::FORMAT, vtk::FORMAT];
 
 /// Files that exports have left in a folder of results.
 pub(crate) fn files_in(folder: &Path) -> Vec<PathBuf> {

@@ -1,19 +1,33 @@
-//! Takes the rows of a run and keeps what the collected statistics need. No history is stored.
+//! Takes the rows of a run and keeps what the collected statistics need, and whole histories where they are asked for.
 
 use std::io;
 
 use lissom_model::output::{Column, Writer};
-use lissom_model::sweep::{Accumulator, Collected};
+use lissom_model::sweep::{Accumulator, Collected, SweepFile};
 
 use super::SweepError;
+use crate::parquet::{Values, parquet};
 
 /// The columns there may be so many of that naming them all helps nobody.
 const FEW: usize = 40;
 
 /// Complains about the first thing to collect that is not among `columns`.
-pub(super) fn check(collect: &[Collected], columns: &[Column]) -> Result<(), SweepError> {
+pub(super) fn check(file: &SweepFile, columns: &[Column], events: &[&str]) -> Result<(), SweepError> {
     let names: Vec<String> = columns.iter().map(Column::name).collect();
-    let Some(missing) = collect.iter().find(|collected| !names.contains(&collected.column)) else {
+    let of_events = file.collect.iter().filter(|collected| collected.is_of_event());
+    if let Some(missing) =
+        of_events.into_iter().find(|collected| !events.contains(&collected.column.as_str()))
+    {
+        let known = match events {
+            [] => "it has no events: add a table [events.…]".to_owned(),
+            known => format!("its events are {}", known.join(", ")),
+        };
+        return Err(SweepError::Event { name: missing.name.clone(), event: missing.column.clone(), known });
+    }
+    let collected = file.collect.iter().filter(|collected| !collected.is_of_event());
+    let wanted = collected.map(|collected| (&collected.name, &collected.column));
+    let all = wanted.chain(file.histories.iter().map(|column| (column, column)));
+    let Some((name, column)) = all.into_iter().find(|(_, column)| !names.contains(column)) else {
         return Ok(());
     };
     let known = match names.len() {
@@ -21,47 +35,115 @@ pub(super) fn check(collect: &[Collected], columns: &[Column]) -> Result<(), Swe
         count if count <= FEW => format!("its columns are {}", names.join(", ")),
         count => format!("its {count} columns are named as in the heading of a run's history.csv"),
     };
-    Err(SweepError::Column { name: missing.name.clone(), column: missing.column.clone(), known })
+    Err(SweepError::Column { name: name.clone(), column: column.clone(), known })
+}
+
+/// The whole histories of some columns.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct History {
+    /// Times of the records [s].
+    pub times: Vec<f64>,
+    /// Names of the columns, and their values, one per record.
+    pub columns: Vec<(String, Vec<f64>)>,
+}
+
+impl History {
+    /// The histories of `member` as a Parquet file with the columns `member`, `time` and those that were asked for.
+    ///
+    /// # Errors
+    /// If they are larger than the format takes.
+    pub fn parquet(&self, member: usize) -> io::Result<Vec<u8>> {
+        let number = i64::try_from(member).unwrap_or(i64::MAX);
+        let mut columns = vec![
+            ("member".to_owned(), Values::Whole(vec![number; self.times.len()])),
+            ("time".to_owned(), Values::Numbers(self.times.clone())),
+        ];
+        columns.extend(
+            self.columns.iter().map(|(name, values)| (name.clone(), Values::Numbers(values.clone()))),
+        );
+        parquet(&columns, &[])
+    }
 }
 
 /// A writer of statistics.
 pub(super) struct Collector<'a> {
-    collect: &'a [Collected],
-    /// Of each thing to collect, the index of its column.
-    indices: Vec<usize>,
+    file: &'a SweepFile,
+    /// Of each thing to collect, the index of its column; none of an event.
+    indices: Vec<Option<usize>>,
     histories: Vec<Accumulator>,
+    /// Indices of the columns that are kept.
+    kept_indices: Vec<usize>,
+    kept: History,
 }
 
 impl<'a> Collector<'a> {
-    pub(super) fn new(collect: &'a [Collected]) -> Self {
-        Self { collect, indices: Vec::new(), histories: vec![Accumulator::default(); collect.len()] }
+    pub(super) fn new(file: &'a SweepFile) -> Self {
+        Self {
+            file,
+            indices: Vec::new(),
+            histories: vec![Accumulator::default(); file.collect.len()],
+            kept_indices: Vec::new(),
+            kept: History {
+                times: Vec::new(),
+                columns: file.histories.iter().map(|name| (name.clone(), Vec::new())).collect(),
+            },
+        }
+    }
+
+    /// Takes the events that have happened, with their times [s].
+    pub(super) fn take_events<'e>(&mut self, events: impl Iterator<Item = (&'e str, f64)>) {
+        for (event, time) in events {
+            for (collected, history) in self.file.collect.iter().zip(&mut self.histories) {
+                if collected.is_of_event() && collected.column == event {
+                    history.add(time, time);
+                }
+            }
+        }
+    }
+
+    /// The histories that are kept, if any.
+    pub(super) fn history(self) -> Option<History> {
+        (!self.kept.columns.is_empty()).then_some(self.kept)
     }
 
     /// What was collected, or what is wrong with it.
     pub(super) fn values(&self) -> Result<Vec<f64>, String> {
         let value = |(collected, history): (&Collected, &Accumulator)| {
             collected.kind().of(history).ok_or_else(|| match history.fault() {
+                None if collected.is_of_event() => format!("event `{}` has not happened", collected.column),
                 Some(time) => format!("`{}` is not a finite number at t = {time:.6e} s", collected.column),
                 None => format!("`{}` of `{}` is not a finite number", collected.statistic, collected.column),
             })
         };
-        self.collect.iter().zip(&self.histories).map(value).collect()
+        self.file.collect.iter().zip(&self.histories).map(value).collect()
     }
 }
 
 impl Writer for Collector<'_> {
     fn begin(&mut self, columns: &[Column]) -> io::Result<()> {
-        let index = |collected: &Collected| {
-            let found = columns.iter().position(|column| column.name() == collected.column);
-            found.ok_or_else(|| io::Error::other(format!("the model does not record `{}`", collected.column)))
+        let index = |name: &String| {
+            let found = columns.iter().position(|column| column.name() == *name);
+            found.ok_or_else(|| io::Error::other(format!("the model does not record `{name}`")))
         };
-        self.indices = self.collect.iter().map(index).collect::<io::Result<_>>()?;
+        let of = |collected: &Collected| {
+            if collected.is_of_event() { Ok(None) } else { index(&collected.column).map(Some) }
+        };
+        self.indices = self.file.collect.iter().map(of).collect::<io::Result<_>>()?;
+        self.kept_indices = self.file.histories.iter().map(index).collect::<io::Result<_>>()?;
         Ok(())
     }
 
     fn row(&mut self, time: f64, values: &[f64]) -> io::Result<()> {
         for (history, index) in self.histories.iter_mut().zip(&self.indices) {
-            history.add(time, values[*index]);
+            if let Some(index) = index {
+                history.add(time, values[*index]);
+            }
+        }
+        if !self.kept_indices.is_empty() {
+            self.kept.times.push(time);
+            for ((_, kept), index) in self.kept.columns.iter_mut().zip(&self.kept_indices) {
+                kept.push(values[*index]);
+            }
         }
         Ok(())
     }

@@ -1,21 +1,26 @@
 //! The folder of a sweep: `members.jsonl`, to which every member that ends adds a line, and once all have ended
-//! `sweep.csv` and `sweep.json`. What was computed before a crash is found there again. The only place where sweeps open
-//! files for output.
+//! `sweep.csv`, the same as `sweep.parquet`, and `sweep.json`; histories that are asked for in `histories/`, a file per member. What
+//! was computed before a crash is found there again. The only place where sweeps open files for output.
 
 use std::fs::{File, TryLockError};
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use lissom_model::files::{self, Action, FileError, failure};
-use lissom_model::output::Summary;
+use lissom_model::output::{Summary, SweepPlot};
 
-use super::table::write_table;
+use super::table::{write_parquet, write_table};
 use super::{MemberOutcome, Sweep};
+use crate::folder::FolderError;
 
 /// Name of the record of members.
 const MEMBERS: &str = "members.jsonl";
 /// Name of the table.
 const TABLE: &str = "sweep.csv";
+/// Name of the same table for programs.
+const PARQUET: &str = "sweep.parquet";
+/// Name of the folder of histories.
+const HISTORIES: &str = "histories";
 /// Name of the summary.
 const SUMMARY: &str = "sweep.json";
 
@@ -86,13 +91,21 @@ impl SweepFolder {
             Some((_, lines)) => outcomes(sweep, lines, &file)?,
             None => Vec::new(),
         };
-        for name in [TABLE, SUMMARY] {
+        let pictures = PICTURES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]);
+        for name in [TABLE, PARQUET, SUMMARY].map(str::to_owned).into_iter().chain(pictures) {
             let old = path.join(name);
             match std::fs::remove_file(&old) {
                 Err(error) if error.kind() != io::ErrorKind::NotFound => {
                     return Err(failure(Action::Write, &old, error).into());
                 }
                 _ => {}
+            }
+        }
+        if !sweep.file().histories.is_empty() {
+            let histories = path.join(HISTORIES);
+            files::create_folder(&histories)?;
+            if whole == 0 {
+                discard_histories(&histories)?;
             }
         }
         let mut begin = || {
@@ -114,6 +127,13 @@ impl SweepFolder {
     /// # Errors
     /// If it cannot be written.
     pub fn append(&mut self, outcome: &MemberOutcome) -> Result<(), FileError> {
+        // Before its line: a member that has one has its histories.
+        if let Some(history) = &outcome.history {
+            let file = self.path.join(HISTORIES).join(history_name(outcome.member));
+            let bytes =
+                history.parquet(outcome.member).map_err(|error| failure(Action::Write, &file, error))?;
+            files::replace(&file, &bytes)?;
+        }
         let mut line = serde_json::to_string(outcome).unwrap_or_default();
         line.push('\n');
         let written = self.members.write_all(line.as_bytes());
@@ -134,8 +154,45 @@ impl SweepFolder {
         let unfinished = self.path.join("sweep.csv.new");
         files::write(&unfinished, write_table(sweep, outcomes).as_bytes())?;
         std::fs::rename(&unfinished, &table).map_err(|error| failure(Action::Write, &table, error))?;
+        let file = self.path.join(PARQUET);
+        let bytes = write_parquet(sweep, outcomes).map_err(|error| failure(Action::Write, &file, error))?;
+        files::replace(&file, &bytes)?;
         files::write(&self.path.join(SUMMARY), summary.to_json().as_bytes())?;
         Ok(table)
+    }
+}
+
+/// Names of the pictures, without their endings.
+const PICTURES: [&str; 2] = ["responses", "parallel-coordinates"];
+
+/// Name of the file with the histories of a member.
+pub fn history_name(member: usize) -> String {
+    format!("member-{member:08}.parquet")
+}
+
+/// Removes histories of another sweep, and nothing else.
+fn discard_histories(folder: &Path) -> Result<(), FileError> {
+    let entries = std::fs::read_dir(folder).map_err(|error| failure(Action::Read, folder, error))?;
+    for path in entries.flatten().map(|entry| entry.path()) {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if name.starts_with("member-") && name.ends_with(".parquet") {
+            std::fs::remove_file(&path).map_err(|error| failure(Action::Write, &path, error))?;
+        }
+    }
+    Ok(())
+}
+
+impl SweepFolder {
+    /// Draws the table, as SVG and as PNG: what is collected over what is varied, and parallel coordinates.
+    ///
+    /// # Errors
+    /// If a picture cannot be drawn or written.
+    pub fn write_plots(&self, plot: &SweepPlot) -> Result<(), FolderError> {
+        for (name, picture) in PICTURES.iter().zip([plot.responses()?, plot.parallel_coordinates()?]) {
+            files::write(&self.path.join(format!("{name}.svg")), picture.svg().as_bytes())?;
+            files::write(&self.path.join(format!("{name}.png")), &picture.png()?)?;
+        }
+        Ok(())
     }
 }
 

@@ -2,11 +2,11 @@
 
 use std::ops::ControlFlow;
 
-use lissom_model::sweep::Collected;
+use lissom_model::sweep::SweepFile;
 use lissom_model::{Document, Report, Severity};
 use serde::{Deserialize, Serialize};
 
-use super::collector::Collector;
+use super::collector::{Collector, History};
 use crate::report::Stopped;
 use crate::session::{Progress, Session, SessionError};
 
@@ -53,6 +53,9 @@ pub struct MemberOutcome {
     /// Time its simulation took, from before the initial values to the last record [s]; not kept in a folder.
     #[serde(skip)]
     pub seconds: f64,
+    /// Whole histories, where they are asked for, up to where a member failed; kept in files of their own.
+    #[serde(skip)]
+    pub history: Option<History>,
 }
 
 impl MemberOutcome {
@@ -66,6 +69,7 @@ impl MemberOutcome {
             max_constraint_violation: None,
             diagnosis: Some(diagnosis),
             seconds: 0.0,
+            history: None,
         }
     }
 
@@ -92,7 +96,7 @@ impl MemberOutcome {
 pub(super) fn run(
     member: usize,
     document: &Document,
-    collect: &[Collected],
+    file: &SweepFile,
     watch: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
 ) -> Option<MemberOutcome> {
     let mut session = match Session::new(document) {
@@ -105,8 +109,9 @@ pub(super) fn run(
             return Some(MemberOutcome::not_started(member, MemberState::Failed, error.to_string()));
         }
     };
-    let mut collector = Collector::new(collect);
+    let mut collector = Collector::new(file);
     let report = session.run(&mut [&mut collector], watch);
+    collector.take_events(session.events());
     let collected = match report.stopped {
         Stopped::End => collector.values(),
         Stopped::Interrupted => return None,
@@ -125,6 +130,7 @@ pub(super) fn run(
         max_constraint_violation: Some(report.violation).filter(|violation| violation.is_finite()),
         diagnosis,
         seconds: report.wall.as_secs_f64(),
+        history: collector.history(),
     })
 }
 

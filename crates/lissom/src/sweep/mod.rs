@@ -51,10 +51,11 @@ use serde_json::json;
 use crate::model::{Model, Override};
 use crate::session::{Progress, columns};
 
-pub use folder::{SweepFolder, SweepFolderError};
+pub use collector::History;
+pub use folder::{SweepFolder, SweepFolderError, history_name};
 pub use lissom_model::sweep::{Collected, STATISTICS, SweepFile, SweepValue, Varied, sampling};
 pub use member::{MemberOutcome, MemberState};
-pub use table::{headings, rows, write_table};
+pub use table::{headings, plot, rows, write_parquet, write_table};
 
 /// How often the watch is asked while no member ends.
 const PATIENCE: Duration = Duration::from_millis(50);
@@ -79,6 +80,16 @@ pub enum SweepError {
         /// The column asked for.
         column: String,
         /// The columns there are, in words.
+        known: String,
+    },
+    /// The model has no such event.
+    #[error("`{name}` collects the time of the event `{event}`, which the model does not have; {known}")]
+    Event {
+        /// Name of what is collected.
+        name: String,
+        /// The event asked for.
+        event: String,
+        /// The events there are, in words.
         known: String,
     },
 }
@@ -120,7 +131,9 @@ impl Sweep {
                 return Err(SweepError::NotInTime(document.analysis.kind.name()));
             }
             let columns = columns(&lowered.channels);
-            collector::check(&file.collect, &columns)?;
+            let events = lowered.system.signals().events();
+            let events: Vec<&str> = events.iter().map(|event| event.name.as_str()).collect();
+            collector::check(&file, &columns, &events)?;
             let (name, overrides) = (model.name().to_owned(), overrides.to_vec());
             return Ok(Self { name, text, registry, file, overrides, warnings: document.warnings });
         }
@@ -192,7 +205,7 @@ impl Sweep {
     ) -> Option<MemberOutcome> {
         let overrides = self.file.overrides(member);
         match self.text.document(&self.registry, &overrides) {
-            Ok(document) => member::run(member, &document, &self.file.collect, watch),
+            Ok(document) => member::run(member, &document, &self.file, watch),
             Err(report) => Some(MemberOutcome::wrong_model(member, &report)),
         }
     }

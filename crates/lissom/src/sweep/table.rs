@@ -1,10 +1,13 @@
 //! The table of a sweep: one row per member, the same bytes however it was computed.
 
 use std::fmt::Write;
+use std::io;
 
-use lissom_model::output::{number_text, quoted};
+use lissom_model::output::{SweepAxis, SweepPlot, number_text, quoted};
+use lissom_model::sweep::Variation;
 
-use super::{MemberOutcome, Sweep};
+use super::{MemberOutcome, MemberState, Sweep, SweepValue};
+use crate::parquet::{Values, parquet};
 
 /// The headings: `member`, the varied paths, what is collected, `state`, `time`, `steps`, `max_constraint_violation`,
 /// `diagnosis`.
@@ -34,6 +37,71 @@ pub fn rows<'a>(sweep: &'a Sweep, outcomes: &'a [MemberOutcome]) -> impl Iterato
         ]);
         cells
     })
+}
+
+/// The table as a Parquet file: columns as in [`headings`], NaN where there is no number. A varied path whose values are not all
+/// numbers has texts.
+///
+/// # Errors
+/// If it is larger than the format takes.
+pub fn write_parquet(sweep: &Sweep, outcomes: &[MemberOutcome]) -> io::Result<Vec<u8>> {
+    let file = sweep.file();
+    let numbers = |of: &dyn Fn(&MemberOutcome) -> Option<f64>| {
+        Values::Numbers(outcomes.iter().map(|outcome| of(outcome).unwrap_or(f64::NAN)).collect())
+    };
+    let whole = |of: fn(&MemberOutcome) -> usize| {
+        Values::Whole(outcomes.iter().map(|outcome| i64::try_from(of(outcome)).unwrap_or(i64::MAX)).collect())
+    };
+    let texts = |of: &dyn Fn(&MemberOutcome) -> String| Values::Texts(outcomes.iter().map(of).collect());
+    let varied = |path: usize| {
+        let number = |outcome: &MemberOutcome| match file.value(outcome.member, path) {
+            SweepValue::Number(number) => Some(number),
+            _ => None,
+        };
+        let all: Option<Vec<f64>> = outcomes.iter().map(number).collect();
+        all.map_or_else(|| texts(&|outcome| file.value(outcome.member, path).to_cell()), Values::Numbers)
+    };
+    let mut values = vec![whole(|outcome| outcome.member)];
+    values.extend((0..file.vary.len()).map(varied));
+    values
+        .extend((0..file.collect.len()).map(|index| numbers(&|outcome| outcome.values.get(index).copied())));
+    values.extend([
+        texts(&|outcome| outcome.state.name().to_owned()),
+        numbers(&|outcome| outcome.time),
+        whole(|outcome| outcome.steps),
+        numbers(&|outcome| outcome.max_constraint_violation),
+        texts(&|outcome| outcome.diagnosis.clone().unwrap_or_default()),
+    ]);
+    let columns: Vec<(String, Values)> = headings(sweep).into_iter().zip(values).collect();
+    parquet(&columns, &[])
+}
+
+/// What can be drawn of the solved members.
+pub fn plot(sweep: &Sweep, outcomes: &[MemberOutcome], title: &str) -> SweepPlot {
+    let file = sweep.file();
+    let solved: Vec<&MemberOutcome> =
+        outcomes.iter().filter(|outcome| outcome.state == MemberState::Solved).collect();
+    let varied = file.vary.iter().enumerate().map(|(path, varied)| {
+        let values = || solved.iter().map(|outcome| file.value(outcome.member, path));
+        let numbers: Option<Vec<f64>> = values()
+            .map(|value| match value {
+                SweepValue::Number(number) => Some(number),
+                _ => None,
+            })
+            .collect();
+        if let Some(values) = numbers {
+            let is_logarithmic = matches!(varied.variation, Variation::Range { logarithmic: true, .. });
+            return SweepAxis { name: varied.path.clone(), values, is_logarithmic };
+        }
+        let words: Vec<String> = values().map(|value| value.to_cell()).collect();
+        SweepAxis::of_words(&varied.path, &words)
+    });
+    let collected = file.collect.iter().enumerate().map(|(index, collected)| SweepAxis {
+        name: collected.name.clone(),
+        values: solved.iter().map(|outcome| outcome.values[index]).collect(),
+        is_logarithmic: false,
+    });
+    SweepPlot { title: title.to_owned(), varied: varied.collect(), collected: collected.collect() }
 }
 
 /// The table as comma-separated values. Numbers have the fewest digits that give them back exactly.

@@ -206,7 +206,7 @@ fn series_hold_sections_with_their_forces() {
         fs::read_dir(folder.path().join("out/vtk")).unwrap().map(|e| e.unwrap().file_name()).collect();
     assert_eq!(left, ["mine.csv"]);
     for (args, words) in [
-        (vec!["export", "out", "--format", "step"], "possible values: gltf, npz, vtk"),
+        (vec!["export", "out", "--format", "step"], "possible values: gltf, npz, parquet, vtk, urdf"),
         (vec!["export", "nowhere", "--format", "npz"], "history.csv"),
         (vec!["export", "out", "--format", "npz", "--frames", "0"], "0 is not in"),
     ] {

@@ -194,6 +194,61 @@ fn an_interrupted_sweep_keeps_its_members_and_writes_no_table() {
     assert!(!folder.path().join("out/sweep.csv").exists());
 }
 
+/// Pictures of the table, histories, times of events.
+#[test]
+fn pictures_histories_and_times_of_events_are_there() {
+    let folder = Folder::new("sweep-more");
+    folder.write(
+        "stone.toml",
+        "lissom = 1\n[point_masses.stone]\nmass = 1\nvelocity = [2, 0, 0]\n[parameters]\nplace = 0.5\n\
+         [outputs.stone]\nkind = \"position\"\nof = \"stone\"\n[events.far]\nzero_of = \"stone.x - place\"\nstop = true\n\
+         [analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.1\n",
+    );
+    let file = |places: &str| {
+        let text = format!(
+            "lissom_sweep = 1\nmodel = \"stone.toml\"\nhistories = [\"stone.x\"]\n[vary]\n\"parameters.place\" = {places}\n\
+             [collect]\narrival = \"time_of_event(far)\"\nend = \"final(stone.x)\"\n"
+        );
+        folder.write("sweep.toml", &text);
+    };
+    file("[0.45, 1.1, 1.5]");
+    assert_eq!(sweep(&folder, "out", &["--quiet"]).code, 0);
+    for (line, place) in table(&folder, "out").lines().skip(1).zip([0.45, 1.1, 1.5]) {
+        let cells: Vec<f64> = line.split(',').take(4).map(|cell| cell.parse().unwrap()).collect();
+        assert!((cells[2] - place / 2.0).abs() < 1e-12 && (cells[3] - place).abs() < 1e-12, "{line}");
+    }
+    let read = |name: &str| fs::read(folder.path().join("out").join(name)).unwrap();
+    let svg = String::from_utf8(read("responses.svg")).unwrap();
+    assert_eq!(svg.matches("<circle").count(), 6, "three members in two panels");
+    for words in ["parameters.place", "arrival", "3 members"] {
+        assert!(svg.contains(words), "{words}");
+    }
+    assert!(String::from_utf8(read("parallel-coordinates.svg")).unwrap().contains("arrival"));
+    for name in ["responses.png", "parallel-coordinates.png"] {
+        assert!(read(name).starts_with(b"\x89PNG"), "{name}");
+    }
+    for name in ["sweep.parquet", "histories/member-00000002.parquet"] {
+        assert!(read(name).starts_with(b"PAR1") && read(name).ends_with(b"PAR1"), "{name}");
+    }
+    // What an event does not come to is a failure, never a number; histories are there up to the end.
+    file("[0.5, 3]");
+    let ended = sweep(&folder, "never", &["--no-plots"]);
+    assert_eq!(ended.code, 3);
+    assert!(ended.errors.contains("member 1: event `far` has not happened"), "{}", ended.errors);
+    assert!(!folder.path().join("never/responses.svg").exists());
+    assert!(folder.path().join("never/histories/member-00000001.parquet").exists());
+    // Another sweep in its place leaves nothing of it.
+    file("[0.25]");
+    assert_eq!(sweep(&folder, "never", &["--restart", "--quiet"]).code, 0);
+    assert!(!folder.path().join("never/histories/member-00000001.parquet").exists());
+    folder.write("sweep.toml", "lissom_sweep = 1\nmodel = \"stone.toml\"\nhistories = [\"stone.w\"]\n[vary]\n\"parameters.place\" = [1]\n[collect]\nx = \"time_of_event(near)\"\n");
+    let wrong = sweep(&folder, "bad", &[]);
+    assert!(wrong.code == 2 && wrong.errors.contains("its events are far"), "{}", wrong.errors);
+    folder.write("sweep.toml", "lissom_sweep = 1\nmodel = \"stone.toml\"\nhistories = [\"stone.w\"]\n[vary]\n\"parameters.place\" = [1]\n[collect]\nx = \"max(stone.x)\"\n");
+    let wrong = sweep(&folder, "bad", &[]);
+    assert!(wrong.code == 2 && wrong.errors.contains("`stone.w`"), "{}", wrong.errors);
+}
+
 #[test]
 fn wrong_sweeps_end_with_2() {
     let folder = Folder::new("sweep-bad");

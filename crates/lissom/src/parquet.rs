@@ -1,0 +1,286 @@
+//! Tables in memory as Parquet files: columns of numbers and texts without nulls, plain and not packed, so that pandas, DuckDB, Polars
+//! and Spark read them in one line.
+//!
+//! The format (Apache Parquet 2.9): after the magic word the pages of the columns, one page per column and row group; then the
+//! metadata in Thrift's compact protocol, its length and the magic word again.
+
+use std::io;
+
+/// First and last bytes of a file.
+const MAGIC: &[u8; 4] = b"PAR1";
+/// Rows of a group: its pages stay far below the 2 GB that their headers can tell.
+const GROUP: usize = 1 << 17;
+
+/// Values of a column.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Values {
+    /// Numbers; NaN where there is none.
+    Numbers(Vec<f64>),
+    /// Whole numbers.
+    Whole(Vec<i64>),
+    /// Texts.
+    Texts(Vec<String>),
+}
+
+impl Values {
+    fn len(&self) -> usize {
+        match self {
+            Self::Numbers(values) => values.len(),
+            Self::Whole(values) => values.len(),
+            Self::Texts(values) => values.len(),
+        }
+    }
+
+    /// Number of the physical type.
+    fn kind(&self) -> usize {
+        match self {
+            Self::Numbers(_) => 5,
+            Self::Whole(_) => 2,
+            Self::Texts(_) => 6,
+        }
+    }
+
+    /// The rows of a group in plain encoding.
+    fn plain(&self, first: usize, end: usize) -> io::Result<Vec<u8>> {
+        Ok(match self {
+            Self::Numbers(values) => {
+                values[first..end].iter().flat_map(|value| value.to_le_bytes()).collect()
+            }
+            Self::Whole(values) => values[first..end].iter().flat_map(|value| value.to_le_bytes()).collect(),
+            Self::Texts(values) => {
+                let mut bytes = Vec::new();
+                for text in &values[first..end] {
+                    let length = u32::try_from(text.len()).map_err(|_| too_large())?;
+                    bytes.extend(length.to_le_bytes());
+                    bytes.extend(text.as_bytes());
+                }
+                bytes
+            }
+        })
+    }
+}
+
+fn too_large() -> io::Error {
+    io::Error::new(io::ErrorKind::FileTooLarge, "a column is larger than a Parquet file takes")
+}
+
+/// A table as a file; `facts` are texts about it by their keys.
+pub(crate) fn parquet(columns: &[(String, Values)], facts: &[(&str, String)]) -> io::Result<Vec<u8>> {
+    let rows = columns.first().map_or(0, |(_, values)| values.len());
+    let mut file = MAGIC.to_vec();
+    let mut groups = Vec::new();
+    for first in (0..rows).step_by(GROUP) {
+        let end = (first + GROUP).min(rows);
+        let mut chunks = Vec::new();
+        for (name, values) in columns {
+            let content = values.plain(first, end)?;
+            i32::try_from(content.len()).map_err(|_| too_large())?;
+            let start = file.len();
+            file.extend(page_header(content.len(), end - first));
+            file.extend(&content);
+            chunks.push((chunk(name, values, end - first, (start, file.len())), file.len() - start));
+        }
+        let bytes = chunks.iter().map(|(_, size)| size).sum();
+        let chunks: Vec<Vec<u8>> = chunks.into_iter().map(|(chunk, _)| chunk).collect();
+        let mut group = Struct::default();
+        group.structs(1, &chunks).number(2, bytes).number(3, end - first);
+        groups.push(group.end());
+    }
+    let mut root = Struct::default();
+    root.text(4, "schema").short(5, columns.len());
+    let mut schema = vec![root.end()];
+    schema.extend(columns.iter().map(|(name, values)| {
+        let mut element = Struct::default();
+        // Repetition 0: every row has a value.
+        element.short(1, values.kind()).short(3, 0).text(4, name);
+        if matches!(values, Values::Texts(_)) {
+            // Converted type 0: the bytes are UTF-8.
+            element.short(6, 0);
+        }
+        element.end()
+    }));
+    let facts: Vec<Vec<u8>> = facts
+        .iter()
+        .map(|(key, value)| {
+            let mut pair = Struct::default();
+            pair.text(1, key).text(2, value);
+            pair.end()
+        })
+        .collect();
+    let mut metadata = Struct::default();
+    metadata.short(1, 1).structs(2, &schema).number(3, rows).structs(4, &groups);
+    if !facts.is_empty() {
+        metadata.structs(5, &facts);
+    }
+    metadata.text(6, concat!("lissom version ", env!("CARGO_PKG_VERSION")));
+    let metadata = metadata.end();
+    file.extend(&metadata);
+    file.extend(u32::try_from(metadata.len()).map_err(|_| too_large())?.to_le_bytes());
+    file.extend(MAGIC);
+    Ok(file)
+}
+
+/// Header of a page of so many bytes and values.
+fn page_header(size: usize, count: usize) -> Vec<u8> {
+    let mut page = Struct::default();
+    // Encoding 0 is plain; levels would be encoding 3, and there are none.
+    page.short(1, count).short(2, 0).short(3, 3).short(4, 3);
+    let mut header = Struct::default();
+    header.short(1, 0).short(2, size).short(3, size).nested(5, &page.end());
+    header.end()
+}
+
+/// What the metadata says of a column within a group.
+fn chunk(name: &str, values: &Values, count: usize, (start, end): (usize, usize)) -> Vec<u8> {
+    let size = end - start;
+    let mut of = Struct::default();
+    of.short(1, values.kind()).shorts(2, &[0]).texts(3, &[name]).short(4, 0);
+    of.number(5, count).number(6, size).number(7, size).number(9, start);
+    let mut chunk = Struct::default();
+    chunk.number(2, start).nested(3, &of.end());
+    chunk.end()
+}
+
+/// A structure in Thrift's compact protocol, its fields in ascending order.
+#[derive(Default)]
+struct Struct {
+    bytes: Vec<u8>,
+    last: u8,
+}
+
+impl Struct {
+    fn field(&mut self, number: u8, kind: u8) -> &mut Vec<u8> {
+        self.bytes.push(((number - self.last) << 4) | kind);
+        self.last = number;
+        &mut self.bytes
+    }
+
+    /// A number of 32 bits.
+    fn short(&mut self, number: u8, value: usize) -> &mut Self {
+        zigzag(self.field(number, 5), value);
+        self
+    }
+
+    /// A number of 64 bits.
+    fn number(&mut self, number: u8, value: usize) -> &mut Self {
+        zigzag(self.field(number, 6), value);
+        self
+    }
+
+    fn text(&mut self, number: u8, text: &str) -> &mut Self {
+        binary(self.field(number, 8), text);
+        self
+    }
+
+    fn nested(&mut self, number: u8, value: &[u8]) -> &mut Self {
+        self.field(number, 12).extend(value);
+        self
+    }
+
+    fn structs(&mut self, number: u8, values: &[Vec<u8>]) -> &mut Self {
+        let bytes = self.field(number, 9);
+        list(bytes, values.len(), 12);
+        for value in values {
+            bytes.extend(value);
+        }
+        self
+    }
+
+    fn texts(&mut self, number: u8, values: &[&str]) -> &mut Self {
+        let bytes = self.field(number, 9);
+        list(bytes, values.len(), 8);
+        for value in values {
+            binary(bytes, value);
+        }
+        self
+    }
+
+    fn shorts(&mut self, number: u8, values: &[usize]) -> &mut Self {
+        let bytes = self.field(number, 9);
+        list(bytes, values.len(), 5);
+        for value in values {
+            zigzag(bytes, *value);
+        }
+        self
+    }
+
+    fn end(mut self) -> Vec<u8> {
+        self.bytes.push(0);
+        self.bytes
+    }
+}
+
+fn list(bytes: &mut Vec<u8>, count: usize, kind: u8) {
+    if count < 15 {
+        bytes.push(((count as u8) << 4) | kind);
+    } else {
+        bytes.push(0xf0 | kind);
+        unsigned(bytes, count as u64);
+    }
+}
+
+fn binary(bytes: &mut Vec<u8>, text: &str) {
+    unsigned(bytes, text.len() as u64);
+    bytes.extend(text.as_bytes());
+}
+
+/// A number as the protocol has those with a sign: twice as large. There are no negative ones here.
+fn zigzag(bytes: &mut Vec<u8>, value: usize) {
+    unsigned(bytes, (value as u64) << 1);
+}
+
+fn unsigned(bytes: &mut Vec<u8>, mut value: u64) {
+    while value >= 0x80 {
+        bytes.push((value as u8 & 0x7f) | 0x80);
+        value >>= 7;
+    }
+    bytes.push(value as u8);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_as_short_as_the_protocol_has_them() {
+        let of = |value| {
+            let mut bytes = Vec::new();
+            zigzag(&mut bytes, value);
+            bytes
+        };
+        assert_eq!([of(0), of(1), of(63)], [[0], [2], [126]]);
+        assert_eq!(of(64), [0x80, 1]);
+        assert_eq!(of(1 << 40).len(), 6);
+    }
+
+    /// The bytes of a small file: page, metadata, length, magic words.
+    #[test]
+    fn a_file_has_pages_and_metadata_where_it_says() {
+        let columns = [("a".to_owned(), Values::Numbers(vec![1.5, -2.0]))];
+        let file = parquet(&columns, &[("unit", "m".to_owned())]).unwrap();
+        assert!(file.starts_with(MAGIC) && file.ends_with(MAGIC));
+        let length = u32::from_le_bytes(file[file.len() - 8..file.len() - 4].try_into().unwrap()) as usize;
+        let metadata = &file[file.len() - 8 - length..file.len() - 8];
+        // Version 1, then a list of two schema elements.
+        assert_eq!(metadata[..4], [0x15, 2, 0x19, 0x2c]);
+        assert_eq!(metadata[length - 1], 0);
+        let values: Vec<u8> = [1.5_f64, -2.0].iter().flat_map(|value| value.to_le_bytes()).collect();
+        let place = file.windows(16).position(|part| part == values).unwrap();
+        // The page's header ends with two zeros: of the data page's and of its own.
+        assert_eq!(file[place - 2..place], [0, 0]);
+        assert_eq!(place + 16, file.len() - 8 - length);
+    }
+
+    #[test]
+    fn long_tables_have_several_groups() {
+        let rows = GROUP + 3;
+        let columns = [
+            ("k".to_owned(), Values::Whole(vec![7; rows])),
+            ("t".to_owned(), Values::Texts(vec!["ä".to_owned(); rows])),
+        ];
+        let file = parquet(&columns, &[]).unwrap();
+        assert!(file.len() > rows * 14);
+        let empty = parquet(&[("k".to_owned(), Values::Whole(Vec::new()))], &[]).unwrap();
+        assert!(empty.ends_with(MAGIC));
+    }
+}
