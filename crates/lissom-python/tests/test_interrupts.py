@@ -1,0 +1,65 @@
+"""Ctrl-C ends whatever takes long, with a KeyboardInterrupt, and leaves the package usable."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import time
+
+import pytest
+
+from conftest import PENDULUM
+from test_analyses import COLUMN, TRUSS
+
+#: What is called, and the model it is called on: far longer than anybody waits.
+LONG = {
+    "run": ("model.run()", PENDULUM, '{"analysis.end": 1e6}'),
+    "step_to": ("model.simulation().step_to(1e9)", PENDULUM, "{}"),
+    "statics": (
+        "model.run()",
+        COLUMN,
+        '{"analysis": {"kind": "statics", "end": 1, "steps": 1000000}}',
+    ),
+    "path": ("model.path(end=1e9, step=1e-3, steps=10**6)", TRUSS, "{}"),
+    "gradient": ('model.gradient("bob.x", ["point_masses.bob.mass"])', PENDULUM, '{"analysis.end": 1e5}'),
+    "response": ('model.response("loads.side", "tip.u3", 1e-3, 1e3, 10**8)', COLUMN, "{}"),
+    "campbell": ('model.campbell("parameters.load", 1, 20, 10**8, count=2)', COLUMN, "{}"),
+    "modes": ("model.modes(400)", COLUMN, '{"beams.bar.elements": 20000}'),
+    "buckling": ("model.buckling(100)", COLUMN, '{"beams.bar.elements": 20000}'),
+    "linearize": ("model.linearize()", COLUMN, '{"beams.bar.elements": 20000}'),
+    "assembly": ("model.simulation()", COLUMN, '{"beams.bar.elements": 20000}'),
+    "sweep": (
+        'lissom.sweep(model, {"point_masses.bob.mass": {"from": 1, "to": 2}}, collect=["max(bob.x)"], sampling="monte-carlo", '
+        "members=10**6)",
+        PENDULUM,
+        "{}",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", LONG)
+def test_ctrl_c_ends_it(name: str) -> None:
+    call, model, changes = LONG[name]
+    load = "load" if model == PENDULUM else "loads"
+    code = f"""
+import lissom, time, warnings
+warnings.simplefilter("ignore")
+model = lissom.{load}({model!r}, **{changes})
+print("begun", flush=True)
+try:
+    {call}
+    print("ended", flush=True)
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+print(len(lissom.load({PENDULUM!r}, **{{"analysis.end": 0.1}}).run().time), flush=True)
+"""
+    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    assert child.stdout is not None and child.stdout.readline() == "begun\n"
+    time.sleep(0.3)
+    child.send_signal(signal.SIGINT)
+    began = time.monotonic()
+    output, errors = child.communicate(timeout=60)
+    assert output == "interrupted\n11\n" and child.returncode == 0, errors
+    # The interpreter is asked every 50 ms; the rest is the run after it.
+    assert time.monotonic() - began < 10
