@@ -2,31 +2,35 @@
 
 use std::path::PathBuf;
 
-use clap::Args;
 use clap::builder::PossibleValuesParser;
-use lissom::ResultFolder;
+use clap::{Args, ValueEnum};
 use lissom::export::{ExportError, FORMATS, Format};
+use lissom::import::{from_model, to_urdf};
+use lissom::{Model, Override, ResultFolder};
 use lissom_model::files;
 
 use super::{Exit, Failure};
 use crate::terminal;
 
-/// Hand results to other programs: ParaView, Blender, NumPy.
+/// Hand results to other programs: ParaView, Blender, NumPy, pandas; or a model of rigid bodies, as URDF.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
   lissom export out/turbine --format vtk       out/turbine/vtk/motion.pvd, for ParaView
   lissom export out/turbine --format gltf      out/turbine/motion.glb, an animation
   lissom export out/turbine --format npz       out/turbine/results.npz, for NumPy
+  lissom export out/turbine --format parquet   out/turbine/history.parquet, for pandas
+  lissom export arm.toml --format urdf         arm.urdf, a description of the robot
 
-Exit code: 0 all is done; 2 a folder without a run and its motion; 3 a file that cannot be written.")]
+Exit code: 0 all is done; 2 a folder without a run and its motion, or a model that the format cannot say; 3 a file that cannot be
+written.")]
 pub(super) struct Export {
-    /// A folder of results.
+    /// A folder of results; for urdf a model file.
     #[arg(value_name = "RESULT")]
     folder: PathBuf,
 
     /// The format.
-    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(FORMATS.iter().map(|format| format.name)))]
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(FORMATS.iter().map(|format| format.name).chain([URDF])))]
     format: String,
 
     /// Where it goes: a file, of vtk a folder [default: in the folder of results].
@@ -36,10 +40,30 @@ pub(super) struct Export {
     /// At most so many frames of the motion, at equal distances.
     #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u64).range(1..))]
     frames: u64,
+
+    /// Of urdf: put another value into the model, as `bodies.arm.mass=2`; may be repeated.
+    #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
+    set: Vec<Override>,
+
+    /// Of urdf: leave out what acts on the bodies and the format cannot say, as loads and springs.
+    #[arg(long, value_name = "WHAT")]
+    without: Option<Without>,
 }
+
+/// What may be left out.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+enum Without {
+    Unsupported,
+}
+
+/// The format of models.
+const URDF: &str = "urdf";
 
 impl Export {
     pub(super) fn run(self) -> Result<Exit, Failure> {
+        if self.format == URDF {
+            return self.describe();
+        }
         let format: &Format = FORMATS
             .iter()
             .find(|format| format.name == self.format)
@@ -64,6 +88,38 @@ impl Export {
             error => Failure::new(Exit::Failed, error),
         })?;
         terminal::print(&format!("{}\n", last.display()));
+        Ok(Exit::Done)
+    }
+
+    /// Writes a model as the description of a robot.
+    fn describe(self) -> Result<Exit, Failure> {
+        let model = Model::read(&self.folder).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let document = model.document(&self.set)?;
+        let refused = |words: String| {
+            Failure::new(Exit::BadModel, format!("`{}` as URDF: {words}", self.folder.display()))
+        };
+        let found = from_model(&document).map_err(|error| refused(error.to_string()))?;
+        let robot = &found.robot;
+        if self.without.is_none() && !robot.unsupported.is_empty() {
+            return Err(refused(format!(
+                "the robot would move otherwise than the model, for the format cannot say: {}; `--without unsupported` leaves this out",
+                robot.unsupported.join("; ")
+            )));
+        }
+        let stem = self.folder.file_stem().unwrap_or_default();
+        let out = self.out.clone().unwrap_or_else(|| PathBuf::from(stem).with_extension(URDF));
+        files::write(&out, to_urdf(robot).as_bytes()).map_err(|error| Failure::file(Exit::Failed, &error))?;
+        let mut text = format!("{}\n", out.display());
+        for what in robot.left_out.iter().chain(&robot.unsupported) {
+            text.extend(["  left out: ", what, "\n"]);
+        }
+        if !found.values.is_empty() {
+            let values = found.values.iter().map(|(name, value)| format!(" --position {name}={value:?}"));
+            text.push_str("  the model starts at values of joints other than zero: lissom import");
+            text.extend(values);
+            text.push('\n');
+        }
+        terminal::print(&text);
         Ok(Exit::Done)
     }
 }

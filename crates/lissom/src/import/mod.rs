@@ -1,10 +1,13 @@
-//! Models from files of other programs: read into a [`Robot`], written as a text of the model file that a person can go on
-//! with. A new format is one file that makes a [`Robot`], and a branch in [`from_description`].
+//! Models from files of other programs, and back: read into a [`Robot`], written as a text of the model file that a person can go
+//! on with. A new format is one file that makes a [`Robot`], and a branch in [`from_description`]. [`from_model`] makes a [`Robot`]
+//! of a model, which [`to_urdf`] writes.
 
 mod chains;
+mod from_model;
 mod joint_text;
 mod mjcf;
 mod model_text;
+mod to_urdf;
 mod urdf;
 mod xml;
 
@@ -12,8 +15,10 @@ use std::collections::BTreeMap;
 
 use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
 
+pub use from_model::{ModelRobot, from_model};
 pub use mjcf::from_mjcf;
 pub use model_text::{Options, Root, Unsupported, model_text};
+pub use to_urdf::to_urdf;
 pub use urdf::from_urdf;
 
 /// Reads a robot from a URDF or MJCF text: the root of the text tells which it is.

@@ -87,6 +87,54 @@ fn an_imported_robot_of_mujoco_runs_as_it_is() {
     assert!(told.output.contains("left out: the tendon `rope`"), "{}", told.output);
 }
 
+/// A model as URDF, and the model that comes back of it.
+#[test]
+fn a_model_goes_to_urdf_and_back() {
+    let folder = Folder::new("export-urdf");
+    folder.write("arm.urdf", include_str!("../machines/robots/two_links.urdf"));
+    assert_eq!(lissom(&["import", "arm.urdf", "--position", "elbow=0.5"], folder.path()).code, 0);
+    let made = lissom(&["export", "arm.toml", "--format", "urdf", "--out", "again.urdf"], folder.path());
+    assert_eq!((made.code, made.errors.as_str()), (0, ""));
+    for words in [
+        "again.urdf",
+        "left out: 3 outputs",
+        "left out: stiffness and losses of the stops",
+        "--position elbow=0.5",
+    ] {
+        assert!(made.output.contains(words), "{}", made.output);
+    }
+    let back = lissom(&["import", "again.urdf", "--position", "elbow=0.5"], folder.path());
+    assert_eq!(back.code, 0, "{}", back.errors);
+    let tables = ["arm", "again"].map(|name| {
+        let file = format!("{name}.toml");
+        let run =
+            lissom(&["run", &file, "--no-plots", "--quiet", "--set", "analysis.end=0.05"], folder.path());
+        assert_eq!(run.code, 0, "{}", run.errors);
+        let table = fs::read_to_string(folder.path().join(format!("out/{name}/history.csv"))).unwrap();
+        lissom::Record::from_csv(&table).unwrap()
+    });
+    for joint in ["shoulder", "elbow"] {
+        let [here, there] =
+            tables.each_ref().map(|table| *table.column(joint, "angle").unwrap().last().unwrap());
+        assert!((here - there).abs() < 1e-11, "{joint}: {here} {there}");
+    }
+    let text = fs::read_to_string(folder.path().join("arm.toml")).unwrap();
+    folder.write(
+        "spring.toml",
+        &format!("{text}\n[springs.s]\nkind = \"torsional\"\njoint = \"elbow\"\nstiffness = 1\n"),
+    );
+    let refused = lissom(&["export", "spring.toml", "--format", "urdf"], folder.path());
+    assert_eq!(refused.code, 2);
+    assert!(
+        refused.errors.contains("the spring `s`") && !folder.path().join("spring.urdf").exists(),
+        "{}",
+        refused.errors
+    );
+    let told =
+        lissom(&["export", "spring.toml", "--format", "urdf", "--without", "unsupported"], folder.path());
+    assert!(told.code == 0 && told.output.contains("left out: the spring `s`"), "{}", told.output);
+}
+
 #[test]
 fn what_is_there_is_not_overwritten() {
     let folder = Folder::new("new-there");

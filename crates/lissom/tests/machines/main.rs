@@ -8,3 +8,4 @@ mod prescribed_motion;
 mod rolling;
 #[path = "../support/runs.rs"]
 mod runs;
+mod to_urdf;

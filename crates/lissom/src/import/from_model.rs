@@ -1,0 +1,304 @@
+//! A model of rigid bodies as the description of a robot, where it can be one.
+
+use lissom_model::Document;
+use lissom_model::document::{Attachment, Body, Component, NodeReference};
+use lissom_model::lower::lower;
+use lissom_motion::{Motion, Rotation, Vector3};
+
+use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint};
+
+/// Gravity that a description does not have to tell [m/s²].
+const GRAVITY: Vector3 = Vector3::new(0.0, 0.0, -9.81);
+
+/// A robot and where its joints are at the start of the model.
+#[derive(Clone, Debug)]
+pub struct ModelRobot {
+    /// The robot, its frames at zero values of all joints.
+    pub robot: Robot,
+    /// Names of joints and their values at the start [rad, m], where these are not zero.
+    pub values: Vec<(String, f64)>,
+}
+
+/// The robot that a model describes: a tree of rigid bodies from the ground, or from one body that moves freely. Links have the
+/// axes of their bodies, and their origins in the joints that carry them.
+///
+/// What has no place in a description and acts on the bodies (loads, springs, drives, another gravity) is in
+/// [`Robot::unsupported`].
+///
+/// # Errors
+/// If the model is no tree of rigid bodies with revolute, prismatic and clamped joints, and which part is the first that is not.
+pub fn from_model(document: &Document) -> Result<ModelRobot, ImportError> {
+    refuse_parts(document)?;
+    let mut robot = Robot {
+        name: document.title.clone().unwrap_or_else(|| "robot".to_owned()),
+        gravity: document.gravity,
+        links: Vec::new(),
+        is_root_the_world: false,
+        joints: Vec::new(),
+        left_out: Vec::new(),
+        unsupported: Vec::new(),
+    };
+    let lowered = lower(document).map_err(|report| ImportError::new(report.to_string()))?;
+    let frame_of = |body: &Body| {
+        let node = lowered.names.nodes.get(&body.name.value);
+        node.map(|&node| lowered.state.kinematics.nodes[node].frame)
+    };
+    let mut tree = Tree { placed: vec![None; document.bodies.len()], frames: Vec::new(), values: Vec::new() };
+
+    // The root: the ground where anything is joined to it, or else the one body that nothing carries.
+    let links: Vec<&Component> = document
+        .joints
+        .iter()
+        .filter(|joint| matches!(joint.attachment, Attachment::TwoNodes { .. }))
+        .collect();
+    let is_on_ground = links.iter().any(|joint| ends(joint).contains(&&NodeReference::Ground));
+    if is_on_ground || document.bodies.is_empty() {
+        robot.links.push(Link { name: "world".to_owned(), inertia: None });
+        tree.frames.push(Motion::identity());
+    } else {
+        let body = &document.bodies[0];
+        let frame = frame_of(body).ok_or_else(|| unknown(&body.name.value))?;
+        robot.links.push(link(body, &Motion::identity()));
+        tree.frames.push(frame);
+        tree.placed[0] = Some(0);
+        // A description has no place for its root.
+        if frame.position.norm() > 0.0 || frame.rotation.logarithm().norm() > 0.0 {
+            robot.left_out.push(format!("the place of body `{}` at the start", body.name.value));
+        }
+    }
+    let mut rest: Vec<&Component> = links;
+    while !rest.is_empty() {
+        let reached = |node: &NodeReference| match node {
+            NodeReference::Ground => is_on_ground.then_some(0),
+            NodeReference::Body(name) => {
+                let index = document.bodies.iter().position(|body| body.name.value == *name)?;
+                tree.placed[index]
+            }
+            _ => None,
+        };
+        let next = rest.iter().position(|joint| ends(joint).into_iter().any(|node| reached(node).is_some()));
+        let Some(next) = next else {
+            let names: Vec<&str> = rest.iter().map(|joint| joint.name.value.as_str()).collect();
+            let message =
+                format!("the joints {} hang on no root: a description has only one", names.join(", "));
+            return Err(ImportError::new(message));
+        };
+        let joint = rest.remove(next);
+        let [base, tip] = ends(joint);
+        let (carrier, carried, is_turned) = match (reached(base), reached(tip)) {
+            (Some(_), Some(_)) => {
+                let message =
+                    format!("joint `{}` closes a loop, and a description is a tree", joint.name.value);
+                return Err(ImportError::new(message));
+            }
+            (Some(carrier), None) => (carrier, tip, false),
+            (None, Some(carrier)) => (carrier, base, true),
+            (None, None) => continue,
+        };
+        let NodeReference::Body(name) = carried else { continue };
+        let index = document.bodies.iter().position(|body| body.name.value == *name);
+        let index = index.ok_or_else(|| unknown(name))?;
+        let body = &document.bodies[index];
+        let frame = frame_of(body).ok_or_else(|| unknown(name))?;
+        tree.placed[index] = Some(robot.links.len());
+        tree.add(&mut robot, joint, (body, &frame), (carrier, is_turned))?;
+    }
+    if let Some(index) = tree.placed.iter().position(Option::is_none) {
+        let name = &document.bodies[index].name.value;
+        let message =
+            format!("body `{name}` hangs on nothing: in a description only the root can move freely");
+        return Err(ImportError::new(message));
+    }
+    couplings(document, &tree, &mut robot)?;
+    for spring in &document.springs {
+        resistance(spring, &mut robot);
+    }
+    tell_the_rest(document, &mut robot);
+    let values = tree.values.into_iter().filter(|(_, value)| *value != 0.0).collect();
+    Ok(ModelRobot { robot, values })
+}
+
+fn unknown(name: &str) -> ImportError {
+    ImportError::new(format!("body `{name}` has no node"))
+}
+
+/// Base and tip of a joint between nodes.
+fn ends(joint: &Component) -> [&NodeReference; 2] {
+    match &joint.attachment {
+        Attachment::TwoNodes { base, tip, .. } => [&base.value, &tip.value],
+        _ => [&NodeReference::Ground, &NodeReference::Ground],
+    }
+}
+
+/// Refuses models with parts that are no rigid bodies.
+fn refuse_parts(document: &Document) -> Result<(), ImportError> {
+    let beam = document.beams.first().map(|beam| format!("beam `{}` is flexible", beam.name.value));
+    let mass = document.point_masses.first();
+    let mass = mass.map(|mass| format!("point mass `{}` has no axes: make it a body", mass.name.value));
+    let assembled = document
+        .assembly
+        .as_ref()
+        .map(|_| "its parts are placed by [assembly]: write the places found".to_owned());
+    match beam.or(mass).or(assembled) {
+        Some(words) => Err(ImportError::new(format!("the model has what a description cannot say: {words}"))),
+        None => Ok(()),
+    }
+}
+
+/// The link of a body whose frame lies at `offset` in the link's.
+fn link(body: &Body, offset: &Motion) -> Link {
+    let turn = offset.rotation.matrix();
+    let inertia = turn * body.inertia * turn.transpose();
+    let centre = offset.transform_point(&body.center_of_mass);
+    Link { name: body.name.value.clone(), inertia: Some(LinkInertia { mass: body.mass, centre, inertia }) }
+}
+
+struct Tree {
+    /// Link of each body, once it is placed.
+    placed: Vec<Option<usize>>,
+    /// Frames of the links at the start.
+    frames: Vec<Motion>,
+    /// Value of each joint at the start.
+    values: Vec<(String, f64)>,
+}
+
+impl Tree {
+    /// Adds a joint from link `carrier` and the body that it carries, whose frame is at `frame`. A joint that `is_turned` has the
+    /// carrier on its tip.
+    fn add(
+        &mut self,
+        robot: &mut Robot,
+        joint: &Component,
+        (body, frame): (&Body, &Motion),
+        (carrier, is_turned): (usize, bool),
+    ) -> Result<(), ImportError> {
+        let name = &joint.name.value;
+        let Attachment::TwoNodes { at, axis, .. } = &joint.attachment else { return Ok(()) };
+        let (freedom, key) = match joint.kind.value.as_str() {
+            "revolute" => (Freedom::Rotation, "angle"),
+            "prismatic" => (Freedom::Displacement, "displacement"),
+            "clamp" | "rigid_link" => (Freedom::Fixed, ""),
+            other => {
+                let message = format!(
+                    "joint `{name}` is of kind `{other}`: a description knows revolute, prismatic and clamped joints"
+                );
+                return Err(ImportError::new(message));
+            }
+        };
+        if joint.on_tip.is_some() {
+            return Err(ImportError::new(format!(
+                "joint `{name}` is closed by [assembly]: write the places found"
+            )));
+        }
+        let value =
+            joint.parameters.number_or(key, 0.0).map_err(|error| ImportError::new(error.to_string()))?;
+        // The link has its origin in the joint.
+        let link_frame = Motion::new(frame.rotation, *at);
+        let along = axis.as_ref().map_or_else(Vector3::z, |axis| axis.value.normalize());
+        let own = frame.rotation.apply_inverse(&along) * if is_turned { -1.0 } else { 1.0 };
+        let step = match freedom {
+            Freedom::Rotation => Motion::new(Rotation::about_axis(&own, value), Vector3::zeros()),
+            Freedom::Displacement => Motion::translation(value * own),
+            _ => Motion::identity(),
+        };
+        let origin = link_frame.relative_to(&self.frames[carrier]) * step.inverse();
+        let child = robot.links.len();
+        robot.links.push(link(body, &frame.relative_to(&link_frame)));
+        self.frames.push(link_frame);
+        self.values.push((name.clone(), value));
+        let mut of = RobotJoint::new(name.clone(), freedom, carrier, child, origin);
+        of.axis = own;
+        if let Some(friction) = &joint.friction {
+            let given = |key: &str| friction.value.number_or(key, 0.0).unwrap_or(f64::NAN);
+            of.friction = given("coulomb");
+            of.damping = given("viscous");
+            if ["static", "breakaway", "stribeck"].iter().any(|key| friction.value.has(key)) {
+                robot.unsupported.push(format!("friction at rest of joint `{name}`"));
+            }
+        }
+        robot.joints.push(of);
+        Ok(())
+    }
+}
+
+/// Joints between coordinates: gears become followers.
+fn couplings(document: &Document, tree: &Tree, robot: &mut Robot) -> Result<(), ImportError> {
+    let value =
+        |name: &str| tree.values.iter().find(|(known, _)| known == name).map_or(0.0, |(_, value)| *value);
+    for joint in &document.joints {
+        let name = &joint.name.value;
+        match (&joint.attachment, joint.kind.value.as_str()) {
+            (Attachment::TwoNodes { .. }, _) => {}
+            (Attachment::JointCoordinates { joint: leader, other }, "gear") => {
+                let ratio =
+                    joint.parameters.number("ratio").map_err(|error| ImportError::new(error.to_string()))?;
+                let offset = value(&other.value) - ratio * value(&leader.value);
+                let follower = robot.joints.iter_mut().find(|own| own.name == other.value);
+                match follower.filter(|own| own.follows.is_none()) {
+                    Some(own) => own.follows = Some((leader.value.clone(), ratio, offset)),
+                    None => robot.unsupported.push(format!("the gear `{name}`, a second one on one joint")),
+                }
+            }
+            (_, kind) => robot.unsupported.push(format!("`{name}`, of kind `{kind}`")),
+        }
+    }
+    Ok(())
+}
+
+/// Dampers, friction and stops of joints; all else that springs do is told.
+fn resistance(spring: &Component, robot: &mut Robot) {
+    let name = &spring.name.value;
+    let only = |known: &[&str]| spring.parameter_spans.iter().all(|(key, _)| known.contains(&key.as_str()));
+    let number = |key: &str| spring.parameters.number_or(key, 0.0).unwrap_or(f64::NAN);
+    let of_joint = match &spring.attachment {
+        Attachment::JointCoordinate { joint } => robot.joints.iter_mut().find(|own| own.name == joint.value),
+        _ => None,
+    };
+    let unsupported = match (spring.kind.value.as_str(), of_joint) {
+        ("torsional" | "axial", Some(joint)) if only(&["damping", "coordinate"]) => {
+            joint.damping += number("damping");
+            None
+        }
+        ("torsional_friction" | "axial_friction", Some(joint))
+            if only(&["coulomb", "viscous", "deflection", "damping", "coordinate"])
+                && joint.friction == 0.0 =>
+        {
+            joint.friction = number("coulomb");
+            joint.damping += number("viscous");
+            None
+        }
+        ("torsional_stop" | "axial_stop", Some(joint)) if joint.range.is_none() => {
+            match spring.parameters.range("range") {
+                Ok(Some([low, high])) if low.is_finite() && high.is_finite() => {
+                    joint.range = Some([low, high]);
+                    let words = format!("stiffness and losses of the stops `{name}`");
+                    robot.left_out.push(words);
+                    None
+                }
+                _ => Some(format!("the stop `{name}`, which has only one end")),
+            }
+        }
+        (kind, _) => Some(format!("the spring `{name}`, of kind `{kind}`")),
+    };
+    robot.unsupported.extend(unsupported);
+}
+
+/// What acts on the bodies, and what is only looked at.
+fn tell_the_rest(document: &Document, robot: &mut Robot) {
+    if document.gravity != GRAVITY {
+        let [x, y, z] = document.gravity.into();
+        robot.unsupported.push(format!("gravity of ({x}, {y}, {z}) m/s², where (0, 0, -9.81) is understood"));
+    }
+    robot.unsupported.extend(document.loads.iter().map(|load| format!("the load `{}`", load.name.value)));
+    robot.unsupported.extend(document.events.iter().map(|event| format!("the event `{}`", event.name.value)));
+    let moves = |body: &&Body| {
+        let turns = body.angular_velocity.as_ref().is_some_and(|given| given.value != Vector3::zeros());
+        turns || body.velocity.as_ref().is_some_and(|given| given.value != Vector3::zeros())
+    };
+    if document.bodies.iter().any(|body| moves(&body)) || document.initial.is_some() {
+        robot.left_out.push("velocities at the start".to_owned());
+    }
+    if !document.outputs.is_empty() {
+        robot.left_out.push(format!("{} outputs, and the analysis", document.outputs.len()));
+    }
+}
