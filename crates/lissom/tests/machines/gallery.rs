@@ -1,6 +1,6 @@
 //! The models of `docs/gallery.md`, each against a formula.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use crate::runs::{column, last, run};
 
@@ -125,4 +125,107 @@ fn a_mass_on_a_shaking_table_swings_at_both_rates() {
         let swing = (ground * time).sin() - ratio * (own * time).sin();
         close(x - 0.5, amplitude * swing / (1.0 - ratio * ratio), 1e-6, "mass");
     }
+}
+
+/// The errors of both joints decay as e₀ (1 + w t) exp(-w t), whatever the motion.
+#[test]
+fn computed_torque_leaves_the_errors_of_a_linear_equation() {
+    let record = run(model!("computed-torque"), &[]);
+    let w = 8.0_f64;
+    for (joint, miss, amplitude, rate) in [("shoulder", 0.3, 0.6, 3.0_f64), ("elbow", -0.2, -0.9, 4.0)] {
+        for (time, angle) in record.times.iter().zip(column(&record, joint, "angle")) {
+            let wanted = amplitude * (1.0 - (rate * time).cos());
+            close(angle - wanted, miss * (1.0 + w * time) * (-w * time).exp(), 1e-6, joint);
+        }
+    }
+    let torque = column(&record, "torque", "value");
+    assert!(torque.iter().any(|torque| torque.abs() > 20.0), "it has work to do");
+}
+
+/// Equal and parallel wishbones only shift the wheel. At rest the tyre carries all, and with φ the angle of the wishbones, the spring's
+/// force S and its length l(φ): (W - m_w g) a cos φ - (m_l + m_u) g a/2 cos φ = S dl/dφ.
+#[test]
+fn a_suspension_comes_to_rest_on_its_kerb_by_virtual_work() {
+    let record = run(model!("double-wishbone"), &[]);
+    for axis in ["r1", "r2", "r3"] {
+        let turn = column(&record, "wheel_turn", axis);
+        assert!(turn.iter().all(|angle| angle.abs() < 1e-9), "{axis}");
+    }
+    let weight = 442.0 * GRAVITY;
+    close(last(&record, "tyre", "value"), weight, 1e-4 * weight, "load of the tyre");
+    close(last(&record, "wheel", "z"), 0.06 + 0.322 - weight / 2e5, 1e-6, "height of the wheel");
+    let free = 0.12_f64.hypot(0.4) + 6500.0 / 4.5e4;
+    let unbalanced = |angle: f64| {
+        let (sine, cosine) = angle.sin_cos();
+        let (across, upward) = (0.22 * cosine - 0.1, 0.22 * sine - 0.4);
+        let length = across.hypot(upward);
+        let change = 0.22 * (upward * cosine - across * sine) / length;
+        (weight - 35.0 * GRAVITY) * 0.35 * cosine
+            - 7.0 * GRAVITY * 0.175 * cosine
+            - 4.5e4 * (length - free) * change
+    };
+    let (mut low, mut high) = (-0.3, 0.3);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if unbalanced(low) * unbalanced(middle) <= 0.0 {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    close(last(&record, "lower_hinge", "angle"), low, 2e-5, "angle of the wishbones");
+    let stop = column(&record, "bump_stop", "force");
+    let most = stop.iter().fold(0.0_f64, |most, force| most.min(*force));
+    assert!(
+        most < -1000.0 && stop[0] == 0.0 && stop[stop.len() - 1] == 0.0,
+        "the kerb meets the bump stop: {most}"
+    );
+}
+
+/// The middle of a coupler is where circles about the crank's pin and the rocker's pivot meet; its end is as far beyond. More than half
+/// of the legs stand, within a millimetre of their line.
+#[test]
+fn forty_legs_step_as_their_circles_say() {
+    let record = run(model!("walking-linkage"), &[]);
+    let mut standing = vec![0; record.times.len()];
+    for leg in 1..=40 {
+        let [x, z] = ["x", "z"].map(|axis| column(&record, &format!("leg{leg}.middle"), axis));
+        for (row, time) in record.times.iter().enumerate() {
+            let angle = TAU * (f64::from(leg - 1) / 40.0 + time);
+            let pin = [0.1 * angle.cos(), -0.1 * angle.sin()];
+            let (along, upward) = (-0.2 - pin[0], -pin[1]);
+            let apart = along.hypot(upward);
+            let height = (0.25 * 0.25 - 0.25 * apart * apart).sqrt();
+            // The rocker's pivot is on the left of every pin: above is on the right of the way there.
+            let wanted = [
+                pin[0] + 0.5 * along + height * upward / apart,
+                pin[1] + 0.5 * upward - height * along / apart,
+            ];
+            close(x[row], wanted[0], 1e-10, "across");
+            close(z[row], wanted[1], 1e-10, "upward");
+            let end = 2.0 * z[row] - pin[1];
+            assert!(end > 0.4 - 1e-9, "no foot goes below the ground");
+            standing[row] += usize::from((end - 0.4).abs() < 1e-3);
+        }
+    }
+    assert!(standing.iter().all(|count| *count > 20), "{standing:?}");
+}
+
+/// Every bar of the mast has the slope φ: the middle of the topmost is at 99.5 l sin φ. At rest the drive carries dV/dφ with
+/// V = m g l n² sin φ.
+#[test]
+fn a_mast_of_200_members_grows_as_its_scissors_open() {
+    let record = run(model!("deployable-mast"), &[]);
+    let smooth = |x: f64| {
+        let x = x.clamp(0.0, 1.0);
+        x.powi(3) * (10.0 + x * (6.0 * x - 15.0))
+    };
+    let [x, z] = ["x", "z"].map(|axis| column(&record, "top", axis));
+    for (row, time) in record.times.iter().enumerate() {
+        let slope = 0.08 + 0.95 * smooth(time / 4.0);
+        close(x[row], 0.5 * slope.cos(), 1e-8, "across");
+        close(z[row], 99.5 * slope.sin(), 1e-8, "height");
+    }
+    let wanted = 0.5 * GRAVITY * 100.0 * 100.0 * 1.03_f64.cos();
+    close(last(&record, "drive", "moment"), wanted, 1e-6 * wanted, "moment of the drive");
 }
