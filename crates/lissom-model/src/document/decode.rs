@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use lissom_motion::Vector3;
 
-use super::tables::{self, Holds, variants};
+use super::tables::{self, Holds, Variants, variants};
 use super::{
     Document, analysis, assembly, beams, bodies, components, connections, events, initial, materials,
     outputs, signals,
@@ -257,11 +257,10 @@ where
     'a: 'c,
 {
     let mut all = Vec::new();
+    let Some(form) = variants(table, &Registry::default()).all.into_iter().next() else { return all };
     for (name, span, node) in context.entries(table) {
         let words = format!("{} `{name}`", singular(table));
-        let forms = variants(table, &Registry::default());
-        let Some(form) = forms.all.into_iter().next() else { continue };
-        let reader = Reader::open(context, node, (words, span), form.keys);
+        let reader = Reader::open(context, node, (words, span), form.keys.clone());
         all.extend(reader.and_then(|reader| read(&reader, name)));
     }
     all
@@ -278,10 +277,12 @@ where
     'a: 'c,
 {
     let mut all = Vec::new();
+    // All forms of a table are made once for its entries: they take longer than an entry.
+    let forms = variants(table, registry);
     for (name, span, node) in context.entries(table) {
         let words = format!("{} `{name}`", singular(table));
         all.extend(
-            of_kind(context, table, (node, words, span), registry)
+            of_form(context, &forms, (node, words, span))
                 .and_then(|(reader, word)| read(&reader, name, word)),
         );
     }
@@ -295,10 +296,17 @@ pub(super) fn of_kind<'c, 'a>(
     (node, words, span): (&'c Node, String, Span),
     registry: &Registry,
 ) -> Option<(Reader<'c, 'a>, &'static str)> {
-    let forms = variants(table, registry);
-    let tag = forms.tag?;
-    let chosen = crate::reader::tag(context, node, tag, &forms.words(), (&words, span))?;
-    let form = forms.all.into_iter().find(|form| form.word == chosen.value)?;
-    let reader = Reader::open(context, node, (words, span), form.keys)?;
+    of_form(context, &variants(table, registry), (node, words, span))
+}
+
+/// Opens a table that has one of `forms`.
+fn of_form<'c, 'a>(
+    context: &'c Context<'a>,
+    forms: &Variants,
+    (node, words, span): (&'c Node, String, Span),
+) -> Option<(Reader<'c, 'a>, &'static str)> {
+    let chosen = crate::reader::tag(context, node, forms.tag?, &forms.words(), (&words, span))?;
+    let form = forms.all.iter().find(|form| form.word == chosen.value)?;
+    let reader = Reader::open(context, node, (words, span), form.keys.clone())?;
     Some((reader, form.word))
 }

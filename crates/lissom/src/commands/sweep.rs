@@ -259,9 +259,11 @@ fn told(
         let (whole, simulating) = (seconds * workers.get() as f64, simulating(outcomes));
         let _ = writeln!(
             text,
-            "  time        {seconds:.3} s on {workers} workers; of a worker {:.3} ms per member, {:.3} ms of it simulation",
+            "  time        {seconds:.3} s on {workers} workers; of a worker {:.3} ms per member, {:.3} ms of it simulation and {:.3} ms \
+             beyond it",
             per_member(whole),
-            per_member(simulating)
+            per_member(simulating),
+            per_member(whole - simulating)
         );
     }
     let _ = writeln!(text, "  table       {}", table.display());
