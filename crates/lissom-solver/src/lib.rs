@@ -31,7 +31,6 @@ mod extended;
 mod multifrontal;
 mod ordering;
 mod pattern;
-#[cfg(feature = "pivoting")]
 mod pivoting;
 mod refinement;
 mod report;
@@ -49,7 +48,6 @@ pub use extended::Extended;
 pub use multifrontal::{Multifrontal, Symmetric};
 pub use ordering::{minimum_degree_order, profile_order};
 pub use pattern::Pattern;
-#[cfg(feature = "pivoting")]
 pub use pivoting::Pivoting;
 pub use refinement::{Refined, refined_solution};
 pub use report::{FactorError, FactorReport, TINY_PIVOT};

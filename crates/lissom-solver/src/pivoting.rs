@@ -1,18 +1,13 @@
-//! Supernodal sparse LU with partial pivoting, by the crate `faer`: what to fall back on when a matrix does not
-//! bear elimination without pivoting. Ignores groups; orders columns by itself.
+//! Sparse LU with partial pivoting: what to fall back on when a matrix does not bear elimination without pivoting.
 //!
-//! `faer` keeps its pivots to itself, so the report is an estimate from one solve with a random right-hand side.
+//! Columns are eliminated in the order of [`crate::minimum_degree_order`]. Each is solved with the columns of L before it, which
+//! a depth-first search finds (Gilbert and Peierls 1988, SIAM J. Sci. Stat. Comput. 9, 862); its pivot is the entry on the
+//! diagonal where that is at least [`DIAGONAL`] of the largest one, which keeps fill small, and the largest one otherwise.
 
 use std::sync::Arc;
 
-use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
-use faer::sparse::linalg::SupernodalThreshold;
-use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu};
-use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
-use faer::traits::ComplexField;
-use faer::{Conj, MatMut, Par};
-
 use crate::entries::largest_entry;
+use crate::ordering::minimum_degree_order;
 use crate::pattern::Pattern;
 use crate::report::{FactorError, FactorReport, Monitor};
 use crate::scalar::Scalar;
@@ -21,43 +16,142 @@ use crate::structure::Structure;
 
 pub(crate) const NAME: &str = "pivoting";
 
+/// Share of the largest entry of a column from which on the one on the diagonal is its pivot.
+const DIAGONAL: f64 = 0.5;
 /// Backward error of the solve behind the report above which the factors are refused.
 const UNUSABLE: f64 = 1e-6;
+/// A row that no pivot has been taken from, or an unknown without a place.
+const NONE: u32 = u32::MAX;
 
 /// Sparse LU with partial pivoting.
 pub struct Pivoting<S> {
     pattern: Arc<Pattern>,
-    symbolic: SymbolicLu<usize>,
-    numeric: NumericLu<usize, S>,
-    memory: MemBuffer,
+    /// By step, the column that is eliminated.
+    order: Vec<u32>,
+    /// By step, the row of its pivot, and by row the step.
+    rows: Vec<u32>,
+    steps: Vec<u32>,
+    /// Columns of L by steps, without the ones on its diagonal; of rows, and when all are known of steps.
+    lower: Columns<S>,
+    /// Columns of U by steps, without the pivots.
+    upper: Columns<S>,
+    pivots: Vec<S>,
+    search: Search,
+    /// A column at work by rows, a vector at work by steps.
+    work: Vec<S>,
     factored: bool,
     probe: Vec<S>,
     solution: Vec<S>,
     product: Vec<S>,
 }
 
-impl<S: Scalar + ComplexField> Pivoting<S> {
+/// Sparse columns, one after the other.
+struct Columns<S> {
+    starts: Vec<usize>,
+    indices: Vec<u32>,
+    values: Vec<S>,
+}
+
+impl<S: Scalar> Columns<S> {
+    fn new() -> Self {
+        Columns { starts: vec![0], indices: Vec::new(), values: Vec::new() }
+    }
+
+    fn clear(&mut self) {
+        self.starts.truncate(1);
+        self.indices.clear();
+        self.values.clear();
+    }
+
+    fn push(&mut self, index: u32, value: S) {
+        self.indices.push(index);
+        self.values.push(value);
+    }
+
+    fn end_column(&mut self) {
+        self.starts.push(self.indices.len());
+    }
+
+    fn column(&self, step: usize) -> impl DoubleEndedIterator<Item = (usize, S)> {
+        let range = self.starts[step]..self.starts[step + 1];
+        self.indices[range.clone()]
+            .iter()
+            .map(|&index| index as usize)
+            .zip(self.values[range].iter().copied())
+    }
+}
+
+/// The rows that a column fills, found depth first.
+struct Search {
+    /// By row, the last step that has reached it.
+    reached: Vec<u32>,
+    /// Rows under way, with how many of their column's entries have been looked at.
+    path: Vec<(u32, usize)>,
+    /// Steps whose columns of L act on the column, the last first; rows without a pivot.
+    before: Vec<u32>,
+    candidates: Vec<u32>,
+}
+
+impl Search {
+    fn begin(&mut self) {
+        self.before.clear();
+        self.candidates.clear();
+    }
+
+    /// Reaches a row and all rows that follow from it.
+    fn reach<S>(&mut self, row: u32, mark: u32, steps: &[u32], lower: &Columns<S>) {
+        let is_new =
+            |reached: &mut [u32], row: u32| std::mem::replace(&mut reached[row as usize], mark) != mark;
+        if !is_new(&mut self.reached, row) {
+            return;
+        }
+        self.path.push((row, 0));
+        while let Some((row, looked_at)) = self.path.last_mut() {
+            let step = steps[*row as usize];
+            if step == NONE {
+                self.candidates.push(*row);
+                self.path.pop();
+                continue;
+            }
+            let column = &lower.indices[lower.starts[step as usize]..lower.starts[step as usize + 1]];
+            let next = column[*looked_at..].iter().position(|&next| is_new(&mut self.reached, next));
+            if let Some(offset) = next {
+                let next = column[*looked_at + offset];
+                *looked_at += offset + 1;
+                self.path.push((next, 0));
+            } else {
+                self.before.push(step);
+                self.path.pop();
+            }
+        }
+    }
+}
+
+impl<S: Scalar> Pivoting<S> {
     /// Symbolic analysis.
     ///
     /// # Panics
-    /// If memory runs out.
+    /// If [`Structure::check`] refuses the structure.
     pub fn new(structure: &Structure) -> Self {
         let pattern = Arc::clone(&structure.pattern);
         let size = pattern.size();
-        // The choice left to the library takes the column-wise algorithm too often, at up to four times the time.
-        let parameters = LuSymbolicParams {
-            supernodal_flop_ratio_threshold: SupernodalThreshold::FORCE_SUPERNODAL,
-            ..LuSymbolicParams::default()
-        };
-        let symbolic = factorize_symbolic_lu(shape(&pattern), parameters).expect("enough memory");
-        let factor = symbolic.factorize_numeric_lu_scratch::<S>(Par::Seq, faer::Spec::default());
-        let solve = symbolic.solve_in_place_scratch::<S>(1, Par::Seq);
+        let order = structure.unknowns_in_order(&minimum_degree_order(structure));
         // Numbers without a short binary form, of one size, so that every direction is tried.
         let probe = (0..size).map(|unknown| S::from_real((1.0 + unknown as f64).sin() + 2.0)).collect();
         Pivoting {
-            memory: MemBuffer::new(StackReq::or(factor, solve)),
-            symbolic,
-            numeric: NumericLu::new(),
+            order: order.into_iter().map(|unknown| unknown as u32).collect(),
+            rows: vec![NONE; size],
+            steps: vec![NONE; size],
+            lower: Columns::new(),
+            upper: Columns::new(),
+            pivots: Vec::with_capacity(size),
+            search: Search {
+                reached: vec![NONE; size],
+                path: Vec::new(),
+                before: Vec::new(),
+                candidates: Vec::new(),
+            },
+            work: vec![S::zero(); size],
             factored: false,
             probe,
             solution: vec![S::zero(); size],
@@ -66,27 +160,82 @@ impl<S: Scalar + ComplexField> Pivoting<S> {
         }
     }
 
-    fn triangular(&mut self, right_hand_side: &mut [S], transposed: bool) {
-        let size = self.pattern.size();
-        assert_eq!(right_hand_side.len(), size, "one number for each unknown");
-        if !self.factored {
-            return;
+    /// Factors column after column; returns the largest magnitude in U.
+    fn eliminate(&mut self, values: &[S]) -> Result<f64, FactorError> {
+        self.lower.clear();
+        self.upper.clear();
+        self.pivots.clear();
+        self.steps.fill(NONE);
+        self.search.reached.fill(NONE);
+        self.work.fill(S::zero());
+        let mut largest = 0.0_f64;
+        for step in 0..self.order.len() {
+            let column = self.order[step] as usize;
+            self.search.begin();
+            let start = self.pattern.column_starts()[column];
+            for (offset, &row) in self.pattern.column(column).iter().enumerate() {
+                self.work[row] = values[start + offset];
+                self.search.reach(row as u32, step as u32, &self.steps, &self.lower);
+            }
+            for &before in self.search.before.iter().rev() {
+                let value = std::mem::take(&mut self.work[self.rows[before as usize] as usize]);
+                self.upper.push(before, value);
+                largest = largest.max(value.magnitude());
+                if value == S::zero() {
+                    continue;
+                }
+                for (row, factor) in self.lower.column(before as usize) {
+                    self.work[row] -= factor * value;
+                }
+            }
+            self.upper.end_column();
+            largest = largest.max(self.take_pivot(step, column)?);
         }
-        let stack = MemStack::new(&mut self.memory);
-        let factors = LuRef::new_unchecked(&self.symbolic, &self.numeric);
-        let vector = MatMut::from_column_major_slice_mut(right_hand_side, size, 1);
-        if transposed {
-            factors.solve_transpose_in_place_with_conj(Conj::No, vector, Par::Seq, stack);
-        } else {
-            factors.solve_in_place_with_conj(Conj::No, vector, Par::Seq, stack);
+        // From now on L is read by steps.
+        for row in &mut self.lower.indices {
+            *row = self.steps[*row as usize];
         }
+        Ok(largest)
+    }
+
+    /// Chooses the pivot among the rows that are left, and stores the column of L below it. Returns its magnitude.
+    fn take_pivot(&mut self, step: usize, column: usize) -> Result<f64, FactorError> {
+        let (mut largest, mut chosen) = (0.0, NONE);
+        for &row in &self.search.candidates {
+            let magnitude = self.work[row as usize].magnitude();
+            if !magnitude.is_finite() {
+                return Err(FactorError::NotFinite { unknown: column });
+            }
+            // Ties go to the lower row, in whatever order the search has come by.
+            if magnitude > largest || (magnitude == largest && magnitude > 0.0 && row < chosen) {
+                (largest, chosen) = (magnitude, row);
+            }
+        }
+        if chosen == NONE {
+            return Err(FactorError::ZeroPivot { unknown: column, pivot: 0.0, largest });
+        }
+        let diagonal = self.work[column].magnitude();
+        if self.steps[column] == NONE && diagonal > 0.0 && diagonal >= DIAGONAL * largest {
+            chosen = column as u32;
+        }
+        let pivot = std::mem::take(&mut self.work[chosen as usize]);
+        for &row in &self.search.candidates {
+            if row != chosen {
+                self.lower.push(row, std::mem::take(&mut self.work[row as usize]) / pivot);
+            }
+        }
+        self.lower.end_column();
+        self.pivots.push(pivot);
+        self.rows[step] = chosen;
+        self.steps[chosen as usize] = step as u32;
+        Ok(pivot.magnitude())
     }
 
     /// Solves once and looks at the size of the solution and of the residual.
-    fn inspect(&mut self, values: &[S], largest: f64) -> Result<FactorReport, FactorError> {
+    fn inspect(&mut self, values: &[S], largest: f64, growth: f64) -> Result<FactorReport, FactorError> {
         let mut solution = std::mem::take(&mut self.solution);
         solution.copy_from_slice(&self.probe);
-        self.triangular(&mut solution, false);
+        self.solve(&mut solution);
         self.pattern.multiply(values, &solution, &mut self.product);
         let (mut size, mut unknown) = (0.0, 0);
         for (index, value) in solution.iter().enumerate() {
@@ -108,7 +257,7 @@ impl<S: Scalar + ComplexField> Pivoting<S> {
             smallest_pivot: pivot,
             smallest_pivot_unknown: unknown,
             largest_diagonal: largest,
-            growth: f64::NAN,
+            growth,
             worst_cancellation: pivot / largest,
             worst_cancellation_unknown: unknown,
             negative_pivots: None,
@@ -116,12 +265,7 @@ impl<S: Scalar + ComplexField> Pivoting<S> {
     }
 }
 
-fn shape(pattern: &Pattern) -> SymbolicSparseColMatRef<'_, usize> {
-    let size = pattern.size();
-    SymbolicSparseColMatRef::new_checked(size, size, pattern.column_starts(), None, pattern.row_indices())
-}
-
-impl<S: Scalar + ComplexField> LinearSolver<S> for Pivoting<S> {
+impl<S: Scalar> LinearSolver<S> for Pivoting<S> {
     fn name(&self) -> &'static str {
         NAME
     }
@@ -136,28 +280,63 @@ impl<S: Scalar + ComplexField> LinearSolver<S> for Pivoting<S> {
         if largest == 0.0 {
             return Err(FactorError::ZeroPivot { unknown: 0, pivot: 0.0, largest });
         }
-        let matrix = SparseColMatRef::new(shape(&self.pattern), values);
-        let stack = MemStack::new(&mut self.memory);
-        let parameters = faer::Spec::default();
-        let outcome =
-            self.symbolic.factorize_numeric_lu(&mut self.numeric, matrix, Par::Seq, stack, parameters);
-        if outcome.is_err() {
-            return Err(FactorError::ZeroPivot { unknown: 0, pivot: 0.0, largest });
-        }
+        let largest_upper = self.eliminate(values)?;
         self.factored = true;
-        self.inspect(values, largest)
+        let report = self.inspect(values, largest, largest_upper / largest);
+        self.factored = report.is_ok();
+        report
     }
 
     fn solve(&mut self, right_hand_side: &mut [S]) {
-        self.triangular(right_hand_side, false);
+        assert_eq!(right_hand_side.len(), self.pattern.size(), "one number for each unknown");
+        if !self.factored {
+            return;
+        }
+        let x = &mut self.work;
+        for (x, &row) in x.iter_mut().zip(&self.rows) {
+            *x = right_hand_side[row as usize];
+        }
+        for step in 0..x.len() {
+            let known = x[step];
+            for (later, factor) in self.lower.column(step) {
+                x[later] -= factor * known;
+            }
+        }
+        for step in (0..x.len()).rev() {
+            x[step] = x[step] / self.pivots[step];
+            let known = x[step];
+            for (earlier, factor) in self.upper.column(step) {
+                x[earlier] -= factor * known;
+            }
+        }
+        for (x, &column) in x.iter().zip(&self.order) {
+            right_hand_side[column as usize] = *x;
+        }
     }
 
     fn solve_transposed(&mut self, right_hand_side: &mut [S]) {
-        self.triangular(right_hand_side, true);
+        assert_eq!(right_hand_side.len(), self.pattern.size(), "one number for each unknown");
+        if !self.factored {
+            return;
+        }
+        let x = &mut self.work;
+        for (x, &column) in x.iter_mut().zip(&self.order) {
+            *x = right_hand_side[column as usize];
+        }
+        for step in 0..x.len() {
+            let sum =
+                self.upper.column(step).fold(x[step], |sum, (earlier, factor)| sum - factor * x[earlier]);
+            x[step] = sum / self.pivots[step];
+        }
+        for step in (0..x.len()).rev() {
+            x[step] = self.lower.column(step).fold(x[step], |sum, (later, factor)| sum - factor * x[later]);
+        }
+        for (x, &row) in x.iter().zip(&self.rows) {
+            right_hand_side[row as usize] = *x;
+        }
     }
 
-    /// Not told by `faer`: the entries of the matrix, a lower bound.
     fn factor_entries(&self) -> usize {
-        self.pattern.entries()
+        self.lower.values.len() + self.upper.values.len() + self.pivots.len()
     }
 }

@@ -10,7 +10,8 @@ use crate::scalar::Scalar;
 /// good pivot may be 1e-27 of the largest one.
 pub const TINY_PIVOT: f64 = 1e-14;
 
-/// Monitor of a factorisation that went through. The solver `pivoting` does not see its pivots and gives estimates.
+/// Monitor of a factorisation that went through. The solver `pivoting` gives what the size of a
+/// solution tells instead of its pivots, which do not see every near singularity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FactorReport {
     /// Smallest magnitude of a pivot.
@@ -64,7 +65,7 @@ pub enum FactorError {
 
 /// Collects the report while pivots come in.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Monitor {
+pub struct Monitor {
     smallest: (f64, usize),
     largest: f64,
     cancellation: (f64, usize),

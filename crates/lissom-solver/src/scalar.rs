@@ -41,6 +41,7 @@ pub(crate) fn array_mut<S, const COUNT: usize>(slice: &mut [S], at: usize) -> &m
 /// A real or complex number in double precision. Sealed: `f64` and `Complex64` are all there is.
 pub trait Scalar:
     sealed::Arithmetic
+    + crate::multifrontal::Kernels
     + Copy
     + Debug
     + Default

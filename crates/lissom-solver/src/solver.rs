@@ -2,12 +2,10 @@
 
 use num_complex::Complex64;
 
-#[cfg(feature = "pivoting")]
-use crate::pivoting;
 use crate::report::{FactorError, FactorReport};
 use crate::scalar::Scalar;
 use crate::structure::Structure;
-use crate::{dense, multifrontal, skyline};
+use crate::{dense, multifrontal, pivoting, skyline};
 
 /// Factors matrices of one structure, again and again, and solves with the last one factored.
 pub trait LinearSolver<S: Scalar>: Send {
@@ -73,10 +71,9 @@ pub static KINDS: &[SolverKind] = &[
         real: |structure| Box::new(skyline::Skyline::<f64>::new(structure)),
         complex: |structure| Box::new(skyline::Skyline::<Complex64>::new(structure)),
     },
-    #[cfg(feature = "pivoting")]
     SolverKind {
         name: pivoting::NAME,
-        summary: "supernodal LU with partial pivoting: to fall back on, and to compare with",
+        summary: "sparse LU with partial pivoting: to fall back on, and to compare with",
         real: |structure| Box::new(pivoting::Pivoting::<f64>::new(structure)),
         complex: |structure| Box::new(pivoting::Pivoting::<Complex64>::new(structure)),
     },

@@ -76,12 +76,12 @@ impl<'a, S> Share<'a, S> {
 }
 
 impl<S: Scalar> Numeric<S> {
-    pub(super) fn new<const SYMMETRIC: bool>(symbolic: &Symbolic, pattern: &Pattern) -> Self {
+    pub(super) fn new(symbolic: &Symbolic, pattern: &Pattern) -> Self {
         let on_diagonal = |&unknown: &u32| {
             pattern.position(unknown as usize, unknown as usize).map_or(NONE, |at| at as u32)
         };
         let steps = symbolic.unknowns.len();
-        let of_symmetric = |length| vec![S::zero(); if SYMMETRIC { length } else { 0 }];
+        let of_symmetric = |length| vec![S::zero(); if symbolic.is_symmetric { length } else { 0 }];
         let bench = |part: &Part| Bench {
             stacks: part.stack_lengths.map(|length| vec![S::zero(); length]),
             square: SquareWork::new(part.largest_pivots),
@@ -112,7 +112,7 @@ impl<S: Scalar> Numeric<S> {
     }
 
     /// Factors the top, when all subtrees are done; returns the monitor and the largest magnitude in U.
-    pub(super) fn factor_top<const SYMMETRIC: bool>(
+    pub(super) fn factor_top(
         &mut self,
         processor: pulp::Arch,
         symbolic: &Symbolic,
@@ -134,13 +134,12 @@ impl<S: Scalar> Numeric<S> {
         let work = Work {
             part: top,
             factors: &mut self.factors[top.factors.clone()],
-            pivots: if SYMMETRIC { &mut self.pivots[top.steps.clone()] } else { &mut [] },
+            pivots: if symbolic.is_symmetric { &mut self.pivots[top.steps.clone()] } else { &mut [] },
             terms,
             bench: &mut benches[0],
             below,
         };
-        let (of_top, largest_of_top) =
-            processor.dispatch(FactorPart::<S, SYMMETRIC> { symbolic, values, work })?;
+        let (of_top, largest_of_top) = S::factor_part(processor, FactorPart { symbolic, values, work })?;
         monitor.join(&of_top);
         Ok((monitor, f64::max(largest, largest_of_top)))
     }
@@ -155,13 +154,7 @@ fn begin_terms<S: Scalar>(terms: &mut [f64], diagonal: &[u32], values: &[S]) {
 
 impl<S: Scalar> Share<'_, S> {
     /// Factors subtrees, one after the other; the benches keep the outcomes.
-    pub(super) fn factor<const SYMMETRIC: bool>(
-        self,
-        processor: pulp::Arch,
-        symbolic: &Symbolic,
-        values: &[S],
-        diagonal: &[u32],
-    ) {
+    pub(super) fn factor(self, processor: pulp::Arch, symbolic: &Symbolic, values: &[S], diagonal: &[u32]) {
         let mut rest = self;
         while let Some(part) = rest.parts.first() {
             let own;
@@ -169,20 +162,20 @@ impl<S: Scalar> Share<'_, S> {
             let Share { factors, pivots, terms, benches, .. } = own;
             begin_terms(terms, &diagonal[part.steps.clone()], values);
             let work = Work { part, factors, pivots, terms, bench: &mut benches[0], below: &[] };
-            let outcome = processor.dispatch(FactorPart::<S, SYMMETRIC> { symbolic, values, work });
+            let outcome = S::factor_part(processor, FactorPart { symbolic, values, work });
             benches[0].outcome = outcome;
         }
     }
 }
 
 /// A part, by LU or LDLᵀ; gives the monitor and the largest magnitude in U.
-struct FactorPart<'a, S, const SYMMETRIC: bool> {
+pub struct FactorPart<'a, S> {
     symbolic: &'a Symbolic,
     values: &'a [S],
     work: Work<'a, S>,
 }
 
-impl<S: Scalar, const SYMMETRIC: bool> pulp::WithSimd for FactorPart<'_, S, SYMMETRIC> {
+impl<S: Scalar> pulp::WithSimd for FactorPart<'_, S> {
     type Output = Result<(Monitor, f64), FactorError>;
 
     #[inline(always)]
@@ -191,13 +184,13 @@ impl<S: Scalar, const SYMMETRIC: bool> pulp::WithSimd for FactorPart<'_, S, SYMM
         // Two vectors of rows, of real or of complex numbers summed twice: twelve sums for six columns. With four
         // lanes or more the processor multiplies and adds in one instruction.
         if V::F64_LANES == 8 && !S::COMPLEX {
-            work.factor::<V, true, 16, SYMMETRIC>(simd, symbolic, values)
+            work.factor::<V, true, 16>(simd, symbolic, values)
         } else if V::F64_LANES == 4 && !S::COMPLEX {
-            work.factor::<V, true, 8, SYMMETRIC>(simd, symbolic, values)
+            work.factor::<V, true, 8>(simd, symbolic, values)
         } else if V::F64_LANES >= 4 {
-            work.factor::<V, true, 4, SYMMETRIC>(simd, symbolic, values)
+            work.factor::<V, true, 4>(simd, symbolic, values)
         } else {
-            work.factor::<V, false, 4, SYMMETRIC>(simd, symbolic, values)
+            work.factor::<V, false, 4>(simd, symbolic, values)
         }
     }
 }
@@ -215,7 +208,7 @@ struct Work<'a, S> {
 impl<S: Scalar> Work<'_, S> {
     /// Factors; returns the monitor and the largest magnitude in U.
     #[inline(always)]
-    fn factor<V: pulp::Simd, const FUSED: bool, const ROWS: usize, const SYMMETRIC: bool>(
+    fn factor<V: pulp::Simd, const FUSED: bool, const ROWS: usize>(
         &mut self,
         simd: V,
         symbolic: &Symbolic,
@@ -225,10 +218,10 @@ impl<S: Scalar> Work<'_, S> {
         let mut largest = 0.0_f64;
         for front in &symbolic.fronts[self.part.fronts.clone()] {
             let of_front = if front.is_small() {
-                self.factor_small::<V, SYMMETRIC>(simd, (symbolic, front), values, &mut monitor)?
+                self.factor_small::<V>(simd, (symbolic, front), values, &mut monitor)?
             } else {
-                self.assemble::<SYMMETRIC>(symbolic, front, values);
-                self.eliminate::<FUSED, ROWS, SYMMETRIC>(symbolic, front, &mut monitor)?
+                self.assemble(symbolic, front, values);
+                self.eliminate::<FUSED, ROWS>(symbolic, front, &mut monitor)?
             };
             largest = if of_front > largest { of_front } else { largest };
         }
@@ -244,7 +237,7 @@ impl<S: Scalar> Work<'_, S> {
 
     /// A small front, from its assembly to its contribution.
     #[inline(always)]
-    fn factor_small<V: pulp::Simd, const SYMMETRIC: bool>(
+    fn factor_small<V: pulp::Simd>(
         &mut self,
         simd: V,
         (symbolic, front): (&Symbolic, &Front),
@@ -266,7 +259,7 @@ impl<S: Scalar> Work<'_, S> {
             let of_child = &stack[child.contribution.clone()];
             let to_pivots = &symbolic.runs[child.to_pivots.clone()];
             let to_boundary = &symbolic.runs[child.to_boundary.clone()];
-            if SYMMETRIC {
+            if symbolic.is_symmetric {
                 let (of_pivots, of_boundary) = matrix.split_at_mut(pivots * stride);
                 add_lower(of_pivots, stride, of_child, child, to_pivots);
                 add_columns(&mut of_pivots[pivots..], stride, of_child, child, to_boundary, to_pivots);
@@ -275,7 +268,7 @@ impl<S: Scalar> Work<'_, S> {
                 add_all(matrix, stride, of_child, child, [(to_pivots, 0), (to_boundary, pivots)]);
             }
         }
-        if SYMMETRIC {
+        if symbolic.is_symmetric {
             small.complete(front);
         }
         let steps = self.part.steps_of(front);
@@ -293,7 +286,7 @@ impl<S: Scalar> Work<'_, S> {
     /// Entries of the matrix and the children's contributions to the pivots. The square of a symmetric matrix is
     /// completed from its lower triangle.
     #[inline(always)]
-    fn assemble<const SYMMETRIC: bool>(&mut self, symbolic: &Symbolic, front: &Front, values: &[S]) {
+    fn assemble(&mut self, symbolic: &Symbolic, front: &Front, values: &[S]) {
         let range = self.range(front);
         let pieces = &mut self.factors[range];
         pieces.fill(S::zero());
@@ -310,14 +303,14 @@ impl<S: Scalar> Work<'_, S> {
             let pivot_runs = &symbolic.runs[child.to_pivots.clone()];
             let boundary_runs = &symbolic.runs[child.to_boundary.clone()];
             add_columns(lower, front.panel_stride(), contribution, child, boundary_runs, pivot_runs);
-            if SYMMETRIC {
+            if symbolic.is_symmetric {
                 add_lower(square, stride, contribution, child, pivot_runs);
             } else {
                 add_columns(square, stride, contribution, child, pivot_runs, pivot_runs);
                 add_transposed(upper, front.panel_stride(), contribution, child, pivot_runs, boundary_runs);
             }
         }
-        for column in if SYMMETRIC { 1..front.pivots } else { 0..0 } {
+        for column in if symbolic.is_symmetric { 1..front.pivots } else { 0..0 } {
             for row in 0..column {
                 square[column * stride + row] = square[row * stride + column];
             }
@@ -327,7 +320,7 @@ impl<S: Scalar> Work<'_, S> {
     /// Elimination of the pivots, then the contribution to the parent, children's included: of symmetric matrices
     /// its lower triangle.
     #[inline(always)]
-    fn eliminate<const FUSED: bool, const ROWS: usize, const SYMMETRIC: bool>(
+    fn eliminate<const FUSED: bool, const ROWS: usize>(
         &mut self,
         symbolic: &Symbolic,
         front: &Front,
@@ -344,7 +337,7 @@ impl<S: Scalar> Work<'_, S> {
         let (lower, upper) = panels.split_at_mut(front.panel_length());
         bench.square.terms[..pivots].copy_from_slice(&self.terms[steps.clone()]);
         let mut largest = bench.square.factor::<FUSED, ROWS>(square, unknowns, monitor)?;
-        if SYMMETRIC {
+        if symbolic.is_symmetric {
             for (pivot, &reciprocal) in self.pivots[steps.clone()].iter_mut().zip(&bench.square.reciprocals) {
                 *pivot = S::one() / reciprocal;
             }
@@ -357,7 +350,7 @@ impl<S: Scalar> Work<'_, S> {
         let reciprocals = Some(&bench.square.reciprocals[..pivots]);
         let transposed = (&bench.square.transposed[..], square_stride);
         solve_panel::<S, FUSED, ROWS>((lower, stride), transposed, reciprocals, pivots, stride);
-        let upper: &[S] = if SYMMETRIC {
+        let upper: &[S] = if symbolic.is_symmetric {
             let scaled = &mut bench.scaled[..front.panel_length()];
             scale_columns(scaled, lower, stride, &self.pivots[steps]);
             scaled
@@ -375,7 +368,7 @@ impl<S: Scalar> Work<'_, S> {
         let (even, odd) = bench.stacks.split_at_mut(1);
         let (own, others) = if front.stack == 0 { (&mut even[0], &odd[0]) } else { (&mut odd[0], &even[0]) };
         let contribution = &mut own[front.contribution_range()];
-        let strip = if SYMMETRIC { STRIP } else { boundary };
+        let strip = if symbolic.is_symmetric { STRIP } else { boundary };
         for begin in (0..boundary).step_by(strip) {
             subtract_product::<S, FUSED, false, ROWS>(
                 (&mut contribution[begin * stride + begin..], stride),
@@ -388,7 +381,7 @@ impl<S: Scalar> Work<'_, S> {
             let runs = &symbolic.runs[child.to_boundary.clone()];
             let stack = self.below.get(child.part).map_or(others, |other| &other.stacks[1 - front.stack]);
             let of_child = &stack[child.contribution.clone()];
-            if SYMMETRIC {
+            if symbolic.is_symmetric {
                 add_lower(contribution, stride, of_child, child, runs);
             } else {
                 add_columns(contribution, stride, of_child, child, runs, runs);

@@ -157,6 +157,8 @@ pub(super) struct Symbolic {
     pub(super) runs: Vec<Run>,
     pub(super) factor_length: usize,
     pub(super) factor_entries: usize,
+    /// Whether it is for LDLᵀ, with one panel to a front.
+    pub(super) is_symmetric: bool,
 }
 
 /// The first step of every group, by its place in the order of elimination, and the steps of every front.
@@ -186,6 +188,7 @@ impl Symbolic {
             runs: Vec::new(),
             factor_length: 0,
             factor_entries: 0,
+            is_symmetric: panels == 1,
         };
         let groups = symbolic.number_steps(structure, &order, (&nodes, &parts), &tree);
         for (part, fronts) in parts.iter().enumerate() {

@@ -9,6 +9,7 @@ mod contributions;
 mod elimination_tree;
 mod factorisation;
 mod fronts;
+mod instances;
 mod kernels;
 mod small;
 mod small_solves;
@@ -22,6 +23,7 @@ mod triangular;
 
 use std::sync::Arc;
 
+pub(crate) use instances::Kernels;
 pub use symmetric::Symmetric;
 
 use factorisation::Numeric;
@@ -56,16 +58,16 @@ impl<S: Scalar> Multifrontal<S> {
     /// # Panics
     /// If [`Structure::check`] refuses the structure.
     pub fn new(structure: &Structure) -> Self {
-        Self::of_panels::<false>(structure)
+        Self::of_panels(structure, 2)
     }
 
     /// For LU, with two panels to a front, or for LDLᵀ, with one.
-    fn of_panels<const SYMMETRIC: bool>(structure: &Structure) -> Self {
-        let symbolic = Symbolic::new(structure, if SYMMETRIC { 1 } else { 2 });
+    fn of_panels(structure: &Structure, panels: usize) -> Self {
+        let symbolic = Symbolic::new(structure, panels);
         let pattern = Arc::clone(&structure.pattern);
         Multifrontal {
             processor: pulp::Arch::new(),
-            numeric: Numeric::new::<SYMMETRIC>(&symbolic, &pattern),
+            numeric: Numeric::new(&symbolic, &pattern),
             vector: vec![S::zero(); symbolic.unknowns.len()],
             front_vectors: symbolic.parts.iter().map(FrontVectors::new).collect(),
             crews: Vec::new(),
@@ -74,21 +76,21 @@ impl<S: Scalar> Multifrontal<S> {
         }
     }
 
-    fn factor_as<const SYMMETRIC: bool>(&mut self, values: &[S]) -> Result<FactorReport, FactorError> {
+    fn factor_values(&mut self, values: &[S]) -> Result<FactorReport, FactorError> {
         assert_eq!(values.len(), self.pattern.entries(), "one value for each entry of the pattern");
         let Self { pattern, processor, symbolic, numeric, crews, .. } = self;
         let largest = if crews.is_empty() {
-            let largest = processor.dispatch(Largest { values });
+            let largest = S::largest(*processor, Largest { values });
             if largest.is_some() {
                 let (share, diagonal) = numeric.subtrees(symbolic);
-                share.factor::<SYMMETRIC>(*processor, symbolic, values, diagonal);
+                share.factor(*processor, symbolic, values, diagonal);
             }
             largest
         } else {
-            threads::factor::<S, SYMMETRIC>(*processor, symbolic, numeric, values, crews)
+            threads::factor(*processor, symbolic, numeric, values, crews)
         };
         let largest = largest.ok_or_else(|| first_not_finite(pattern, values))?;
-        let (monitor, largest_upper) = numeric.factor_top::<SYMMETRIC>(*processor, symbolic, values)?;
+        let (monitor, largest_upper) = numeric.factor_top(*processor, symbolic, values)?;
         Ok(monitor.report::<S>(largest_upper, largest))
     }
 
@@ -98,20 +100,17 @@ impl<S: Scalar> Multifrontal<S> {
         let factors = Factors { symbolic, numeric, way };
         let crews =
             if threads::pay_in_solves(symbolic.factor_length * size_of::<S>()) { &crews[..] } else { &[] };
-        let right = Some(&*right_hand_side);
+        let right_hand_side_of_subtrees = Some(&*right_hand_side);
         threads::sweep(crews, split(symbolic, vector, front_vectors).0, |sweep| {
-            processor.dispatch(Forward { factors, right_hand_side: right, sweep });
+            S::forward(*processor, Forward { factors, right_hand_side: right_hand_side_of_subtrees, sweep });
         });
         symbolic.hand_up(right_hand_side, vector);
-        processor.dispatch(Forward {
-            factors,
-            right_hand_side: None,
-            sweep: split(symbolic, vector, front_vectors).1,
-        });
-        processor.dispatch(Backward { factors, sweep: split(symbolic, vector, front_vectors).1 });
+        let sweep = split(symbolic, vector, front_vectors).1;
+        S::forward(*processor, Forward { factors, right_hand_side: None, sweep });
+        S::backward(*processor, Backward { factors, sweep: split(symbolic, vector, front_vectors).1 });
         symbolic.hand_down(vector);
         threads::sweep(crews, split(symbolic, vector, front_vectors).0, |sweep| {
-            processor.dispatch(Backward { factors, sweep });
+            S::backward(*processor, Backward { factors, sweep });
         });
         for (value, &step) in right_hand_side.iter_mut().zip(&symbolic.steps) {
             *value = vector[step as usize];
@@ -134,7 +133,7 @@ impl<S: Scalar> LinearSolver<S> for Multifrontal<S> {
     }
 
     fn factor(&mut self, values: &[S]) -> Result<FactorReport, FactorError> {
-        self.factor_as::<false>(values)
+        self.factor_values(values)
     }
 
     fn solve(&mut self, right_hand_side: &mut [S]) {
@@ -156,7 +155,7 @@ impl<S: Scalar> LinearSolver<S> for Multifrontal<S> {
 }
 
 /// Largest magnitude, if all values are finite.
-struct Largest<'a, S> {
+pub struct Largest<'a, S> {
     values: &'a [S],
 }
 
@@ -181,7 +180,7 @@ enum Way {
     Symmetric,
 }
 
-struct Forward<'a, S> {
+pub struct Forward<'a, S> {
     factors: Factors<'a, S>,
     right_hand_side: Option<&'a [S]>,
     sweep: Sweep<'a, S>,
@@ -202,7 +201,7 @@ impl<S: Scalar> pulp::WithSimd for Forward<'_, S> {
     }
 }
 
-struct Backward<'a, S> {
+pub struct Backward<'a, S> {
     factors: Factors<'a, S>,
     sweep: Sweep<'a, S>,
 }

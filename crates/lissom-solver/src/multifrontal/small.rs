@@ -86,13 +86,12 @@ impl<S: Scalar> SmallFront<S> {
     ) -> Result<f64, FactorError> {
         let stride = front.small_stride();
         match stride {
-            16 => simd.vectorize(Elimination::<S, 16> { work: self, front, pieces, contribution }),
-            24 => simd.vectorize(Elimination::<S, 24> { work: self, front, pieces, contribution }),
-            32 => simd.vectorize(Elimination::<S, 32> { work: self, front, pieces, contribution }),
-            _ => {
-                simd.vectorize(Elimination::<S, { 2 * LARGEST }> { work: self, front, pieces, contribution });
-            }
+            16 => simd.vectorize(Elimination::<S, 16> { work: self, front }),
+            24 => simd.vectorize(Elimination::<S, 24> { work: self, front }),
+            32 => simd.vectorize(Elimination::<S, 32> { work: self, front }),
+            _ => simd.vectorize(Elimination::<S, { 2 * LARGEST }> { work: self, front }),
         }
+        simd.vectorize(Storage { work: self, front, pieces, contribution });
         let mut largest = self.largest;
         for (step, &unknown) in unknowns.iter().enumerate() {
             let pivot = self.upper.0[step * stride + step];
@@ -203,24 +202,24 @@ impl<S: Scalar> SmallFront<S> {
 
     /// Writes what solves read, and what is left for the parent.
     #[inline(always)]
-    fn store<const ROWS: usize>(&self, front: &Front, pieces: &mut [S], contribution: &mut [S]) {
-        let (pivots, boundary) = (front.pivots, front.boundary);
-        let (of_pivots, of_boundary) = self.matrix.0.split_at(pivots * ROWS);
+    fn store(&self, front: &Front, pieces: &mut [S], contribution: &mut [S]) {
+        let (pivots, boundary, rows) = (front.pivots, front.boundary, front.small_stride());
+        let (of_pivots, of_boundary) = self.matrix.0.split_at(pivots * rows);
         let (below_pivots, left) = (&self.matrix.0[pivots..], &of_boundary[pivots..]);
         let factors = &self.reciprocals;
         let (lower, upper) = (front.square_length(), front.square_length() + front.panel_length());
         let scaled = front.square_stride();
         // Last rows reach into what is written next.
-        with_rows!(scaled, copy_scaled::<S>(&mut pieces[..], (pivots, pivots), (of_pivots, ROWS), factors));
+        with_rows!(scaled, copy_scaled::<S>(&mut pieces[..], (pivots, pivots), (of_pivots, rows), factors));
         with_rows!(
             front.panel_stride(),
-            copy_negative::<S>(&mut pieces[lower..], (boundary, pivots), (below_pivots, ROWS))
+            copy_negative::<S>(&mut pieces[lower..], (boundary, pivots), (below_pivots, rows))
         );
         if front.panels == 2 {
             let to = &mut pieces[upper..];
-            with_rows!(scaled, copy_scaled::<S>(to, (pivots, boundary), (of_boundary, ROWS), factors));
+            with_rows!(scaled, copy_scaled::<S>(to, (pivots, boundary), (of_boundary, rows), factors));
         }
-        with_rows!(front.panel_stride(), copy::<S>(contribution, left, ROWS));
+        with_rows!(front.panel_stride(), copy::<S>(contribution, left, rows));
     }
 }
 
@@ -228,8 +227,6 @@ impl<S: Scalar> SmallFront<S> {
 struct Elimination<'a, S, const ROWS: usize> {
     work: &'a mut SmallFront<S>,
     front: &'a Front,
-    pieces: &'a mut [S],
-    contribution: &'a mut [S],
 }
 
 impl<S: Scalar, const ROWS: usize> pulp::WithSimd for Elimination<'_, S, ROWS> {
@@ -237,14 +234,30 @@ impl<S: Scalar, const ROWS: usize> pulp::WithSimd for Elimination<'_, S, ROWS> {
 
     #[inline(always)]
     fn with_simd<V: pulp::Simd>(self, _: V) {
-        let Elimination { work, front, pieces, contribution } = self;
+        let Elimination { work, front } = self;
         if V::F64_LANES >= 4 {
             work.eliminate_rows::<true, ROWS>(front);
         } else {
             work.eliminate_rows::<false, ROWS>(front);
         }
         work.sum_up::<ROWS>(front);
-        work.store::<ROWS>(front, pieces, contribution);
+    }
+}
+
+/// What is kept of a small front. Compiled once for columns of all lengths.
+struct Storage<'a, S> {
+    work: &'a SmallFront<S>,
+    front: &'a Front,
+    pieces: &'a mut [S],
+    contribution: &'a mut [S],
+}
+
+impl<S: Scalar> pulp::WithSimd for Storage<'_, S> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) {
+        self.work.store(self.front, self.pieces, self.contribution);
     }
 }
 

@@ -25,7 +25,7 @@ impl<S: Scalar> Symmetric<S> {
     /// # Panics
     /// If [`Structure::check`] refuses the structure.
     pub fn new(structure: &Structure) -> Self {
-        Self(Multifrontal::of_panels::<true>(structure))
+        Self(Multifrontal::of_panels(structure, 1))
     }
 }
 
@@ -35,7 +35,7 @@ impl<S: Scalar> LinearSolver<S> for Symmetric<S> {
     }
 
     fn factor(&mut self, values: &[S]) -> Result<FactorReport, FactorError> {
-        self.0.factor_as::<true>(values)
+        self.0.factor_values(values)
     }
 
     fn solve(&mut self, right_hand_side: &mut [S]) {

@@ -38,7 +38,7 @@ pub(super) fn crews(subtrees: &[Part], threads: usize) -> Vec<usize> {
 }
 
 /// Factors all subtrees; the largest magnitude of the values, if they are finite.
-pub(super) fn factor<S: Scalar, const SYMMETRIC: bool>(
+pub(super) fn factor<S: Scalar>(
     processor: pulp::Arch,
     symbolic: &Symbolic,
     numeric: &mut Numeric<S>,
@@ -55,8 +55,8 @@ pub(super) fn factor<S: Scalar, const SYMMETRIC: bool>(
             (share, rest) = rest.split(crew);
             let portion = portions.next().unwrap_or_default();
             let work = move || {
-                *largest = processor.dispatch(Largest { values: portion });
-                share.factor::<SYMMETRIC>(processor, symbolic, values, diagonal);
+                *largest = S::largest(processor, Largest { values: portion });
+                share.factor(processor, symbolic, values, diagonal);
             };
             if index + 1 < crews.len() {
                 scope.spawn(move |_| work());

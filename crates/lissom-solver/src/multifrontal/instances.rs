@@ -1,0 +1,73 @@
+//! The kernels, compiled here once for each field of numbers and level of vector instructions: where solvers are made of
+//! generic code alone, every crate that names one compiles it all again.
+
+use num_complex::Complex64;
+use pulp::{Arch, Simd, WithSimd};
+
+use super::factorisation::FactorPart;
+use super::{Backward, Forward, Largest};
+use crate::report::{FactorError, Monitor};
+
+/// What takes the time of factorisations and solves.
+pub trait Kernels: Sized {
+    /// Factors a subtree, or the top; gives the monitor and the largest magnitude in U.
+    fn factor_part(processor: Arch, part: FactorPart<'_, Self>) -> Result<(Monitor, f64), FactorError>;
+
+    /// Goes forward through some parts.
+    fn forward(processor: Arch, forward: Forward<'_, Self>);
+
+    /// Goes back through some parts.
+    fn backward(processor: Arch, backward: Backward<'_, Self>);
+
+    /// Largest magnitude, if all values are finite.
+    fn largest(processor: Arch, values: Largest<'_, Self>) -> Option<f64>;
+}
+
+/// By the widest vectors of the processor.
+fn widest<Op: WithSimd>(processor: Arch, op: Op) -> Op::Output {
+    processor.dispatch(op)
+}
+
+/// By vectors of at most four numbers: complex kernels gain little by wider ones, and take long to be compiled.
+fn of_four<Op: WithSimd>(processor: Arch, op: Op) -> Op::Output {
+    #[cfg(target_arch = "x86_64")]
+    match processor {
+        Arch::V4(simd) => Simd::vectorize(*simd, op),
+        Arch::V3(simd) => Simd::vectorize(simd, op),
+        _ => Simd::vectorize(pulp::Scalar, op),
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    processor.dispatch(op)
+}
+
+macro_rules! compile {
+    ($field:ty, $dispatch:ident) => {
+        impl Kernels for $field {
+            #[inline(never)]
+            fn factor_part(
+                processor: Arch,
+                part: FactorPart<'_, Self>,
+            ) -> Result<(Monitor, f64), FactorError> {
+                $dispatch(processor, part)
+            }
+
+            #[inline(never)]
+            fn forward(processor: Arch, forward: Forward<'_, Self>) {
+                $dispatch(processor, forward);
+            }
+
+            #[inline(never)]
+            fn backward(processor: Arch, backward: Backward<'_, Self>) {
+                $dispatch(processor, backward);
+            }
+
+            #[inline(never)]
+            fn largest(processor: Arch, values: Largest<'_, Self>) -> Option<f64> {
+                $dispatch(processor, values)
+            }
+        }
+    };
+}
+
+compile!(f64, widest);
+compile!(Complex64, of_four);
