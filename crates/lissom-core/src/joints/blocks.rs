@@ -15,7 +15,7 @@ use pulp::{Simd, WithSimd};
 use super::attached::AttachedJoint;
 use super::derivatives::{Derivatives, LOCAL, OWN, TIP};
 use super::moved::{Angle, Axes, FrameChange, Moved, OwnMoved};
-use super::{Equations, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Quantity};
+use super::{Coordinate, Equations, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Quantity};
 use crate::lanes::{Frames, Part, gather, gather_frames, parts, processor_for};
 use crate::system::{Chart, Kinematics, Point};
 
@@ -232,12 +232,7 @@ impl<J: Joint> JointBatch for Batch<J> {
 
     fn begin(&self, start: &Kinematics, out: &mut Vec<StartBlock>) {
         out.resize_with(self.packs.len(), StartBlock::zeros);
-        self.processor.dispatch(Begin::<J> {
-            packs: &self.packs,
-            start,
-            out,
-            kind: std::marker::PhantomData,
-        });
+        begin(self.processor, Begin { packs: &self.packs, coordinates: J::COORDINATES, start, out });
     }
 
     fn evaluate(
@@ -333,9 +328,10 @@ impl<J: Joint> JointBatch for Batch<J> {
 
 impl Pack {
     #[inline(always)]
-    fn begin<J: Joint, S: Simd>(
+    fn begin<S: Simd>(
         &self,
         simd: S,
+        coordinates: &[Coordinate],
         start: &Kinematics,
         frames: &mut [Frames; 2],
         out: &mut StartBlock,
@@ -354,8 +350,8 @@ impl Pack {
             }
             store(part, relative.rotation.apply_inverse(relative.position), &mut out.place);
         }
-        for k in 0..J::COORDINATES.len() {
-            if J::COORDINATES[k].quantity == Quantity::Angle {
+        for (k, coordinate) in coordinates.iter().enumerate() {
+            if coordinate.quantity == Quantity::Angle {
                 for lane in 0..self.count {
                     let value = start.coordinates[self.coordinates[k][lane] as usize].value;
                     (out.angles[k][0][lane], out.angles[k][1][lane]) = value.sin_cos();
@@ -512,21 +508,28 @@ fn store_screw<S: Simd>(part: Part<S>, value: Screw<Lanes<S>>, out: &mut [Block]
     store(part, value.rotation, &mut out[3..6]);
 }
 
-struct Begin<'a, J> {
-    packs: &'a [Pack],
-    start: &'a Kinematics,
-    out: &'a mut [StartBlock],
-    kind: std::marker::PhantomData<J>,
+/// Compiled once for joints of all kinds.
+#[inline(never)]
+fn begin(processor: pulp::Arch, begin: Begin<'_>) {
+    processor.dispatch(begin);
 }
 
-impl<J: Joint> WithSimd for Begin<'_, J> {
+struct Begin<'a> {
+    packs: &'a [Pack],
+    /// Those of the kind.
+    coordinates: &'a [Coordinate],
+    start: &'a Kinematics,
+    out: &'a mut [StartBlock],
+}
+
+impl WithSimd for Begin<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let mut frames = [[[0.0; WIDTH]; 7]; 2];
         for (pack, out) in self.packs.iter().zip(self.out) {
-            pack.begin::<J, S>(simd, self.start, &mut frames, out);
+            pack.begin(simd, self.coordinates, self.start, &mut frames, out);
         }
     }
 }
