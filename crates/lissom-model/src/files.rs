@@ -1,6 +1,5 @@
 //! The one place where this crate touches the file system. Knows paths and texts, no formats.
 
-use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, BufWriter};
 use std::path::{Path, PathBuf};
@@ -40,12 +39,6 @@ fn words(action: Action) -> &'static str {
         Action::Read => "read",
         Action::Write => "write",
         Action::CreateFolder => "create the folder",
-    }
-}
-
-impl miette::Diagnostic for FileError {
-    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
     }
 }
 

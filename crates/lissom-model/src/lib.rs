@@ -8,6 +8,7 @@ pub mod channels;
 mod context;
 mod data_file;
 pub mod document;
+mod excerpt;
 pub mod expression;
 pub mod files;
 mod force_values;

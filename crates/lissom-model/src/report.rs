@@ -6,7 +6,7 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+use crate::excerpt::{Excerpt, Label, Mark, Painter};
 
 /// A stretch of the model's text: byte offsets, the end excluded. Overrides count as text behind the file.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -136,7 +136,8 @@ impl Problem {
 /// One text of the model: the file, an override, or what a part was made of.
 #[derive(Clone, Debug)]
 struct Piece {
-    source: NamedSource<Arc<str>>,
+    name: Arc<str>,
+    text: Arc<str>,
     start: usize,
     end: usize,
     origin: Option<Origin>,
@@ -177,15 +178,14 @@ impl Sources {
     pub(crate) fn push_shared(&mut self, name: &str, text: Arc<str>, origin: Option<Origin>) -> usize {
         let start = self.next_start();
         let end = start + text.len();
-        let source = NamedSource::new(name, text).with_language("TOML");
-        self.pieces.push(Piece { source, start, end, origin });
+        self.pieces.push(Piece { name: Arc::from(name), text, start, end, origin });
         start
     }
 
     /// Adds the text in which `span` lies once more, for the part that `origin` tells.
     pub(crate) fn push_again(&mut self, span: Span, origin: Origin) -> Shift {
         let Some(piece) = self.piece(span) else { return Shift::default() };
-        let (name, text) = (piece.source.name().to_owned(), Arc::clone(piece.source.inner()));
+        let (name, text) = (Arc::clone(&piece.name), Arc::clone(&piece.text));
         let within = Span { start: piece.start, end: piece.end };
         let start = self.push_shared(&name, text, Some(origin));
         Shift { within, by: start - within.start }
@@ -193,7 +193,7 @@ impl Sources {
 
     /// Name of the first text.
     pub(crate) fn first_name(&self) -> &str {
-        self.pieces.first().map_or("", |piece| piece.source.name())
+        self.pieces.first().map_or("", |piece| &piece.name)
     }
 
     /// Where the next text will start.
@@ -203,7 +203,7 @@ impl Sources {
 
     /// The file that `span` is in, as a path from the folder of the model; for overrides that of the model.
     pub(crate) fn file(&self, span: Span) -> &str {
-        let name = self.piece(span).map_or("", |piece| piece.source.name());
+        let name = self.piece(span).map_or("", |piece| &piece.name);
         let folder = self.first_name().rsplit_once('/').map_or(0, |(folder, _)| folder.len() + 1);
         if name == OVERRIDE { "" } else { name.get(folder..).unwrap_or(name) }
     }
@@ -212,7 +212,7 @@ impl Sources {
     pub(crate) fn text(&self, span: Span) -> &str {
         let Some(piece) = self.piece(span) else { return "" };
         let local = local(span, piece);
-        piece.source.inner().get(local).unwrap_or("")
+        piece.text.get(local).unwrap_or("")
     }
 
     /// Where a part of an expression stands, whose `text` is within `whole`; all of it where it is written otherwise.
@@ -230,6 +230,13 @@ impl Sources {
         let after = self.pieces.partition_point(|piece| piece.start <= span.start);
         let found = after.checked_sub(1).and_then(|index| self.pieces.get(index));
         found.filter(|piece| span.start <= piece.end).or(self.pieces.first())
+    }
+}
+
+impl Piece {
+    fn excerpt<'a>(&'a self, labels: impl Iterator<Item = (&'a Span, &'a String)>) -> Excerpt<'a> {
+        let labels = labels.map(|(span, words)| Label { range: local(*span, self), words });
+        Excerpt { name: &self.name, text: &self.text, labels: labels.collect() }
     }
 }
 
@@ -256,70 +263,30 @@ struct Included {
     piece: Option<Piece>,
 }
 
-impl fmt::Display for Included {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.words)
-    }
-}
-
-impl std::error::Error for Included {}
-
-impl Diagnostic for Included {
-    fn severity(&self) -> Option<miette::Severity> {
-        Some(miette::Severity::Advice)
-    }
-
-    fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.piece.as_ref().map(|piece| &piece.source as &dyn SourceCode)
-    }
-
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let piece = self.piece.as_ref()?;
-        let label = LabeledSpan::new_primary_with_span(Some("here".to_owned()), local(self.span, piece));
-        Some(Box::new(std::iter::once(label)))
-    }
-}
-
-impl fmt::Display for Shown {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&self.problem.message)
-    }
-}
-
-impl std::error::Error for Shown {}
-
-impl Diagnostic for Shown {
-    fn severity(&self) -> Option<miette::Severity> {
-        Some(match self.problem.severity {
-            Severity::Error => miette::Severity::Error,
-            Severity::Warning => miette::Severity::Warning,
-        })
-    }
-
-    fn help<'a>(&'a self) -> Option<Box<dyn fmt::Display + 'a>> {
-        self.problem.help.as_ref().map(|help| Box::new(help) as Box<dyn fmt::Display>)
-    }
-
-    fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.piece.as_ref().map(|piece| &piece.source as &dyn SourceCode)
-    }
-
-    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
-        if self.origins.is_empty() {
-            return None;
+impl Shown {
+    fn write(&self, painter: &mut Painter<'_>) {
+        let problem = &self.problem;
+        painter.sentence(
+            if problem.severity == Severity::Error { Mark::Cross } else { Mark::Triangle },
+            &problem.message,
+        );
+        if let Some(piece) = &self.piece {
+            let inside = |span: &Span| span.start >= piece.start && span.start <= piece.end;
+            let first = (&problem.span, &problem.label);
+            let also =
+                problem.also.iter().filter(|(span, _)| inside(span)).map(|(span, words)| (span, words));
+            painter.excerpt(&piece.excerpt(std::iter::once(first).chain(also)));
         }
-        Some(Box::new(self.origins.iter().map(|origin| origin as &dyn Diagnostic)))
-    }
-
-    fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let piece = self.piece.as_ref()?;
-        let inside = |span: &Span| span.start >= piece.start && span.start <= piece.end;
-        let words = (!self.problem.label.is_empty()).then(|| self.problem.label.clone());
-        let first = LabeledSpan::new_primary_with_span(words, local(self.problem.span, piece));
-        let also = self.problem.also.iter().filter(move |(span, _)| inside(span));
-        let others =
-            also.map(|(span, words)| LabeledSpan::new_with_span(Some(words.clone()), local(*span, piece)));
-        Some(Box::new(std::iter::once(first).chain(others)))
+        if let Some(help) = &problem.help {
+            painter.help(help);
+        }
+        for origin in &self.origins {
+            painter.out.push('\n');
+            painter.sentence(Mark::Hand, &origin.words);
+            if let Some(piece) = &origin.piece {
+                painter.excerpt(&piece.excerpt([(&origin.span, &"here".to_owned())].into_iter()));
+            }
+        }
     }
 }
 
@@ -330,7 +297,7 @@ fn once_per_text(problems: Vec<Problem>, sources: &Sources) -> Vec<(Problem, Vec
     let mut first_of = BTreeMap::new();
     for problem in problems {
         let part = sources.piece(problem.span).and_then(|piece| {
-            let text = piece.source.inner().as_ptr() as usize;
+            let text = piece.text.as_ptr() as usize;
             piece.origin.as_ref().map(|origin| (text, local(problem.span, piece), &origin.part))
         });
         let Some((text, place, part)) = part else {
@@ -382,7 +349,7 @@ impl Report {
     pub fn new(mut problems: Vec<Problem>, sources: &Sources) -> Self {
         problems.sort_by_key(|problem| (problem.severity == Severity::Warning, problem.span));
         problems.dedup();
-        let name = sources.pieces.first().map_or("model", |piece| piece.source.name()).to_owned();
+        let name = sources.pieces.first().map_or("model", |piece| &piece.name).to_owned();
         let shown = once_per_text(problems, sources).into_iter().map(|(problem, also)| Shown {
             piece: sources.piece(problem.span).cloned(),
             origins: origins(sources, problem.span, &also),
@@ -421,9 +388,9 @@ impl Report {
                 serde_json::json!({ "severity": severity, "message": problem.message, "help": problem.help });
             if let Some(piece) = &shown.piece {
                 let place = problem.span.start.saturating_sub(piece.start);
-                let before = piece.source.inner().get(..place).unwrap_or_default();
+                let before = piece.text.get(..place).unwrap_or_default();
                 let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
-                value["file"] = piece.source.name().into();
+                value["file"] = (*piece.name).into();
                 value["line"] = (before.matches('\n').count() + 1).into();
                 value["column"] = column.into();
             }
@@ -434,14 +401,9 @@ impl Report {
 
     /// Every problem with file, line, underlined text and remedy, as a text for a terminal.
     pub fn render(&self, colour: bool) -> String {
-        let theme = if colour { GraphicalTheme::unicode() } else { GraphicalTheme::unicode_nocolor() };
-        let handler = GraphicalReportHandler::new_themed(theme).with_width(110).with_links(false);
         let mut text = String::new();
         for shown in &self.shown {
-            // Writing to a string cannot fail; a problem that cannot be drawn is still named.
-            if handler.render_report(&mut text, shown).is_err() {
-                text.push_str(&shown.problem.message);
-            }
+            shown.write(&mut Painter { out: &mut text, colour });
             text.push('\n');
         }
         text
@@ -463,12 +425,6 @@ impl fmt::Display for Report {
 }
 
 impl std::error::Error for Report {}
-
-impl Diagnostic for Report {
-    fn related<'a>(&'a self) -> Option<Box<dyn Iterator<Item = &'a dyn Diagnostic> + 'a>> {
-        Some(Box::new(self.shown.iter().map(|shown| shown as &dyn Diagnostic)))
-    }
-}
 
 #[cfg(test)]
 mod tests {

@@ -2,20 +2,9 @@
 
 use std::f64::consts::PI;
 
-use kuva::plot::LinePlot;
-use kuva::plot::legend::LegendPosition;
-use kuva::render::figure::Figure as Panels;
-use kuva::render::layout::Layout;
-use kuva::render::plots::Plot;
-use kuva::render::render::Scene;
-use kuva::render::theme::Theme;
+use lissom_drawing::{Axis, Chart, Curve, Drawing, Panel, palette};
 
 use super::FigureError;
-use super::plot::COLOURS;
-use super::render;
-
-/// Width of a figure, and height of each of its two panels.
-const CELL: (f64, f64) = (760.0, 340.0);
 
 /// Transfer functions over one list of frequencies.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -36,64 +25,43 @@ impl BodePlot {
     /// # Errors
     /// If there is nothing to draw.
     pub fn svg(&self) -> Result<String, FigureError> {
-        Ok(render::svg(&self.draw()?))
+        self.draw()?.svg().map_err(FigureError::of(&self.name))
     }
 
     /// The drawing as the bytes of a PNG file.
     ///
     /// # Errors
-    /// If there is nothing to draw, or the drawing library fails.
+    /// If there is nothing to draw.
     pub fn png(&self) -> Result<Vec<u8>, FigureError> {
-        let failure = |reason| FigureError { figure: self.name.clone(), reason };
-        render::png(self.draw()?).map_err(failure)
+        self.draw()?.png().map_err(FigureError::of(&self.name))
     }
 
-    fn draw(&self) -> Result<Scene, FigureError> {
+    fn draw(&self) -> Result<Drawing, FigureError> {
         let (mut magnitudes, mut phases) = (Vec::new(), Vec::new());
         for (index, (name, of, angles)) in self.curves.iter().enumerate() {
-            let line = |points: Vec<(f64, f64)>| {
-                LinePlot::new()
-                    .with_data(points)
-                    .with_color(COLOURS[index % COLOURS.len()])
-                    .with_stroke_width(1.6)
-                    .with_legend(name.as_str())
+            let curve = |values: &[f64]| Curve {
+                name: name.clone(),
+                points: self.frequencies.iter().copied().zip(values.iter().copied()).collect(),
+                ..Curve::new(palette(index))
             };
-            let points = |values: &[f64]| -> Vec<(f64, f64)> {
-                self.frequencies.iter().copied().zip(values.iter().copied()).collect()
-            };
-            let positive: Vec<_> =
-                points(of).into_iter().filter(|point| point.1 > 0.0 && point.1.is_finite()).collect();
-            if positive.is_empty() {
+            if !of.iter().any(|magnitude| *magnitude > 0.0 && magnitude.is_finite()) {
                 continue;
             }
-            magnitudes.push(Plot::Line(line(positive)));
+            magnitudes.push(curve(of));
             let unwound: Vec<f64> = unwound(angles).iter().map(|angle| angle.to_degrees()).collect();
-            phases.push(Plot::Line(line(points(&unwound))));
+            phases.push(curve(&unwound));
         }
         if magnitudes.is_empty() {
-            let reason = "no response is above zero".to_owned();
-            return Err(FigureError { figure: self.name.clone(), reason });
+            return Err(FigureError::new(&self.name, "no response is above zero"));
         }
-        let layout = |plots: &[Plot], label: &str| {
-            let theme =
-                Theme { grid_color: "#e4e4e4".into(), legend_border: "none".into(), ..Theme::light() };
-            Layout::auto_from_plots(plots)
-                .with_theme(theme)
-                .with_x_label("frequency [Hz]")
-                .with_y_label(label)
-                .with_legend_position(LegendPosition::OutsideRightTop)
-        };
-        let layouts = vec![
-            layout(&magnitudes, "magnitude [output per input]").with_log_scale(),
-            layout(&phases, "phase [°]").with_log_x(),
+        let ends = [self.frequencies.first(), self.frequencies.last()].map(|end| end.copied().unwrap_or(1.0));
+        let x = Axis { range: Some(ends), ..Axis::logarithmic("frequency [Hz]") };
+        let panel = |y, curves| Panel { x: x.clone(), y, curves };
+        let panels = vec![
+            panel(Axis::logarithmic("magnitude [output per input]"), magnitudes),
+            panel(Axis::new("phase [°]"), phases),
         ];
-        let figure = Panels::new(2, 1)
-            .with_title(self.title.as_str())
-            .with_title_size(16)
-            .with_cell_size(CELL.0, CELL.1)
-            .with_plots(vec![magnitudes, phases])
-            .with_layouts(layouts);
-        Ok(figure.render())
+        Ok(Chart { title: self.title.clone(), ..Chart::new(&self.name, panels) }.draw())
     }
 }
 

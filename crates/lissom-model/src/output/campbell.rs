@@ -1,15 +1,11 @@
 //! Campbell diagrams: frequencies over a parameter, with the multiples of the rotation.
 
-use kuva::plot::LinePlot;
-use kuva::plot::legend::LegendPosition;
-use kuva::render::layout::Layout;
-use kuva::render::plots::Plot;
-use kuva::render::render::{Scene, render_multiple};
-use kuva::render::theme::Theme;
+use lissom_drawing::{Axis, Chart, Curve, Drawing, Panel, palette};
 
 use super::FigureError;
-use super::plot::COLOURS;
-use super::render;
+
+/// Name of the figure, fit for a file.
+const NAME: &str = "campbell";
 
 /// Lines of frequencies and rays.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -30,47 +26,39 @@ impl CampbellPlot {
     /// # Errors
     /// If there is nothing to draw.
     pub fn svg(&self) -> Result<String, FigureError> {
-        Ok(render::svg(&self.draw()?))
+        self.draw()?.svg().map_err(FigureError::of(NAME))
     }
 
     /// The drawing as the bytes of a PNG file.
     ///
     /// # Errors
-    /// If there is nothing to draw, or the drawing library fails.
+    /// If there is nothing to draw.
     pub fn png(&self) -> Result<Vec<u8>, FigureError> {
-        let failure = |reason| FigureError { figure: "campbell".to_owned(), reason };
-        render::png(self.draw()?).map_err(failure)
+        self.draw()?.png().map_err(FigureError::of(NAME))
     }
 
-    fn draw(&self) -> Result<Scene, FigureError> {
+    fn draw(&self) -> Result<Drawing, FigureError> {
         let most = self.lines.iter().flatten().map(|point| point.1).fold(0.0, f64::max);
         if self.lines.iter().all(Vec::is_empty) || most <= 0.0 {
-            let reason = "no mode has a frequency above zero".to_owned();
-            return Err(FigureError { figure: "campbell".to_owned(), reason });
+            return Err(FigureError::new(NAME, "no mode has a frequency above zero"));
         }
-        let line = |(index, points): (usize, &Vec<(f64, f64)>)| {
-            let line = LinePlot::new().with_data(points.clone()).with_stroke_width(1.6);
-            Plot::Line(line.with_color(COLOURS[index % COLOURS.len()]).with_legend(format!("{}", index + 1)))
+        let line = |(index, points): (usize, &Vec<(f64, f64)>)| Curve {
+            name: format!("{}", index + 1),
+            points: points.clone(),
+            ..Curve::new(palette(index))
         };
-        let ray = |(name, points): &(String, Vec<(f64, f64)>)| {
-            let below: Vec<(f64, f64)> =
-                points.iter().copied().filter(|point| point.1 <= 1.1 * most).collect();
-            let line = LinePlot::new().with_data(below).with_color("#888888").with_stroke_width(1.0);
-            Plot::Line(line.with_dashed().with_legend(name.as_str()))
+        let ray = |(name, points): &(String, Vec<(f64, f64)>)| Curve {
+            name: name.clone(),
+            points: points.iter().copied().filter(|point| point.1 <= 1.1 * most).collect(),
+            width: 1.0,
+            is_dashed: true,
+            ..Curve::new([0x88; 3])
         };
-        let plots: Vec<Plot> =
-            self.lines.iter().enumerate().map(line).chain(self.rays.iter().map(ray)).collect();
-        let theme = Theme { grid_color: "#e4e4e4".into(), legend_border: "none".into(), ..Theme::light() };
-        let layout = Layout::auto_from_plots(&plots)
-            .with_width(760.0)
-            .with_height(520.0)
-            .with_theme(theme)
-            .with_title(self.title.as_str())
-            .with_title_size(16)
-            .with_x_label(self.x_label.as_str())
-            .with_y_label("frequency [Hz]")
-            .with_legend_position(LegendPosition::OutsideRightTop);
-        Ok(render_multiple(plots, layout))
+        let lines = self.lines.iter().enumerate().map(line);
+        let curves = self.rays.iter().map(ray).chain(lines).collect();
+        let panel = Panel { x: Axis::new(&self.x_label), y: Axis::new("frequency [Hz]"), curves };
+        let chart = Chart { panel_height: 490.0, ..Chart::new(NAME, vec![panel]) };
+        Ok(Chart { title: self.title.clone(), ..chart }.draw())
     }
 }
 

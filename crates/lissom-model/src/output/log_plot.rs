@@ -1,22 +1,11 @@
 //! Plots of studies: curves over logarithmic axes, with a mark at every point. Knows no study.
 
-use std::sync::Arc;
-
-use kuva::plot::legend::LegendPosition;
-use kuva::plot::scatter::MarkerShape;
-use kuva::plot::{LinePlot, ScatterPlot};
-use kuva::render::layout::{Layout, TickFormat};
-use kuva::render::plots::Plot;
-use kuva::render::render::{Primitive, Scene, render_multiple};
-use kuva::render::theme::Theme;
+use lissom_drawing::{Axis, Chart, Curve, Drawing, Mark, Panel, palette};
 
 use super::FigureError;
-use super::plot::COLOURS;
-use super::render;
 
 /// Marks, so that curves that coincide in colour or on paper are still told apart.
-const MARKS: [MarkerShape; 4] =
-    [MarkerShape::Circle, MarkerShape::Square, MarkerShape::Triangle, MarkerShape::Diamond];
+const MARKS: [Mark; 4] = [Mark::Circle, Mark::Square, Mark::Triangle, Mark::Diamond];
 
 /// One drawing of positive numbers over positive numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -39,66 +28,36 @@ impl LogFigure {
     /// # Errors
     /// If there is nothing to draw.
     pub fn svg(&self) -> Result<String, FigureError> {
-        let (plots, layout) = self.draw()?;
-        Ok(render::svg(&whole_marks(render_multiple(plots, layout))))
+        self.draw()?.svg().map_err(FigureError::of(&self.name))
     }
 
     /// The drawing as the bytes of a PNG file.
     ///
     /// # Errors
-    /// If there is nothing to draw, or the drawing library fails.
+    /// If there is nothing to draw.
     pub fn png(&self) -> Result<Vec<u8>, FigureError> {
-        let (plots, layout) = self.draw()?;
-        render::png(whole_marks(render_multiple(plots, layout))).map_err(|reason| self.failure(reason))
+        self.draw()?.png().map_err(FigureError::of(&self.name))
     }
 
-    fn failure(&self, reason: impl Into<String>) -> FigureError {
-        FigureError { figure: self.name.clone(), reason: reason.into() }
-    }
-
-    fn draw(&self) -> Result<(Vec<Plot>, Layout), FigureError> {
-        let mut plots = Vec::new();
+    fn draw(&self) -> Result<Drawing, FigureError> {
+        let usable = |value: f64| value > 0.0 && value.is_finite();
+        let mut curves = Vec::new();
         for (index, (name, points)) in self.curves.iter().enumerate() {
-            let usable = |value: f64| value > 0.0 && value.is_finite();
             let mut points: Vec<(f64, f64)> =
                 points.iter().copied().filter(|&(x, y)| usable(x) && usable(y)).collect();
             points.sort_by(|a, b| a.0.total_cmp(&b.0));
-            if points.is_empty() {
-                continue;
+            if !points.is_empty() {
+                let mark = Some(MARKS[index % MARKS.len()]);
+                curves.push(Curve { name: name.clone(), points, mark, ..Curve::new(palette(index)) });
             }
-            let colour = COLOURS[index % COLOURS.len()];
-            let line = LinePlot::new().with_data(points.clone()).with_color(colour).with_stroke_width(1.6);
-            let marks = ScatterPlot::new()
-                .with_data(points)
-                .with_color(colour)
-                .with_size(4.0)
-                .with_marker(MARKS[index % MARKS.len()]);
-            plots.push(Plot::Line(line.with_legend(name.as_str())));
-            plots.push(Plot::Scatter(marks));
         }
-        if plots.is_empty() {
-            return Err(self.failure("it has no positive finite values"));
+        if curves.is_empty() {
+            return Err(FigureError::new(&self.name, "it has no positive finite values"));
         }
-        let theme = Theme { grid_color: "#e4e4e4".into(), legend_border: "none".into(), ..Theme::light() };
-        let layout = Layout::auto_from_plots(&plots)
-            .with_log_scale()
-            .with_tick_format(TickFormat::Custom(Arc::new(|value| format!("{value:e}"))))
-            .with_width(760.0)
-            .with_height(460.0)
-            .with_theme(theme)
-            .with_title(self.title.as_str())
-            .with_title_size(16)
-            .with_x_label(self.x_label.as_str())
-            .with_y_label(self.y_label.as_str())
-            .with_legend_position(LegendPosition::OutsideRightTop);
-        Ok((plots, layout))
+        let [x, y] = [&self.x_label, &self.y_label].map(|label| Axis::logarithmic(label));
+        let chart = Chart::new(&self.name, vec![Panel { x, y, curves }]);
+        Ok(Chart { title: self.title.clone(), ..chart }.draw())
     }
-}
-
-/// Axes span all points: what is cut at them are only halves of marks.
-fn whole_marks(mut scene: Scene) -> Scene {
-    scene.elements.retain(|element| !matches!(element, Primitive::ClipStart { .. } | Primitive::ClipEnd));
-    scene
 }
 
 #[cfg(test)]
@@ -117,7 +76,7 @@ mod tests {
         let flat = (0..9).map(|k| (10.0_f64.powi(-k), 14.0)).collect();
         let figure = figure(vec![("none".to_owned(), steep), ("physical".to_owned(), flat)]);
         let svg = figure.svg().unwrap();
-        for words in ["Pendulum", "step size [s]", "condition number [-]", ">none<", ">physical<", COLOURS[1]]
+        for words in ["Pendulum", "step size [s]", "condition number [-]", ">none<", ">physical<", "#d55e00"]
         {
             assert!(svg.contains(words), "{words}");
         }

@@ -1,14 +1,10 @@
-//! Plots of results: one figure per output, with a panel for each unit. The drawing itself is done by kuva.
+//! Plots of results: one figure per output, with a panel for each unit. The drawing itself is done by `lissom-drawing`.
 
-use kuva::plot::LinePlot;
-use kuva::plot::legend::LegendPosition;
-use kuva::render::figure::Figure as Panels;
-use kuva::render::layout::Layout;
-use kuva::render::plots::Plot;
-use kuva::render::render::{Scene, render_multiple};
-use kuva::render::theme::Theme;
+use lissom_drawing::{
+    Axis as ChartAxis, Chart, Curve as ChartCurve, Drawing, DrawingError, Panel as ChartPanel, palette,
+};
 
-use super::{Column, Record, render};
+use super::{Column, Record};
 
 /// Most points of a drawn curve.
 const POINTS: usize = 2000;
@@ -19,18 +15,6 @@ const DECADES: f64 = 1e-8;
 /// Curves of a panel that are drawn without dashes.
 const SOLID: usize = 3;
 
-/// Width of a figure.
-const WIDTH: f64 = 760.0;
-/// Height of a figure of one panel.
-const HEIGHT: f64 = 460.0;
-/// Height of each of several panels.
-const PANEL_HEIGHT: f64 = 340.0;
-
-/// Blue, vermilion, green, purple, orange, sky blue, black (after Okabe and Ito 2008): told apart also by
-/// people who do not see all colours, and on paper.
-pub(super) const COLOURS: [&str; 7] =
-    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
-
 /// A figure that could not be drawn.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the figure `{figure}` cannot be drawn: {reason}")]
@@ -39,6 +23,18 @@ pub struct FigureError {
     pub figure: String,
     /// Why not.
     pub reason: String,
+}
+
+impl FigureError {
+    /// The figure of this name, and why it cannot be drawn.
+    pub(super) fn new(figure: &str, reason: &str) -> Self {
+        Self { figure: figure.to_owned(), reason: reason.to_owned() }
+    }
+
+    /// The figure of this name, which a drawing is not made of.
+    pub(super) fn of(figure: &str) -> impl Fn(DrawingError) -> Self {
+        move |error| Self { figure: figure.to_owned(), reason: error.to_string() }
+    }
 }
 
 /// One drawing: curves over time, those of a common unit in one panel.
@@ -210,94 +206,51 @@ impl Figure {
     /// # Errors
     /// If there is nothing to draw.
     pub fn svg(&self) -> Result<String, FigureError> {
-        Ok(render::svg(&self.draw()?))
+        self.draw()?.svg().map_err(FigureError::of(&self.name))
     }
 
     /// The drawing as the bytes of a PNG file.
     ///
     /// # Errors
-    /// If there is nothing to draw, or the drawing library fails.
+    /// If there is nothing to draw.
     pub fn png(&self) -> Result<Vec<u8>, FigureError> {
-        render::png(self.draw()?).map_err(|reason| self.failure(reason))
+        self.draw()?.png().map_err(FigureError::of(&self.name))
     }
 
-    fn failure(&self, reason: impl Into<String>) -> FigureError {
-        FigureError { figure: self.name.clone(), reason: reason.into() }
-    }
-
-    fn draw(&self) -> Result<Scene, FigureError> {
-        let mut panels: Vec<(Vec<Plot>, Layout)> =
-            self.panels.iter().filter_map(|panel| panel.draw(&self.axis)).collect();
-        if panels.len() > 1 {
-            let (plots, layouts): (Vec<_>, Vec<_>) = panels.into_iter().unzip();
-            let figure = Panels::new(plots.len(), 1)
-                .with_title(self.title.as_str())
-                .with_title_size(16)
-                .with_cell_size(WIDTH, PANEL_HEIGHT)
-                .with_plots(plots)
-                .with_layouts(layouts);
-            return Ok(figure.render());
+    fn draw(&self) -> Result<Drawing, FigureError> {
+        let panels: Vec<ChartPanel> = self.panels.iter().filter_map(|panel| panel.draw(&self.axis)).collect();
+        if panels.is_empty() {
+            return Err(FigureError::new(&self.name, "it has no finite values"));
         }
-        let (plots, layout) = panels.pop().ok_or_else(|| self.failure("it has no finite values"))?;
-        let layout = layout.with_height(HEIGHT).with_title(self.title.as_str()).with_title_size(16);
-        Ok(render_multiple(plots, layout))
+        Ok(Chart { title: self.title.clone(), ..Chart::new(&self.name, panels) }.draw())
     }
 }
 
 impl Panel {
     /// Curves and axes, if there is anything to draw.
-    fn draw(&self, axis: &Axis) -> Option<(Vec<Plot>, Layout)> {
+    fn draw(&self, axis: &Axis) -> Option<ChartPanel> {
         let all = || self.curves.iter().flat_map(|(_, points)| points);
         let largest = all().fold(0.0, |most: f64, point| point.1.abs().max(most));
         // Decades far below the largest value are round-off.
         let is_shown = |point: &&(f64, f64)| !axis.is_decadic || point.1 > DECADES * largest;
-        let points = || all().filter(is_shown);
-        points().next()?;
+        all().find(is_shown)?;
         let (factor, unit) = prefixed(largest, &self.unit);
-        let curve = |(index, (name, points)): (usize, &Curve)| {
-            let line = LinePlot::new()
-                .with_data(points.iter().filter(is_shown).map(|(x, value)| (*x, value / factor)))
-                .with_color(COLOURS[index % COLOURS.len()])
-                .with_stroke_width(1.6);
+        let curve = |(index, (name, points)): (usize, &Curve)| ChartCurve {
+            name: name.clone(),
+            points: points.iter().filter(is_shown).map(|(x, value)| (*x, value / factor)).collect(),
             // From the fourth on dashes, through which a curve below still shows: a sum below its parts.
-            let line = if index < SOLID { line } else { line.with_dashed() };
-            Plot::Line(if name.is_empty() { line } else { line.with_legend(name.as_str()) })
+            is_dashed: index >= SOLID,
+            ..ChartCurve::new(palette(index))
         };
-        let plots: Vec<Plot> = self.curves.iter().enumerate().map(curve).collect();
-        let theme = Theme { grid_color: "#e4e4e4".into(), legend_border: "none".into(), ..Theme::light() };
-        let mut layout = Layout::auto_from_plots(&plots)
-            .with_width(WIDTH)
-            .with_height(PANEL_HEIGHT)
-            .with_theme(theme)
-            .with_x_label(axis.label.as_str())
-            .with_y_label(format!("{}{unit}", self.quantity))
-            .with_legend_position(LegendPosition::OutsideRightTop);
-        let bounds = |of: fn(&(f64, f64)) -> f64| {
-            points()
-                .map(of)
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)))
-        };
-        let (first, last) = bounds(|point| point.0);
-        if axis.is_decadic {
-            return Some((plots, layout.with_log_y()));
+        let label = format!("{}{unit}", self.quantity);
+        let y = if axis.is_decadic { ChartAxis::logarithmic(&label) } else { ChartAxis::new(&label) };
+        let mut x = ChartAxis::new(&axis.label);
+        if axis.is_ordered {
+            let least = |low: f64, point: &(f64, f64)| low.min(point.0);
+            let most = |high: f64, point: &(f64, f64)| high.max(point.0);
+            x.range = Some([all().fold(f64::INFINITY, least), all().fold(f64::NEG_INFINITY, most)]);
         }
-        if last > first && axis.is_ordered {
-            layout = layout.with_x_axis_min(first).with_x_axis_max(last + 1e-9 * (last - first));
-        }
-        // A constant would have an axis without extent.
-        let room = |(low, high): (f64, f64)| {
-            let is_constant = high - low <= 1e-12 * high.abs().max(low.abs());
-            is_constant.then(|| if high == 0.0 { 1.0 } else { 0.1 * high.abs() })
-        };
-        let (low, high) = bounds(|point| point.1);
-        let (low, high) = (low / factor, high / factor);
-        if let Some(room) = room((low, high)) {
-            layout = layout.with_y_axis_min(low - room).with_y_axis_max(high + room);
-        }
-        if let Some(room) = room((first, last)).filter(|_| !axis.is_ordered) {
-            layout = layout.with_x_axis_min(first - room).with_x_axis_max(last + room);
-        }
-        Some((plots, layout))
+        Some(ChartPanel { x, y, curves: self.curves.iter().enumerate().map(curve).collect() })
     }
 }
 
@@ -345,7 +298,7 @@ mod tests {
         let names: Vec<&str> = figures.iter().map(|figure| figure.name.as_str()).collect();
         assert_eq!(names, ["mid_span", "root"]);
         let svg = figures[0].svg().unwrap();
-        for words in ["Tip crank: mid span", "displacement [m]", "time [s]", ">x<", ">z<", COLOURS[2]] {
+        for words in ["Tip crank: mid span", "displacement [m]", "time [s]", ">x<", ">z<", "#009e73"] {
             assert!(svg.contains(words), "{words}");
         }
         let svg = figures[1].svg().unwrap();

@@ -1,6 +1,6 @@
 //! The sheet of a picture: panels at several instants, their times, the axes and a scale.
 
-use lissom_model::output::{Align, Drawing, FigureError, Shade};
+use lissom_model::output::{Align, Drawing, DrawingError, Shade};
 use lissom_model::scene::Scene;
 use lissom_motion::Vector3;
 
@@ -21,8 +21,12 @@ const LINE: f64 = 22.0;
 const FOOT: f64 = 64.0;
 /// Widest and highest part of the sheet that panels share.
 const MOST: [f64; 2] = [1200.0, 900.0];
+/// Of a moving picture.
+const MOST_MOVING: [f64; 2] = [640.0, 480.0];
 /// Most panels.
 const MOST_PANELS: usize = 100;
+/// Most pictures of a moving one.
+const MOST_FRAMES: usize = 600;
 
 /// A picture that cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -41,12 +45,17 @@ pub enum PictureError {
     /// The motion has no frames.
     #[error("the motion holds no frame: run the model again")]
     Empty,
-    /// There are more panels than a sheet takes.
-    #[error("{0} pictures were asked for, and a sheet takes {MOST_PANELS}")]
-    TooMany(usize),
+    /// There are none, or more than a sheet or a moving picture takes.
+    #[error("{count} pictures were asked for, and 1 to {most} are possible")]
+    TooMany {
+        /// How many.
+        count: usize,
+        /// How many there may be.
+        most: usize,
+    },
     /// It cannot be put on the sheet.
     #[error(transparent)]
-    Figure(#[from] FigureError),
+    Drawing(#[from] DrawingError),
 }
 
 /// What a picture shows, and how.
@@ -68,8 +77,8 @@ pub fn instants(motion: &Motion, count: usize) -> Result<Vec<f64>, PictureError>
     let (Some(first), Some(last)) = (motion.times().first(), motion.times().last()) else {
         return Err(PictureError::Empty);
     };
-    if count > MOST_PANELS {
-        return Err(PictureError::TooMany(count));
+    if count > MOST_FRAMES {
+        return Err(PictureError::TooMany { count, most: MOST_FRAMES });
     }
     let at = |k: usize| {
         if count < 2 || k + 1 == count {
@@ -101,17 +110,48 @@ impl Frame {
     }
 }
 
+/// What is seen at all instants.
+struct Panels {
+    seen: Vec<(f64, Vec<Seen>)>,
+    paths: Vec<Vec<[f64; 2]>>,
+    projection: Projection,
+    /// About all of them.
+    frame: Frame,
+}
+
 impl Picture {
-    /// Draws a model that moves so.
+    /// Draws a model that moves so, with the instants beside each other.
     ///
     /// # Errors
     /// If an instant lies outside of the motion, or there are none or too many.
     pub fn draw(&self, scene: &Scene, motion: &Motion, title: &str) -> Result<Drawing, PictureError> {
+        let Panels { seen, paths, projection, frame } = self.panels(scene, motion, MOST_PANELS)?;
+        let sheet = Sheet::of(frame, seen.len(), MOST);
+        Ok(sheet.drawn(&seen, &paths, &projection, (title, scene.is_static)))
+    }
+
+    /// Draws a model that moves so, with a sheet for each instant, all of one size and scale.
+    ///
+    /// # Errors
+    /// If an instant lies outside of the motion, or there are none or too many.
+    pub fn draw_moving(
+        &self,
+        scene: &Scene,
+        motion: &Motion,
+        title: &str,
+    ) -> Result<Vec<Drawing>, PictureError> {
+        let Panels { seen, paths, projection, frame } = self.panels(scene, motion, MOST_FRAMES)?;
+        let sheet = Sheet::of(frame, 1, MOST_MOVING);
+        let words = (title, scene.is_static);
+        Ok(seen.chunks(1).map(|panel| sheet.drawn(panel, &paths, &projection, words)).collect())
+    }
+
+    fn panels(&self, scene: &Scene, motion: &Motion, most: usize) -> Result<Panels, PictureError> {
         let (Some(&first), Some(&last)) = (motion.times().first(), motion.times().last()) else {
             return Err(PictureError::Empty);
         };
-        if self.times.is_empty() || self.times.len() > MOST_PANELS {
-            return Err(PictureError::TooMany(self.times.len()));
+        if self.times.is_empty() || self.times.len() > most {
+            return Err(PictureError::TooMany { count: self.times.len(), most });
         }
         let geometry = Geometry::new(scene, motion, true);
         let projection = Projection::of(&geometry, self.view);
@@ -125,8 +165,7 @@ impl Picture {
         }
         let paths = if self.paths { paths(scene, motion, &projection) } else { Vec::new() };
         paths.iter().flatten().for_each(|point| frame.take(point));
-        let sheet = Sheet::of(frame, panels.len());
-        Ok(sheet.drawn(&panels, &paths, &projection, (title, scene.is_static)))
+        Ok(Panels { seen: panels, paths, projection, frame })
     }
 }
 
@@ -156,13 +195,13 @@ struct Sheet {
 }
 
 impl Sheet {
-    /// As many columns as give the largest panels.
-    fn of(frame: Frame, count: usize) -> Self {
+    /// As many columns as give the largest panels on a sheet of at most this width and height.
+    fn of(frame: Frame, count: usize, most: [f64; 2]) -> Self {
         let [width, height] = frame.extent();
         let of_columns = |columns: usize| {
             let rows = count.div_ceil(columns);
-            let across = (MOST[0] / columns as f64 - 2.0 * MARGIN) / width;
-            let down = (MOST[1] / rows as f64 - 2.0 * MARGIN - LINE) / height;
+            let across = (most[0] / columns as f64 - 2.0 * MARGIN) / width;
+            let down = (most[1] / rows as f64 - 2.0 * MARGIN - LINE) / height;
             Self { frame, columns, rows, scale: across.min(down).max(1e-300) }
         };
         let better = |best: Self, other: Self| if other.scale > best.scale { other } else { best };
@@ -254,11 +293,11 @@ mod tests {
     #[test]
     fn sheets_have_the_columns_that_give_the_largest_panels() {
         let frame = |width, height| Frame { low: [0.0; 2], high: [width, height] };
-        let wide = Sheet::of(frame(4.0, 1.0), 6);
+        let wide = Sheet::of(frame(4.0, 1.0), 6, MOST);
         assert_eq!((wide.columns, wide.rows), (2, 3));
-        let high = Sheet::of(frame(1.0, 4.0), 6);
+        let high = Sheet::of(frame(1.0, 4.0), 6, MOST);
         assert_eq!((high.columns, high.rows), (6, 1));
-        assert_eq!(Sheet::of(frame(1.0, 1.0), 1).columns, 1);
+        assert_eq!(Sheet::of(frame(1.0, 1.0), 1, MOST).columns, 1);
     }
 
     #[test]

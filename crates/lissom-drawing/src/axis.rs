@@ -1,0 +1,183 @@
+//! Axes: what they run over, and where their ticks are.
+
+/// How an axis is divided.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Scale {
+    /// Evenly.
+    #[default]
+    Linear,
+    /// By decades; what is not above zero has no place.
+    Logarithmic,
+}
+
+/// An axis of a panel.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Axis {
+    /// Quantity and unit.
+    pub label: String,
+    /// How it is divided.
+    pub scale: Scale,
+    /// From where to where; what the curves need, and a little more, if there is none.
+    pub range: Option<[f64; 2]>,
+}
+
+impl Axis {
+    /// An evenly divided axis.
+    pub fn new(label: &str) -> Self {
+        Self { label: label.to_owned(), ..Self::default() }
+    }
+
+    /// An axis of decades.
+    pub fn logarithmic(label: &str) -> Self {
+        Self { scale: Scale::Logarithmic, ..Self::new(label) }
+    }
+
+    /// Whether a number has a place.
+    pub(crate) fn shows(&self, number: f64) -> bool {
+        number.is_finite() && (self.scale == Scale::Linear || number > 0.0)
+    }
+
+    /// The range, of numbers that have a place, of which there is one at least.
+    pub(crate) fn extent(&self, numbers: impl Iterator<Item = f64>, room: f64) -> [f64; 2] {
+        if let Some([from, to]) = self.range.filter(|[from, to]| from < to) {
+            return [from, to];
+        }
+        let (low, high) =
+            numbers.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+        if self.scale == Scale::Logarithmic {
+            let [low, high] = [low.log10().floor(), high.log10().ceil()];
+            return [10.0_f64.powf(low), 10.0_f64.powf(if high > low { high } else { low + 1.0 })];
+        }
+        let extent = high - low;
+        // A constant would have an axis without extent.
+        let room = match (extent > 1e-12 * high.abs().max(low.abs()), high == 0.0) {
+            (true, _) => room * extent,
+            (false, true) => 1.0,
+            (false, false) => 0.1 * high.abs(),
+        };
+        [low - room, high + room]
+    }
+
+    /// Share of the axis that lies before a number.
+    pub(crate) fn share(&self, [from, to]: [f64; 2], number: f64) -> f64 {
+        match self.scale {
+            // Halves, so that the largest numbers do not overflow.
+            Scale::Linear => (0.5 * number - 0.5 * from) / (0.5 * to - 0.5 * from),
+            Scale::Logarithmic => (number / from).ln() / (to / from).ln(),
+        }
+    }
+
+    /// Numbers with a tick and what is written there; at most so many are written.
+    pub(crate) fn ticks(&self, range: [f64; 2], most: usize) -> Vec<(f64, String)> {
+        match self.scale {
+            Scale::Linear => linear(range, most),
+            Scale::Logarithmic => decades(range, most),
+        }
+    }
+}
+
+fn linear([from, to]: [f64; 2], most: usize) -> Vec<(f64, String)> {
+    let rough = (to / most.max(1) as f64) - from / most.max(1) as f64;
+    let power = 10.0_f64.powf(rough.log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0]
+        .map(|digit| digit * power)
+        .into_iter()
+        .find(|step| *step >= rough * (1.0 - 1e-9));
+    let step = step.unwrap_or(rough);
+    if !(step.is_finite() && step > 0.0) {
+        return Vec::new();
+    }
+    let (first, last) = ((from / step - 1e-6).ceil(), (to / step + 1e-6).floor());
+    // Digits behind the point, or of the mantissa where numbers are very large or small.
+    let largest = (first.abs().max(last.abs()) * step).max(f64::MIN_POSITIVE);
+    let decimals = (-(step.log10() + 1e-9).floor()).max(0.0) as usize;
+    let is_plain = largest < 1e5 && decimals <= 5;
+    let digits = (largest.log10().floor() - (step.log10() + 1e-9).floor()).clamp(0.0, 15.0) as usize;
+    let text = |number: f64| {
+        if number == 0.0 {
+            "0".to_owned()
+        } else if is_plain {
+            format!("{number:.decimals$}")
+        } else {
+            let below = (largest.log10().floor() - number.abs().log10().floor()).max(0.0) as usize;
+            format!("{number:.*e}", digits.saturating_sub(below))
+        }
+    };
+    let count = (last - first).clamp(0.0, 1000.0) as usize;
+    (0..=count)
+        .map(|k| {
+            let number = (first + k as f64) * step;
+            let number = if number.abs() < 1e-9 * step { 0.0 } else { number };
+            (number, text(number))
+        })
+        .collect()
+}
+
+/// Every decade, or every so many; where there are few, halves and fifths of them as well.
+fn decades([from, to]: [f64; 2], most: usize) -> Vec<(f64, String)> {
+    let (first, last) = (from.log10() - 1e-9, to.log10() + 1e-9);
+    let count = (last - first).floor().max(0.0) as usize + 1;
+    let stride = count.div_ceil(most.max(2));
+    let digits: &[u8] = if count <= 2 { &[1, 2, 5] } else { &[1] };
+    let mut ticks = Vec::new();
+    for decade in first.floor() as i32..=last.floor() as i32 {
+        for digit in digits {
+            let exponent = f64::from(decade) + f64::from(*digit).log10();
+            if exponent >= first && exponent <= last && decade.rem_euclid(stride as i32) == 0 {
+                let text = if decade.abs() <= 3 {
+                    format!("{}", f64::from(*digit) * 10.0_f64.powi(decade))
+                } else {
+                    format!("{digit}e{decade}")
+                };
+                ticks.push((10.0_f64.powf(exponent), text));
+            }
+        }
+    }
+    ticks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn words(axis: &Axis, range: [f64; 2], most: usize) -> Vec<String> {
+        axis.ticks(range, most).into_iter().map(|(_, text)| text).collect()
+    }
+
+    #[test]
+    fn ticks_are_round_numbers_with_the_digits_they_need() {
+        let axis = Axis::new("");
+        assert_eq!(
+            words(&axis, [0.0, 0.4], 5),
+            ["0.0", "0.1", "0.2", "0.3", "0.4"].map(|t| if t == "0.0" { "0" } else { t })
+        );
+        assert_eq!(words(&axis, [-1.1, 1.1], 5), ["-1.0", "-0.5", "0", "0.5", "1.0"]);
+        assert_eq!(words(&axis, [0.0, 2.5e6], 5), ["0", "5e5", "1.0e6", "1.5e6", "2.0e6", "2.5e6"]);
+        assert_eq!(words(&axis, [99.9, 100.1], 4), ["99.90", "99.95", "100.00", "100.05", "100.10"]);
+        assert_eq!(words(&axis, [0.0, 3e-7], 3), ["0", "1e-7", "2e-7", "3e-7"]);
+        for range in [[-1e300, 1e300], [1e-300, 2e-300], [-1e-12, 1.0], [f64::MIN, f64::MAX]] {
+            let ticks = axis.ticks(range, 6);
+            assert!(ticks.len() < 9 && ticks.iter().all(|tick| tick.0.is_finite()), "{ticks:?}");
+        }
+    }
+
+    #[test]
+    fn decades_are_thinned_out_or_divided() {
+        let axis = Axis::logarithmic("");
+        assert_eq!(words(&axis, [1e-2, 1e2], 6), ["0.01", "0.1", "1", "10", "100"]);
+        assert_eq!(words(&axis, [1.0, 10.0], 6), ["1", "2", "5", "10"]);
+        let ticks = words(&axis, [1e-20, 1e20], 6);
+        assert!(ticks.len() <= 7 && ticks.contains(&"1".to_owned()), "{ticks:?}");
+    }
+
+    #[test]
+    fn constants_and_given_ranges_have_an_extent() {
+        let axis = Axis::new("");
+        assert_eq!(axis.extent([0.0, 0.0].into_iter(), 0.05), [-1.0, 1.0]);
+        assert_eq!(axis.extent([-20.0].into_iter(), 0.05), [-22.0, -18.0]);
+        assert_eq!(axis.extent([0.0, 10.0].into_iter(), 0.05), [-0.5, 10.5]);
+        assert_eq!(Axis { range: Some([1.0, 2.0]), ..axis }.extent([0.0].into_iter(), 0.05), [1.0, 2.0]);
+        let decades = Axis::logarithmic("").extent([2.0, 300.0].into_iter(), 0.05);
+        assert!((decades[0] - 1.0).abs() < 1e-12 && (decades[1] - 1000.0).abs() < 1e-9, "{decades:?}");
+    }
+}

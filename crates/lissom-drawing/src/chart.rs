@@ -1,0 +1,332 @@
+//! Charts: panels of curves below one another, with axes, grid and legend.
+
+use crate::axis::{Axis, Scale};
+use crate::drawing::{Align, Drawing, Shade};
+use crate::lettering;
+
+const INK: Shade = [0x33, 0x33, 0x33];
+const GRID: Shade = [0xe4, 0xe4, 0xe4];
+const BLACK: Shade = [0; 3];
+
+/// Heights of words.
+const TITLE: u32 = 16;
+const LABEL: u32 = 13;
+const TICK: u32 = 11;
+/// From the edges, and between things beside each other.
+const MARGIN: f64 = 12.0;
+/// Space for the words below a panel.
+const FOOT: f64 = 46.0;
+/// Length of the sample of a curve in the legend, and height of its lines.
+const SAMPLE: f64 = 24.0;
+const LEGEND_LINE: f64 = 17.0;
+/// Widest legend, as a share of the drawing.
+const LEGEND_SHARE: f64 = 0.4;
+/// Of the extent of the curves, left free above and below them.
+const ROOM: f64 = 0.04;
+/// Radius of marks.
+const RADIUS: f64 = 3.6;
+
+/// What stands at the points of a curve.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Mark {
+    /// A disc.
+    Circle,
+    /// A square.
+    Square,
+    /// A triangle that points upwards.
+    Triangle,
+    /// A square on its corner.
+    Diamond,
+}
+
+/// Points joined by lines.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Curve {
+    /// What the legend calls it; nothing if it is empty.
+    pub name: String,
+    /// Its points. Those that have no place on the axes are left out.
+    pub points: Vec<(f64, f64)>,
+    /// Its colour.
+    pub shade: Shade,
+    /// Its width.
+    pub width: f64,
+    /// Whether it is dashed.
+    pub is_dashed: bool,
+    /// What stands at its points.
+    pub mark: Option<Mark>,
+}
+
+impl Curve {
+    /// A plain curve without name and points.
+    pub fn new(shade: Shade) -> Self {
+        Self { name: String::new(), points: Vec::new(), shade, width: 1.6, is_dashed: false, mark: None }
+    }
+}
+
+/// Curves with common axes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Panel {
+    /// Below.
+    pub x: Axis,
+    /// At the left.
+    pub y: Axis,
+    /// Curves; later ones lie above.
+    pub curves: Vec<Curve>,
+}
+
+/// Panels below one another.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Chart {
+    /// Name, fit for a file.
+    pub name: String,
+    /// Above all.
+    pub title: String,
+    /// Panels.
+    pub panels: Vec<Panel>,
+    /// Of the drawing.
+    pub width: f64,
+    /// Of each panel, with its words.
+    pub panel_height: f64,
+}
+
+/// Where a panel's curves are drawn.
+struct Frame<'a> {
+    panel: &'a Panel,
+    x: [f64; 2],
+    y: [f64; 2],
+    left: f64,
+    right: f64,
+    top: f64,
+    bottom: f64,
+}
+
+impl Chart {
+    /// Panels without a title, of a usual size.
+    pub fn new(name: &str, panels: Vec<Panel>) -> Self {
+        let panel_height = if panels.len() == 1 { 430.0 } else { 340.0 };
+        Self { name: name.to_owned(), title: String::new(), panels, width: 760.0, panel_height }
+    }
+
+    /// Panels without any point that has a place are left out.
+    pub fn draw(&self) -> Drawing {
+        let frames: Vec<Frame<'_>> = self.panels.iter().filter_map(Frame::of).collect();
+        let head = if self.title.is_empty() { MARGIN } else { 2.0 * MARGIN + f64::from(TITLE) };
+        let height = head + self.panel_height * frames.len() as f64;
+        let mut drawing = Drawing::new(&self.name, [self.width, height]);
+        // Of one width, so that times lie below one another.
+        let numbers =
+            frames.iter().flat_map(Frame::y_ticks).map(|(_, text)| lettering::width(&text, f64::from(TICK)));
+        let left = 2.0 * MARGIN + f64::from(LABEL) + numbers.fold(0.0, f64::max) + 6.0;
+        let names =
+            frames.iter().flat_map(|frame| &frame.panel.curves).filter(|curve| !curve.name.is_empty());
+        let legend = names.map(|curve| lettering::width(&curve.name, f64::from(TICK))).fold(0.0, f64::max);
+        let legend =
+            if legend > 0.0 { (legend + SAMPLE + MARGIN).min(LEGEND_SHARE * self.width) } else { 0.0 };
+        let right = self.width - 2.0 * MARGIN - legend;
+        let count = frames.len();
+        for (index, mut frame) in frames.into_iter().enumerate() {
+            let top = head + self.panel_height * index as f64;
+            let foot = if index + 1 < count { FOOT + MARGIN } else { FOOT };
+            (frame.left, frame.right, frame.top, frame.bottom) =
+                (left, right, top, top + self.panel_height - foot);
+            frame.draw(&mut drawing);
+            frame.legend(&mut drawing, legend);
+        }
+        if !self.title.is_empty() {
+            let height = fitting(&self.title, TITLE, self.width - 2.0 * MARGIN);
+            let at = [0.5 * (left + right), MARGIN + f64::from(TITLE)];
+            // In the middle of the panels, unless it is too long for that.
+            let half = 0.5 * lettering::width(&self.title, f64::from(height));
+            let x = at[0].clamp(MARGIN + half, (self.width - MARGIN - half).max(MARGIN + half));
+            drawing.words([x, at[1]], &self.title, height, Align::Middle, BLACK);
+        }
+        drawing
+    }
+}
+
+/// The largest height up to `height` at which words have the width.
+fn fitting(words: &str, height: u32, width: f64) -> u32 {
+    (7..=height).rev().find(|height| lettering::width(words, f64::from(*height)) <= width).unwrap_or(7)
+}
+
+impl<'a> Frame<'a> {
+    /// Without places on the drawing; none if no point has a place.
+    fn of(panel: &'a Panel) -> Option<Self> {
+        let points =
+            || panel.curves.iter().flat_map(|curve| &curve.points).filter(|point| panel.shows(point));
+        points().next()?;
+        let [x, y] = [
+            panel.x.extent(points().map(|point| point.0), ROOM),
+            panel.y.extent(points().map(|point| point.1), ROOM),
+        ];
+        Some(Frame { panel, x, y, left: 0.0, right: 0.0, top: 0.0, bottom: 0.0 })
+    }
+
+    fn y_ticks(&self) -> Vec<(f64, String)> {
+        self.panel.y.ticks(self.y, 7)
+    }
+
+    fn place(&self, (x, y): (f64, f64)) -> [f64; 2] {
+        let share = [self.panel.x.share(self.x, x), self.panel.y.share(self.y, y)];
+        // Beyond the range curves run along its edge.
+        let [x, y] = share.map(|share| share.clamp(0.0, 1.0));
+        [self.left + x * (self.right - self.left), self.bottom - y * (self.bottom - self.top)]
+    }
+
+    fn draw(&self, drawing: &mut Drawing) {
+        let Panel { x, y, curves } = self.panel;
+        let middle = [0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom)];
+        let tick = f64::from(TICK);
+        let widest = if x.scale == Scale::Linear { 8 } else { 9 };
+        for (number, text) in x.ticks(self.x, widest) {
+            let [at, _] = self.place((number, self.y[0]));
+            drawing.line(vec![[at, self.bottom + 4.0], [at, self.top]], GRID, 1.0);
+            drawing.line(vec![[at, self.bottom], [at, self.bottom + 4.0]], INK, 1.0);
+            drawing.words([at, self.bottom + 6.0 + tick], &text, TICK, Align::Middle, INK);
+        }
+        for (number, text) in self.y_ticks() {
+            let [_, at] = self.place((self.x[0], number));
+            drawing.line(vec![[self.left, at], [self.right, at]], GRID, 1.0);
+            drawing.line(vec![[self.left - 4.0, at], [self.left, at]], INK, 1.0);
+            drawing.words([self.left - 6.0, at + 0.36 * tick], &text, TICK, Align::End, INK);
+        }
+        for curve in curves {
+            self.curve(drawing, curve);
+        }
+        let corners = [[self.left, self.top], [self.left, self.bottom], [self.right, self.bottom]];
+        drawing.line(corners.to_vec(), INK, 1.0);
+        let height = fitting(&x.label, LABEL, self.right - self.left);
+        drawing.words([middle[0], self.bottom + 2.0 * tick + 16.0], &x.label, height, Align::Middle, BLACK);
+        let height = fitting(&y.label, LABEL, self.bottom - self.top);
+        drawing.upright_words([MARGIN + f64::from(LABEL), middle[1]], &y.label, height, Align::Middle, BLACK);
+    }
+
+    fn curve(&self, drawing: &mut Drawing, curve: &Curve) {
+        // A gap is left where points have no place.
+        for piece in curve.points.split(|point| !self.panel.shows(&point)) {
+            let places: Vec<[f64; 2]> = piece.iter().map(|point| self.place(*point)).collect();
+            for place in curve.mark.map(|_| &places).into_iter().flatten() {
+                mark(drawing, *place, curve);
+            }
+            if let [place] = places[..] {
+                // A line through one point would not be seen.
+                mark(drawing, place, &Curve { mark: curve.mark.or(Some(Mark::Circle)), ..curve.clone() });
+            } else if !places.is_empty() {
+                line(drawing, places, curve);
+            }
+        }
+    }
+
+    fn legend(&self, drawing: &mut Drawing, width: f64) {
+        let named: Vec<&Curve> = self.panel.curves.iter().filter(|curve| !curve.name.is_empty()).collect();
+        let lines = (((self.bottom - self.top) / LEGEND_LINE) as usize).max(1);
+        let left = self.right + MARGIN;
+        // The last line tells how many there are more.
+        let shown = if named.len() > lines { lines - 1 } else { named.len() };
+        for (index, curve) in named[..shown].iter().enumerate() {
+            let y = self.top + LEGEND_LINE * (index as f64 + 0.5);
+            line(drawing, vec![[left, y], [left + SAMPLE, y]], curve);
+            if curve.mark.is_some() {
+                mark(drawing, [left + 0.5 * SAMPLE, y], curve);
+            }
+            let height = fitting(&curve.name, TICK, width - SAMPLE - MARGIN);
+            drawing.words([left + SAMPLE + 6.0, y + 4.0], &curve.name, height, Align::Start, INK);
+        }
+        if shown < named.len() {
+            let y = self.top + LEGEND_LINE * (shown as f64 + 0.5);
+            let words = format!("and {} more", named.len() - shown);
+            drawing.words([left, y + 4.0], &words, TICK, Align::Start, INK);
+        }
+    }
+}
+
+impl Panel {
+    fn shows(&self, point: &(f64, f64)) -> bool {
+        self.x.shows(point.0) && self.y.shows(point.1)
+    }
+}
+
+fn line(drawing: &mut Drawing, places: Vec<[f64; 2]>, curve: &Curve) {
+    if curve.is_dashed {
+        drawing.dashed_line(places, curve.shade, curve.width);
+    } else {
+        drawing.line(places, curve.shade, curve.width);
+    }
+}
+
+fn mark(drawing: &mut Drawing, [x, y]: [f64; 2], curve: &Curve) {
+    let (corners, turn, radius) = match curve.mark {
+        None => return,
+        Some(Mark::Circle) => (16, 0.0, RADIUS),
+        Some(Mark::Square) => (4, 0.5, 1.2 * RADIUS),
+        Some(Mark::Triangle) => (3, 0.25, 1.2 * RADIUS),
+        Some(Mark::Diamond) => (4, 0.0, 1.3 * RADIUS),
+    };
+    let corner = |index: u32| {
+        let angle = std::f64::consts::TAU * (f64::from(index) + turn) / f64::from(corners);
+        // The first corner of a triangle points upwards.
+        let angle = if corners == 3 { angle + std::f64::consts::PI } else { angle };
+        [x + radius * angle.cos(), y + radius * angle.sin()]
+    };
+    drawing.polygon((0..corners).map(corner).collect(), curve.shade);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::drawing::palette;
+
+    fn wave(index: usize, name: &str) -> Curve {
+        let points =
+            (0..200).map(|k| (f64::from(k) * 0.01, (f64::from(k) * 0.1 + index as f64).sin())).collect();
+        Curve { name: name.to_owned(), points, ..Curve::new(palette(index)) }
+    }
+
+    #[test]
+    fn charts_hold_words_and_curves_within_their_frames() {
+        let panel = |curves| Panel { x: Axis::new("time [s]"), y: Axis::new("displacement [m]"), curves };
+        let panels = vec![panel(vec![wave(0, "x"), wave(1, "y")]), panel(vec![wave(2, "z")])];
+        let chart = Chart { title: "Waves".to_owned(), ..Chart::new("waves", panels) };
+        let drawing = chart.draw();
+        assert_eq!(drawing.size, [760.0, 720.0]);
+        let svg = drawing.svg().unwrap();
+        for words in ["Waves", "time [s]", "displacement [m]", ">x<", ">z<", "#0072b2", "#009e73", ">1.5<"] {
+            assert!(svg.contains(words), "{words}: {svg}");
+        }
+        assert!(drawing.png().unwrap().starts_with(b"\x89PNG"));
+    }
+
+    #[test]
+    fn points_without_a_place_leave_gaps_and_panels_without_points_are_left_out() {
+        let mut curve = wave(0, "x");
+        curve.points[100].1 = f64::NAN;
+        let panel = |curves| Panel { x: Axis::new("t"), y: Axis::new("x"), curves };
+        let svg = Chart::new("gap", vec![panel(vec![curve])]).draw().svg().unwrap();
+        assert_eq!(svg.matches("stroke=\"#0072b2\"").count(), 3, "two pieces and the legend");
+        let nothing = Curve { points: vec![(0.0, f64::NAN)], ..wave(0, "x") };
+        let drawing = Chart::new("nothing", vec![panel(vec![nothing])]).draw();
+        assert_eq!(drawing.size[1], MARGIN);
+        let below =
+            Panel { x: Axis::logarithmic("h"), y: Axis::logarithmic("e"), curves: vec![wave(0, "x")] };
+        assert!(Chart::new("logarithmic", vec![below]).draw().svg().is_ok());
+    }
+
+    #[test]
+    fn every_curve_of_a_long_legend_is_counted() {
+        let curves = (0..60).map(|index| wave(index, &format!("curve {index}"))).collect();
+        let panel = Panel { x: Axis::new("t"), y: Axis::new("x"), curves };
+        let svg = Chart::new("many", vec![panel]).draw().svg().unwrap();
+        let shown = svg.matches(">curve ").count();
+        assert!(svg.contains(&format!("and {} more", 60 - shown)), "{shown}");
+    }
+
+    #[test]
+    fn marks_stand_at_their_points() {
+        for mark in [Mark::Circle, Mark::Square, Mark::Triangle, Mark::Diamond] {
+            let points = vec![(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)];
+            let curve = Curve { points, mark: Some(mark), ..Curve::new(palette(0)) };
+            let panel = Panel { x: Axis::new("t"), y: Axis::new("x"), curves: vec![curve] };
+            assert_eq!(Chart::new("marks", vec![panel]).draw().polygon_count(), 3);
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! What a drawing is made of.
+
+use crate::png::{self, PngError};
+use crate::raster::Image;
+use crate::svg;
+
+/// Red, green and blue as screens take them, 0 to 255.
+pub type Shade = [u8; 3];
+
+/// Blue, vermilion, green, purple, orange, sky blue, black (after Okabe and Ito 2008): told apart also by
+/// people who do not see all colours, and on paper.
+const COLOURS: [Shade; 7] =
+    [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0], [86, 180, 233], [0, 0, 0]];
+
+/// Colour of the curve of this number, from zero. Colours repeat after seven.
+pub fn palette(index: usize) -> Shade {
+    COLOURS[index % COLOURS.len()]
+}
+
+/// A drawing that cannot be made.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum DrawingError {
+    /// There is nothing to see.
+    #[error("{0}")]
+    Empty(&'static str),
+    /// A polygon, line or word has no place.
+    #[error("a place in it is not a finite number")]
+    NotFinite,
+    /// It does not fit into a picture.
+    #[error(transparent)]
+    Png(#[from] PngError),
+}
+
+/// Where words stand beside their place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Align {
+    /// They begin there.
+    Start,
+    /// Their middle is there.
+    Middle,
+    /// They end there.
+    End,
+}
+
+/// A drawing, in pixels from the upper left corner. What comes later lies above.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Drawing {
+    /// Name, fit for a file.
+    pub name: String,
+    /// Width and height.
+    pub size: [f64; 2],
+    pub(crate) shapes: Vec<Shape>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Shape {
+    Polygon { points: Vec<[f64; 2]>, shade: Shade },
+    Line { points: Vec<[f64; 2]>, shade: Shade, width: f64, is_dashed: bool },
+    Words { at: [f64; 2], text: String, height: u32, align: Align, shade: Shade, is_upright: bool },
+}
+
+impl Drawing {
+    /// An empty drawing.
+    pub fn new(name: &str, size: [f64; 2]) -> Self {
+        Self { name: name.to_owned(), size, shapes: Vec::new() }
+    }
+
+    /// Adds a filled polygon. Its edge is drawn too, 0.8 pixels wide, so that no seam is left to a neighbour.
+    pub fn polygon(&mut self, points: Vec<[f64; 2]>, shade: Shade) {
+        self.shapes.push(Shape::Polygon { points, shade });
+    }
+
+    /// Adds a line through points.
+    pub fn line(&mut self, points: Vec<[f64; 2]>, shade: Shade, width: f64) {
+        self.shapes.push(Shape::Line { points, shade, width, is_dashed: false });
+    }
+
+    /// Adds a dashed line through points; dashes go on from one piece to the next.
+    pub fn dashed_line(&mut self, points: Vec<[f64; 2]>, shade: Shade, width: f64) {
+        self.shapes.push(Shape::Line { points, shade, width, is_dashed: true });
+    }
+
+    /// Adds words of a height; `at` is on the line they stand on.
+    pub fn words(&mut self, at: [f64; 2], text: &str, height: u32, align: Align, shade: Shade) {
+        let text = text.to_owned();
+        self.shapes.push(Shape::Words { at, text, height, align, shade, is_upright: false });
+    }
+
+    /// Adds words that run upwards.
+    pub fn upright_words(&mut self, at: [f64; 2], text: &str, height: u32, align: Align, shade: Shade) {
+        let text = text.to_owned();
+        self.shapes.push(Shape::Words { at, text, height, align, shade, is_upright: true });
+    }
+
+    /// How many polygons there are.
+    pub fn polygon_count(&self) -> usize {
+        self.shapes.iter().filter(|shape| matches!(shape, Shape::Polygon { .. })).count()
+    }
+
+    /// The drawing as an SVG text.
+    ///
+    /// # Errors
+    /// If a place is not a finite number.
+    pub fn svg(&self) -> Result<String, DrawingError> {
+        self.check()?;
+        Ok(svg::text(self))
+    }
+
+    /// The drawing as the bytes of a PNG file, two pixels for each of the drawing.
+    ///
+    /// # Errors
+    /// If a place is not a finite number, or the drawing is too large.
+    pub fn png(&self) -> Result<Vec<u8>, DrawingError> {
+        Ok(png::picture(&self.image(2.0)?)?)
+    }
+
+    /// The drawing as pixels, `scale` of them for each of the drawing.
+    pub(crate) fn image(&self, scale: f64) -> Result<Image, DrawingError> {
+        self.check()?;
+        let mut image = Image::new(self.size, scale)?;
+        for shape in &self.shapes {
+            image.draw(shape);
+        }
+        Ok(image)
+    }
+
+    fn check(&self) -> Result<(), DrawingError> {
+        let is_placed = self.shapes.iter().all(|shape| {
+            let places = match shape {
+                Shape::Polygon { points, .. } | Shape::Line { points, .. } => points.as_slice(),
+                Shape::Words { at, .. } => std::slice::from_ref(at),
+            };
+            places.iter().flatten().all(|number| number.is_finite())
+        });
+        if is_placed && self.size.iter().all(|side| side.is_finite()) {
+            Ok(())
+        } else {
+            Err(DrawingError::NotFinite)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn drawings_hold_what_was_drawn_and_refuse_what_has_no_place() {
+        let mut drawing = Drawing::new("snapshot", [200.0, 100.0]);
+        drawing.polygon(vec![[10.0, 10.04], [90.0, 10.0], [50.0, 80.0]], [255, 128, 0]);
+        drawing.line(vec![[0.0, 0.0], [200.0, 100.0]], [0, 0, 0], 1.0);
+        drawing.words([100.0, 50.0], "t = 1 s < 2 s", 12, Align::Middle, [0, 0, 0]);
+        let svg = drawing.svg().unwrap();
+        assert!(svg.contains("M10 10L90 10L50 80Z") && svg.contains("#ff8000"), "{svg}");
+        assert!(svg.contains("t = 1 s &lt; 2 s"), "{svg}");
+        assert!(drawing.png().unwrap().starts_with(b"\x89PNG"));
+        drawing.polygon(vec![[f64::NAN, 0.0]; 3], [0; 3]);
+        assert!(drawing.svg().is_err() && drawing.png().is_err());
+    }
+
+    #[test]
+    fn sizes_without_end_are_refused() {
+        assert_eq!(Drawing::new("a", [f64::INFINITY, 1.0]).png(), Err(DrawingError::NotFinite));
+        assert!(matches!(
+            Drawing::new("a", [1e6, 1e6]).png(),
+            Err(DrawingError::Png(PngError::TooLarge { .. }))
+        ));
+        assert!(matches!(Drawing::new("a", [0.0, 10.0]).png(), Err(DrawingError::Png(PngError::Nothing))));
+    }
+}

@@ -1,0 +1,27 @@
+//! Drawings made of filled polygons, lines and words, and charts made of these, as SVG and as PNG. Knows no mechanics and
+//! opens no files.
+//!
+//! ```
+//! use lissom_drawing::{Axis, Chart, Curve, Panel, palette};
+//!
+//! let points = (0..100).map(|k| (0.1 * f64::from(k), (0.1 * f64::from(k)).sin())).collect();
+//! let curve = Curve { name: "x".to_owned(), points, ..Curve::new(palette(0)) };
+//! let panel = Panel { x: Axis::new("time [s]"), y: Axis::new("displacement [m]"), curves: vec![curve] };
+//! let drawing = Chart { title: "A wave".to_owned(), ..Chart::new("wave", vec![panel]) }.draw();
+//! assert!(drawing.svg().unwrap().contains("displacement [m]"));
+//! assert!(drawing.png().unwrap().starts_with(b"\x89PNG"));
+//! ```
+
+mod axis;
+mod chart;
+mod dashes;
+mod drawing;
+mod lettering;
+mod png;
+mod raster;
+mod svg;
+
+pub use axis::{Axis, Scale};
+pub use chart::{Chart, Curve, Mark, Panel};
+pub use drawing::{Align, Drawing, DrawingError, Shade, palette};
+pub use png::{PngError, animation};
