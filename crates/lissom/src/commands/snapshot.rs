@@ -7,6 +7,7 @@ use lissom::motion::Motion;
 use lissom::picture::{Picture, View, instants};
 use lissom::{Override, ResultFolder};
 use lissom_model::files;
+use lissom_model::output::animation;
 use lissom_model::scene::Scene;
 
 use super::run::Run;
@@ -24,6 +25,7 @@ Examples:
   lissom snapshot out/tip-crank --strip 6      writes out/tip-crank/snapshot.svg
   lissom snapshot out/tip-crank --at 0.1,0.2 --out crank.png
   lissom snapshot examples/four-bar.toml --initial --view front
+  lissom snapshot examples/four-bar.toml --animate 4
 
 Exit code: 0 all is done; 2 wrong model or command line, or an instant without motion; 3 no solution: the picture then
 shows how far it came.")]
@@ -46,7 +48,12 @@ pub(super) struct Snapshot {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100))]
     strip: Option<u64>,
 
-    /// Where the picture goes: a name that ends in .svg or .png [default: snapshot.svg in the folder of results].
+    /// A moving picture (APNG, which browsers show) of the whole motion that lasts so many seconds.
+    #[arg(long, value_name = "SECONDS", conflicts_with_all = ["at", "strip", "initial"])]
+    animate: Option<f64>,
+
+    /// Where the picture goes: a name that ends in .svg or .png [default: snapshot.svg in the folder of results,
+    /// snapshot.png if it moves].
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
 
@@ -70,6 +77,10 @@ pub(super) struct Snapshot {
     #[arg(long, short)]
     quiet: bool,
 }
+
+/// Longest moving picture [s], and pictures of it in a second.
+const MOST_SECONDS: f64 = 30.0;
+const PICTURES_PER_SECOND: f64 = 20.0;
 
 /// Directions of view on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -98,6 +109,13 @@ impl Snapshot {
                 return Err(Failure::new(Exit::BadModel, message));
             }
         };
+        let wrong = |message: String| Err(Failure::new(Exit::BadModel, message));
+        if self.animate.is_some() && self.out.is_some() && !is_png {
+            return wrong("a moving picture is a PNG file: its name must end in .png".to_owned());
+        }
+        if let Some(duration) = self.animate.filter(|duration| !(0.1..=MOST_SECONDS).contains(duration)) {
+            return wrong(format!("`--animate {duration}` must be from 0.1 to {MOST_SECONDS} seconds"));
+        }
         if let Some(time) = self.at.iter().find(|time| !time.is_finite()) {
             return Err(Failure::new(Exit::BadModel, format!("`--at {time}` is no instant")));
         }
@@ -140,8 +158,9 @@ impl Snapshot {
         (folder, is_png): (&Path, bool),
     ) -> Result<(), Failure> {
         let wrong = |error| Failure::new(Exit::BadModel, error);
+        let moving = self.animate.map(|duration| (duration * PICTURES_PER_SECOND).round() as usize);
         let times = if self.at.is_empty() {
-            instants(motion, self.strip.unwrap_or(1) as usize).map_err(wrong)?
+            instants(motion, moving.unwrap_or(self.strip.unwrap_or(1) as usize)).map_err(wrong)?
         } else {
             self.at.clone()
         };
@@ -152,16 +171,21 @@ impl Snapshot {
             From::Side => View::Side,
             From::Top => View::Top,
         };
-        let drawing = Picture { times, view, paths: self.paths }.draw(scene, motion, title).map_err(wrong)?;
+        let picture = Picture { times, view, paths: self.paths };
         let failed = |error| Failure::new(Exit::Failed, error);
-        let bytes =
-            if is_png { drawing.png().map_err(failed)? } else { drawing.svg().map_err(failed)?.into_bytes() };
+        let bytes = if moving.is_some() {
+            let drawings = picture.draw_moving(scene, motion, title).map_err(wrong)?;
+            animation(&drawings, 1.0 / PICTURES_PER_SECOND, 1.0).map_err(failed)?
+        } else {
+            let drawing = picture.draw(scene, motion, title).map_err(wrong)?;
+            if is_png { drawing.png().map_err(failed)? } else { drawing.svg().map_err(failed)?.into_bytes() }
+        };
         let unwritable = |error| Failure::file(Exit::Failed, &error);
         let target = if let Some(file) = &self.out {
             file.clone()
         } else {
             files::create_folder(folder).map_err(unwritable)?;
-            folder.join("snapshot.svg")
+            folder.join(if moving.is_some() { "snapshot.png" } else { "snapshot.svg" })
         };
         files::write(&target, &bytes).map_err(unwritable)?;
         if !self.quiet {

@@ -33,6 +33,28 @@ fn a_strip_shows_instants_and_is_gone_after_another_run() {
 }
 
 #[test]
+fn moving_pictures_hold_so_many_frames_of_one_size() {
+    let folder = Folder::new("snapshot-moving");
+    let model = example("pendulum");
+    let moving = lissom(&["snapshot", &model, "--animate", "1.5", "-q"], folder.path());
+    assert_eq!(moving.code, 0, "{}", moving.errors);
+    let file = folder.path().join("out/pendulum/snapshot.png");
+    let bytes = fs::read(&file).unwrap();
+    assert!(bytes.starts_with(b"\x89PNG"));
+    let count = |kind: &[u8]| bytes.windows(4).filter(|window| *window == kind).count();
+    let at = bytes.windows(4).position(|window| window == b"acTL").unwrap();
+    assert_eq!(bytes[at + 4..at + 8], [0, 0, 0, 30], "20 pictures in a second");
+    assert_eq!((count(b"fcTL"), count(b"fdAT"), count(b"IEND")), (30, 29, 1));
+    for (options, message) in [
+        (["--animate", "1", "--out", "moving.svg"], "must end in .png"),
+        (["--animate", "1000", "--out", "moving.png"], "must be from 0.1 to 30"),
+    ] {
+        let refused = lissom(&[&["snapshot", "out/pendulum"][..], &options].concat(), folder.path());
+        assert!(refused.code == 2 && refused.errors.contains(message), "{}", refused.errors);
+    }
+}
+
+#[test]
 fn what_is_drawn_lies_where_the_table_says() {
     let folder = Folder::new("snapshot-places");
     let model = example("pendulum");
