@@ -336,7 +336,9 @@ impl<S: Scalar> LinearSolver<S> for Pivoting<S> {
         }
     }
 
+    /// Of the last factorisation; before the first, the entries of the matrix, a lower bound.
     fn factor_entries(&self) -> usize {
-        self.lower.values.len() + self.upper.values.len() + self.pivots.len()
+        let stored = self.lower.values.len() + self.upper.values.len() + self.pivots.len();
+        stored.max(self.pattern.entries())
     }
 }
