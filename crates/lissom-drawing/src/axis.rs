@@ -117,13 +117,13 @@ fn linear([from, to]: [f64; 2], most: usize) -> Vec<(f64, String)> {
 fn decades([from, to]: [f64; 2], most: usize) -> Vec<(f64, String)> {
     let (first, last) = (from.log10() - 1e-9, to.log10() + 1e-9);
     let count = (last - first).floor().max(0.0) as usize + 1;
-    let stride = count.div_ceil(most.max(2));
+    let stride = i32::try_from(count.div_ceil(most.max(2))).unwrap_or(i32::MAX);
     let digits: &[u8] = if count <= 2 { &[1, 2, 5] } else { &[1] };
     let mut ticks = Vec::new();
     for decade in first.floor() as i32..=last.floor() as i32 {
         for digit in digits {
             let exponent = f64::from(decade) + f64::from(*digit).log10();
-            if exponent >= first && exponent <= last && decade.rem_euclid(stride as i32) == 0 {
+            if exponent >= first && exponent <= last && decade.rem_euclid(stride) == 0 {
                 let text = if decade.abs() <= 3 {
                     format!("{}", f64::from(*digit) * 10.0_f64.powi(decade))
                 } else {

@@ -203,7 +203,7 @@ impl<'a> Frame<'a> {
 
     fn curve(&self, drawing: &mut Drawing, curve: &Curve) {
         // A gap is left where points have no place.
-        for piece in curve.points.split(|point| !self.panel.shows(&point)) {
+        for piece in curve.points.split(|point| !self.panel.shows(point)) {
             let places: Vec<[f64; 2]> = piece.iter().map(|point| self.place(*point)).collect();
             for place in curve.mark.map(|_| &places).into_iter().flatten() {
                 mark(drawing, *place, curve);
