@@ -1,4 +1,4 @@
-//! Charts: panels of curves below one another, with axes, grid and legend.
+//! Charts: panels of curves below and beside one another, with axes, grid and legend.
 
 use crate::axis::{Axis, Scale};
 use crate::drawing::{Align, Drawing, Shade};
@@ -48,18 +48,28 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
     /// Its colour.
     pub shade: Shade,
-    /// Its width.
+    /// Its width; zero for marks without a line.
     pub width: f64,
     /// Whether it is dashed.
     pub is_dashed: bool,
     /// What stands at its points.
     pub mark: Option<Mark>,
+    /// Half the size of marks.
+    pub radius: f64,
 }
 
 impl Curve {
     /// A plain curve without name and points.
     pub fn new(shade: Shade) -> Self {
-        Self { name: String::new(), points: Vec::new(), shade, width: 1.6, is_dashed: false, mark: None }
+        Self {
+            name: String::new(),
+            points: Vec::new(),
+            shade,
+            width: 1.6,
+            is_dashed: false,
+            mark: None,
+            radius: RADIUS,
+        }
     }
 }
 
@@ -74,7 +84,7 @@ pub struct Panel {
     pub curves: Vec<Curve>,
 }
 
-/// Panels below one another.
+/// Panels below one another, or several beside each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Chart {
     /// Name, fit for a file.
@@ -83,6 +93,8 @@ pub struct Chart {
     pub title: String,
     /// Panels.
     pub panels: Vec<Panel>,
+    /// Panels beside each other; the next ones are below.
+    pub columns: usize,
     /// Of the drawing.
     pub width: f64,
     /// Of each panel, with its words.
@@ -94,6 +106,8 @@ struct Frame<'a> {
     panel: &'a Panel,
     x: [f64; 2],
     y: [f64; 2],
+    /// Where its words begin.
+    edge: f64,
     left: f64,
     right: f64,
     top: f64,
@@ -104,14 +118,17 @@ impl Chart {
     /// Panels without a title, of a usual size.
     pub fn new(name: &str, panels: Vec<Panel>) -> Self {
         let panel_height = if panels.len() == 1 { 430.0 } else { 340.0 };
-        Self { name: name.to_owned(), title: String::new(), panels, width: 760.0, panel_height }
+        Self { name: name.to_owned(), title: String::new(), panels, columns: 1, width: 760.0, panel_height }
     }
 
     /// Panels without any point that has a place are left out.
     pub fn draw(&self) -> Drawing {
         let frames: Vec<Frame<'_>> = self.panels.iter().filter_map(Frame::of).collect();
         let head = if self.title.is_empty() { MARGIN } else { 2.0 * MARGIN + f64::from(TITLE) };
-        let height = head + self.panel_height * frames.len() as f64;
+        let columns = self.columns.max(1);
+        let rows = frames.len().div_ceil(columns);
+        let cell = self.width / columns as f64;
+        let height = head + self.panel_height * rows as f64;
         let mut drawing = Drawing::new(&self.name, [self.width, height]);
         // Of one width, so that times lie below one another.
         let numbers =
@@ -120,21 +137,22 @@ impl Chart {
         let names =
             frames.iter().flat_map(|frame| &frame.panel.curves).filter(|curve| !curve.name.is_empty());
         let legend = names.map(|curve| lettering::width(&curve.name, f64::from(TICK))).fold(0.0, f64::max);
-        let legend =
-            if legend > 0.0 { (legend + SAMPLE + MARGIN).min(LEGEND_SHARE * self.width) } else { 0.0 };
-        let right = self.width - 2.0 * MARGIN - legend;
-        let count = frames.len();
+        let legend = if legend > 0.0 { (legend + SAMPLE + MARGIN).min(LEGEND_SHARE * cell) } else { 0.0 };
+        let right = cell - 2.0 * MARGIN - legend;
         for (index, mut frame) in frames.into_iter().enumerate() {
-            let top = head + self.panel_height * index as f64;
-            let foot = if index + 1 < count { FOOT + MARGIN } else { FOOT };
-            (frame.left, frame.right, frame.top, frame.bottom) =
-                (left, right, top, top + self.panel_height - foot);
+            let (row, column) = (index / columns, index % columns);
+            let top = head + self.panel_height * row as f64;
+            let foot = if row + 1 < rows { FOOT + MARGIN } else { FOOT };
+            frame.edge = cell * column as f64;
+            (frame.left, frame.right) = (frame.edge + left, frame.edge + right);
+            (frame.top, frame.bottom) = (top, top + self.panel_height - foot);
             frame.draw(&mut drawing);
             frame.legend(&mut drawing, legend);
         }
         if !self.title.is_empty() {
             let height = fitting(&self.title, TITLE, self.width - 2.0 * MARGIN);
-            let at = [0.5 * (left + right), MARGIN + f64::from(TITLE)];
+            let middle = if columns == 1 { 0.5 * (left + right) } else { 0.5 * self.width };
+            let at = [middle, MARGIN + f64::from(TITLE)];
             // In the middle of the panels, unless it is too long for that.
             let half = 0.5 * lettering::width(&self.title, f64::from(height));
             let x = at[0].clamp(MARGIN + half, (self.width - MARGIN - half).max(MARGIN + half));
@@ -159,7 +177,7 @@ impl<'a> Frame<'a> {
             panel.x.extent(points().map(|point| point.0), ROOM),
             panel.y.extent(points().map(|point| point.1), ROOM),
         ];
-        Some(Frame { panel, x, y, left: 0.0, right: 0.0, top: 0.0, bottom: 0.0 })
+        Some(Frame { panel, x, y, edge: 0.0, left: 0.0, right: 0.0, top: 0.0, bottom: 0.0 })
     }
 
     fn y_ticks(&self) -> Vec<(f64, String)> {
@@ -177,7 +195,9 @@ impl<'a> Frame<'a> {
         let Panel { x, y, curves } = self.panel;
         let middle = [0.5 * (self.left + self.right), 0.5 * (self.top + self.bottom)];
         let tick = f64::from(TICK);
-        let widest = if x.scale == Scale::Linear { 8 } else { 9 };
+        // A number for each so many pixels.
+        let most: f64 = if x.scale == Scale::Linear { 8.0 } else { 9.0 };
+        let widest = most.min((self.right - self.left) / 60.0).max(2.0) as usize;
         for (number, text) in x.ticks(self.x, widest) {
             let [at, _] = self.place((number, self.y[0]));
             drawing.line(vec![[at, self.bottom + 4.0], [at, self.top]], GRID, 1.0);
@@ -198,7 +218,13 @@ impl<'a> Frame<'a> {
         let height = fitting(&x.label, LABEL, self.right - self.left);
         drawing.words([middle[0], self.bottom + 2.0 * tick + 16.0], &x.label, height, Align::Middle, BLACK);
         let height = fitting(&y.label, LABEL, self.bottom - self.top);
-        drawing.upright_words([MARGIN + f64::from(LABEL), middle[1]], &y.label, height, Align::Middle, BLACK);
+        drawing.upright_words(
+            [self.edge + MARGIN + f64::from(LABEL), middle[1]],
+            &y.label,
+            height,
+            Align::Middle,
+            BLACK,
+        );
     }
 
     fn curve(&self, drawing: &mut Drawing, curve: &Curve) {
@@ -211,7 +237,7 @@ impl<'a> Frame<'a> {
             if let [place] = places[..] {
                 // A line through one point would not be seen.
                 mark(drawing, place, &Curve { mark: curve.mark.or(Some(Mark::Circle)), ..curve.clone() });
-            } else if !places.is_empty() {
+            } else if !places.is_empty() && curve.width > 0.0 {
                 line(drawing, places, curve);
             }
         }
@@ -225,7 +251,9 @@ impl<'a> Frame<'a> {
         let shown = if named.len() > lines { lines - 1 } else { named.len() };
         for (index, curve) in named[..shown].iter().enumerate() {
             let y = self.top + LEGEND_LINE * (index as f64 + 0.5);
-            line(drawing, vec![[left, y], [left + SAMPLE, y]], curve);
+            if curve.width > 0.0 {
+                line(drawing, vec![[left, y], [left + SAMPLE, y]], curve);
+            }
             if curve.mark.is_some() {
                 mark(drawing, [left + 0.5 * SAMPLE, y], curve);
             }
@@ -255,12 +283,13 @@ fn line(drawing: &mut Drawing, places: Vec<[f64; 2]>, curve: &Curve) {
 }
 
 fn mark(drawing: &mut Drawing, [x, y]: [f64; 2], curve: &Curve) {
+    let radius = curve.radius;
     let (corners, turn, radius) = match curve.mark {
         None => return,
-        Some(Mark::Circle) => (16, 0.0, RADIUS),
-        Some(Mark::Square) => (4, 0.5, 1.2 * RADIUS),
-        Some(Mark::Triangle) => (3, 0.25, 1.2 * RADIUS),
-        Some(Mark::Diamond) => (4, 0.0, 1.3 * RADIUS),
+        Some(Mark::Circle) => return drawing.disc([x, y], radius, curve.shade),
+        Some(Mark::Square) => (4, 0.5, 1.2 * radius),
+        Some(Mark::Triangle) => (3, 0.25, 1.2 * radius),
+        Some(Mark::Diamond) => (4, 0.0, 1.3 * radius),
     };
     let corner = |index: u32| {
         let angle = std::f64::consts::TAU * (f64::from(index) + turn) / f64::from(corners);
@@ -322,11 +351,24 @@ mod tests {
 
     #[test]
     fn marks_stand_at_their_points() {
-        for mark in [Mark::Circle, Mark::Square, Mark::Triangle, Mark::Diamond] {
+        for mark in [Mark::Square, Mark::Triangle, Mark::Diamond] {
             let points = vec![(0.0, 0.0), (1.0, 1.0), (2.0, 0.0)];
             let curve = Curve { points, mark: Some(mark), ..Curve::new(palette(0)) };
             let panel = Panel { x: Axis::new("t"), y: Axis::new("x"), curves: vec![curve] };
             assert_eq!(Chart::new("marks", vec![panel]).draw().polygon_count(), 3);
         }
+    }
+
+    #[test]
+    fn panels_stand_beside_each_other() {
+        let dots = Curve { mark: Some(Mark::Circle), width: 0.0, radius: 1.5, ..wave(0, "") };
+        let panel = || Panel { x: Axis::new("t"), y: Axis::new("x"), curves: vec![dots.clone()] };
+        let chart = Chart::new("beside", vec![panel(), panel(), panel()]);
+        let drawing = Chart { columns: 2, width: 680.0, panel_height: 260.0, ..chart }.draw();
+        assert_eq!(drawing.size, [680.0, MARGIN + 520.0]);
+        let svg = drawing.svg().unwrap();
+        assert_eq!(svg.matches("<circle").count(), 600);
+        assert!(!svg.contains("stroke=\"#0072b2\""), "no lines");
+        assert!(drawing.png().unwrap().starts_with(b"\x89PNG"));
     }
 }

@@ -55,6 +55,7 @@ pub struct Drawing {
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Shape {
     Polygon { points: Vec<[f64; 2]>, shade: Shade },
+    Disc { center: [f64; 2], radius: f64, shade: Shade },
     Line { points: Vec<[f64; 2]>, shade: Shade, width: f64, is_dashed: bool },
     Words { at: [f64; 2], text: String, height: u32, align: Align, shade: Shade, is_upright: bool },
 }
@@ -68,6 +69,11 @@ impl Drawing {
     /// Adds a filled polygon. Its edge is drawn too, 0.8 pixels wide, so that no seam is left to a neighbour.
     pub fn polygon(&mut self, points: Vec<[f64; 2]>, shade: Shade) {
         self.shapes.push(Shape::Polygon { points, shade });
+    }
+
+    /// Adds a filled circle.
+    pub fn disc(&mut self, center: [f64; 2], radius: f64, shade: Shade) {
+        self.shapes.push(Shape::Disc { center, radius, shade });
     }
 
     /// Adds a line through points.
@@ -129,6 +135,7 @@ impl Drawing {
             let places = match shape {
                 Shape::Polygon { points, .. } | Shape::Line { points, .. } => points.as_slice(),
                 Shape::Words { at, .. } => std::slice::from_ref(at),
+                Shape::Disc { center, .. } => std::slice::from_ref(center),
             };
             places.iter().flatten().all(|number| number.is_finite())
         });

@@ -59,6 +59,13 @@ impl Image {
                 outline.extend(outline.first().copied());
                 self.stroke(&outline, 0.8 * scale, *shade);
             }
+            Shape::Disc { center, radius, shade } => {
+                let corner = |k: u32| {
+                    let (sine, cosine) = (std::f64::consts::TAU * f64::from(k) / 24.0).sin_cos();
+                    [center[0] + radius * cosine, center[1] + radius * sine].map(|number| scale * number)
+                };
+                self.fill(&[(0..24).map(corner).collect()], *shade);
+            }
             Shape::Line { points, shade, width, is_dashed } => {
                 let pieces = if *is_dashed { dashes(points) } else { vec![points.clone()] };
                 for piece in pieces {

@@ -23,6 +23,10 @@ pub(crate) fn text(drawing: &Drawing) -> String {
                     "<path d=\"{path}Z\" fill=\"{colour}\" stroke=\"{colour}\" stroke-width=\"0.8\" stroke-linejoin=\"round\"/>"
                 )
             }
+            Shape::Disc { center, radius, shade } => {
+                let ([x, y], colour) = (center.map(rounded), hexadecimal(*shade));
+                writeln!(svg, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\" fill=\"{colour}\"/>")
+            }
             Shape::Line { points, shade, width, is_dashed } => {
                 let (path, colour) = (path(points), hexadecimal(*shade));
                 let dash = if *is_dashed {

@@ -1,16 +1,8 @@
 //! Pictures of a sweep's table: what is collected over what is varied, and all of it as parallel coordinates.
 
-use kuva::plot::parallel::ParallelPlot;
-use kuva::plot::scatter::ScatterPlot;
-use kuva::render::figure::Figure as Panels;
-use kuva::render::layout::Layout;
-use kuva::render::plots::Plot;
-use kuva::render::render::{Scene, render_multiple};
-use kuva::render::theme::Theme;
+use lissom_drawing::{Align, Axis, Chart, Curve, Drawing, Mark, Panel, palette};
 
 use super::FigureError;
-use super::plot::COLOURS;
-use super::render;
 
 /// Most members that are drawn, evenly chosen.
 const MOST_MEMBERS: usize = 2000;
@@ -70,39 +62,29 @@ impl SweepPlot {
         let members = self.members("responses")?;
         let collected = &self.collected[..self.collected.len().min(MOST_PANELS)];
         let varied = &self.varied[..self.varied.len().min(MOST_PANELS)];
-        let (mut plots, mut layouts) = (Vec::new(), Vec::new());
+        let mut panels = Vec::new();
         for (index, above) in collected.iter().enumerate() {
             for below in varied {
-                let points: Vec<(f64, f64)> =
-                    members.iter().map(|&member| (below.values[member], above.values[member])).collect();
-                let scatter = ScatterPlot::new()
-                    .with_data(points)
-                    .with_color(COLOURS[index % COLOURS.len()])
-                    .with_size(2.5);
-                let own = vec![Plot::Scatter(scatter)];
-                let mut layout = Layout::auto_from_plots(&own)
-                    .with_theme(theme())
-                    .with_x_label(below.name.as_str())
-                    .with_y_label(above.name.as_str());
-                if below.is_logarithmic {
-                    layout = layout.with_log_x();
-                } else if let Some((low, high)) = room(below, &members) {
-                    layout = layout.with_x_axis_min(low).with_x_axis_max(high);
-                }
-                if let Some((low, high)) = room(above, &members) {
-                    layout = layout.with_y_axis_min(low).with_y_axis_max(high);
-                }
-                plots.push(own);
-                layouts.push(layout);
+                let points = members.iter().map(|&member| (below.values[member], above.values[member]));
+                let mark = Some(Mark::Circle);
+                let own = Curve { width: 0.0, radius: 1.6, mark, ..Curve::new(palette(index)) };
+                let curves = vec![Curve { points: points.collect(), ..own }];
+                let x = if below.is_logarithmic {
+                    Axis::logarithmic(&below.name)
+                } else {
+                    Axis::new(&below.name)
+                };
+                panels.push(Panel { x, y: Axis::new(&above.name), curves });
             }
         }
-        let figure = Panels::new(collected.len(), varied.len())
-            .with_title(self.title_of(&members))
-            .with_title_size(16)
-            .with_cell_size(PANEL.0, PANEL.1)
-            .with_plots(plots)
-            .with_layouts(layouts);
-        Ok(SweepPicture(figure.render()))
+        let chart = Chart {
+            title: self.title_of(&members),
+            columns: varied.len(),
+            width: PANEL.0 * varied.len() as f64,
+            panel_height: PANEL.1,
+            ..Chart::new("responses", panels)
+        };
+        SweepPicture::of(chart.draw())
     }
 
     /// All members as lines across one axis per column.
@@ -112,21 +94,32 @@ impl SweepPlot {
     pub fn parallel_coordinates(&self) -> Result<SweepPicture, FigureError> {
         let members = self.members("parallel-coordinates")?;
         let axes: Vec<&SweepAxis> = self.varied.iter().chain(&self.collected).collect();
-        let rows =
-            members.iter().map(|&member| axes.iter().map(|axis| axis.values[member]).collect::<Vec<f64>>());
-        let plot = ParallelPlot::new()
-            .with_axis_names(axes.iter().map(|axis| axis.name.as_str()))
-            .with_rows(rows)
-            .with_color(COLOURS[0])
-            .with_opacity((200.0 / members.len() as f64).clamp(0.08, 0.6));
-        let plots = vec![Plot::Parallel(plot)];
-        let layout = Layout::auto_from_plots(&plots)
-            .with_width(PARALLEL.0 * (axes.len() as f64).max(3.0))
-            .with_height(PARALLEL.1)
-            .with_theme(theme())
-            .with_title(self.title_of(&members))
-            .with_title_size(16);
-        Ok(SweepPicture(render_multiple(plots, layout)))
+        let width = PARALLEL.0 * (axes.len() as f64).max(3.0);
+        let mut drawing = Drawing::new("parallel-coordinates", [width, PARALLEL.1]);
+        let title = self.title_of(&members);
+        drawing.words([0.5 * width, 28.0], &title, 16, Align::Middle, [0; 3]);
+        let (top, bottom) = (76.0, PARALLEL.1 - 36.0);
+        let across = |index: usize| 0.5 * PARALLEL.0 + PARALLEL.0 * index as f64;
+        let ranges: Vec<[f64; 2]> = axes.iter().map(|axis| axis.range(&members)).collect();
+        let shade = paler(palette(0), (200.0 / members.len() as f64).clamp(0.15, 0.6));
+        for &member in &members {
+            let place = |(index, axis): (usize, &&SweepAxis)| {
+                let share = axis.share(ranges[index], axis.values[member]);
+                [across(index), bottom - share * (bottom - top)]
+            };
+            let places: Vec<[f64; 2]> = axes.iter().enumerate().map(place).collect();
+            if places.iter().flatten().all(|number| number.is_finite()) {
+                drawing.line(places, shade, 1.0);
+            }
+        }
+        for (index, axis) in axes.iter().enumerate() {
+            let [low, high] = ranges[index];
+            drawing.line(vec![[across(index), top], [across(index), bottom]], [0x33; 3], 1.2);
+            drawing.words([across(index), top - 24.0], &axis.name, 12, Align::Middle, [0; 3]);
+            drawing.words([across(index), top - 7.0], &short(high), 11, Align::Middle, [0x33; 3]);
+            drawing.words([across(index), bottom + 16.0], &short(low), 11, Align::Middle, [0x33; 3]);
+        }
+        SweepPicture::of(drawing)
     }
 
     /// The members that are drawn.
@@ -150,35 +143,65 @@ impl SweepPlot {
     }
 }
 
-fn theme() -> Theme {
-    Theme { grid_color: "#e4e4e4".into(), legend_border: "none".into(), ..Theme::light() }
+impl SweepAxis {
+    /// Least and greatest value of members that have one.
+    fn range(&self, members: &[usize]) -> [f64; 2] {
+        let values = members.iter().map(|&member| self.values[member]).filter(|value| value.is_finite());
+        values
+            .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], value| [low.min(value), high.max(value)])
+    }
+
+    /// Share of the range that lies below a value; the middle for values that are all the same.
+    fn share(&self, [low, high]: [f64; 2], value: f64) -> f64 {
+        if high - low <= 1e-12 * high.abs().max(low.abs()) {
+            return if value.is_finite() { 0.5 } else { f64::NAN };
+        }
+        if self.is_logarithmic && low > 0.0 {
+            (value / low).ln() / (high / low).ln()
+        } else {
+            (value - low) / (high - low)
+        }
+    }
 }
 
-/// An axis for values that are all the same, which would have no extent otherwise.
-fn room(axis: &SweepAxis, members: &[usize]) -> Option<(f64, f64)> {
-    let values = members.iter().map(|&member| axis.values[member]);
-    let (low, high) = values
-        .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), value| (low.min(value), high.max(value)));
-    let is_constant = high - low <= 1e-12 * high.abs().max(low.abs());
-    let room = if high == 0.0 { 1.0 } else { 0.1 * high.abs() };
-    is_constant.then_some((low - room, high + room))
+/// A colour, mixed with white.
+fn paler(shade: [u8; 3], share: f64) -> [u8; 3] {
+    shade.map(|part| (255.0 - share * (255.0 - f64::from(part))).round() as u8)
+}
+
+/// A number in few digits.
+fn short(number: f64) -> String {
+    let rounded = format!("{number:.3e}").parse::<f64>().unwrap_or(number);
+    if rounded == 0.0 || (1e-3..1e5).contains(&rounded.abs()) {
+        format!("{rounded}")
+    } else {
+        format!("{rounded:e}")
+    }
 }
 
 /// A picture of a sweep.
-pub struct SweepPicture(Scene);
+pub struct SweepPicture {
+    drawing: Drawing,
+    svg: String,
+}
 
 impl SweepPicture {
+    fn of(drawing: Drawing) -> Result<Self, FigureError> {
+        let svg = drawing.svg().map_err(FigureError::of(&drawing.name))?;
+        Ok(Self { drawing, svg })
+    }
+
     /// The drawing as an SVG text.
     pub fn svg(&self) -> String {
-        render::svg(&self.0)
+        self.svg.clone()
     }
 
     /// The drawing as the bytes of a PNG file.
     ///
     /// # Errors
-    /// If the drawing library fails.
+    /// If it is too large.
     pub fn png(self) -> Result<Vec<u8>, FigureError> {
-        render::png(self.0).map_err(|reason| FigureError { figure: "sweep".to_owned(), reason })
+        self.drawing.png().map_err(FigureError::of(&self.drawing.name))
     }
 }
 
