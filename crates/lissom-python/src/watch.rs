@@ -30,7 +30,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
         loop {
             match receiver.recv_timeout(EVERY) {
                 Ok(outcome) => return outcome,
-                Err(RecvTimeoutError::Timeout) => Python::attach(|py| py.check_signals())?,
+                Err(RecvTimeoutError::Timeout) => asked()?,
                 Err(RecvTimeoutError::Disconnected) => break,
             }
         }
@@ -39,6 +39,14 @@ pub(crate) fn interruptible<T: Send + 'static>(
             Err(defect) => resume_unwind(defect),
             Ok(()) => Err(crate::errors::SolutionError::new_err("the work ended without a result")),
         }
+    })
+}
+
+/// Raises what Python has to raise, as for Ctrl-C.
+fn asked() -> PyResult<()> {
+    Python::attach(|py| {
+        py.check_signals()?;
+        Ok(())
     })
 }
 
