@@ -77,6 +77,9 @@ const JOINTS: [&str; 18] = [
 const LOOPS: [&str; 6] =
     ["distance", "distance", "spherical", "point_in_plane", "inline", "perpendicular_axes"];
 
+/// Turns a seed into that of the kinds which came later.
+const LATER: u64 = 0x5bd1_e995;
+
 /// The mechanism of case `index` of `seed`.
 pub(super) fn mechanism(seed: u64, index: u64) -> Mechanism {
     let mut maker = Maker {
@@ -97,6 +100,12 @@ pub(super) fn mechanism(seed: u64, index: u64) -> Mechanism {
     maker.couplings();
     maker.springs();
     maker.loads(is_free);
+    if !is_free {
+        // Kinds that came later draw numbers of their own, so that the cases of a seed stay what they were.
+        maker.draw = Draw::new(seed ^ LATER, index);
+        maker.wheel();
+        maker.table();
+    }
     for part in maker.nodes.iter().filter(|node| node.name != "ground").map(|node| &node.name) {
         let plain = part.replace(['.', '@'], "_");
         maker.tables.push(format!("[outputs.at_{plain}]\nkind = \"position\"\nof = \"{part}\"\n"));
@@ -401,6 +410,85 @@ impl Maker {
         }
     }
 
+    /// A ball or a disc that rolls on a plane of the ground and is pulled by a spring.
+    fn wheel(&mut self) {
+        if !self.draw.chance(0.08) {
+            return;
+        }
+        let falls = |tables: &[String], along: &str| tables.iter().any(|table| table.contains(along));
+        let mut normal = if falls(&self.tables, "[0, -9.81, 0]") { [0.0, 1.0, 0.0] } else { [0.0, 0.0, 1.0] };
+        for part in &mut normal {
+            *part = short(*part + self.draw.between(-0.2, 0.2));
+        }
+        let length = normal.iter().map(|part| part * part).sum::<f64>().sqrt();
+        let height = self.draw.between(0.1, 0.4);
+        let at = [0, 1, 2].map(|_| self.draw.between(-0.5, 0.5));
+        let place = [0, 1, 2].map(|k| short(at[k] + height * normal[k] / length));
+        let (name, _) = self.body(90, place);
+        let shape = if self.draw.chance(0.5) {
+            format!(
+                "wheel_axis = {}\nradius = 0\nrim = {:.12}\n",
+                triple(normal),
+                distance(place, at, normal)
+            )
+        } else {
+            let across = self.draw.perpendicular(normal);
+            let lean = self.draw.between(-0.2, 0.2);
+            let axis = [0, 1, 2].map(|k| short(across[k] + lean * normal[k]));
+            format!("wheel_axis = {}\nrim = {}\n", triple(axis), self.draw.of(&["0", "0.02"]))
+        };
+        let creep = self.draw.of(&["", "", "creep = 1e-4\n"]);
+        self.is_conservative &= creep.is_empty();
+        self.tables.push(format!(
+            "[joints.floor]\nkind = \"rolling\"\nbase = \"ground\"\ntip = \"{name}\"\nat = {}\naxis = {}\n{shape}{creep}",
+            triple(at),
+            triple(normal)
+        ));
+        self.pulled(&name);
+        self.nodes.push(Node { name, place });
+    }
+
+    /// A part that is moved as a whole, with a spring to another, and at times a body on it.
+    fn table(&mut self) {
+        if !self.draw.chance(0.08) {
+            return;
+        }
+        self.is_conservative = false;
+        let place = [0, 1, 2].map(|_| self.draw.between(-0.5, 0.5));
+        let (name, _) = self.body(91, place);
+        let mut moved = String::new();
+        for (key, size) in [("x", 0.05), ("y", 0.05), ("z", 0.05), ("rx", 0.3), ("ry", 0.2), ("rz", 0.3)] {
+            if self.draw.chance(0.4) {
+                let function = self.draw.of(&["smoothstep(t/0.3)", "(1 - cos(9*t))/2", "sin(6*t)^2"]);
+                let _ = writeln!(moved, "{key} = \"{}*{function}\"", self.draw.between(-size, size));
+            }
+        }
+        self.tables.push(format!(
+            "[joints.moved]\nkind = \"prescribed_motion\"\nbase = \"ground\"\ntip = \"{name}\"\n{moved}"
+        ));
+        if self.draw.chance(0.5) {
+            let further = [0, 1, 2].map(|k| short(place[k] + self.draw.between(0.1, 0.4)));
+            let (body, _) = self.body(92, further);
+            let kind = self.draw.of(&JOINTS);
+            let at = self.between(place, further);
+            self.joint(kind, &name, &body, at);
+            self.nodes.push(Node { name: body, place: further });
+        } else {
+            self.pulled(&name);
+        }
+        self.nodes.push(Node { name, place });
+    }
+
+    /// A spring from any other part.
+    fn pulled(&mut self, name: &str) {
+        let from = self.draw.below(self.nodes.len());
+        let (base, stiffness) = (self.nodes[from].name.clone(), self.draw.size(10.0, 300.0));
+        self.tables.push(format!(
+            "[springs.p{}]\nkind = \"point\"\nbase = \"{base}\"\ntip = \"{name}\"\nstiffness = {stiffness}\n",
+            self.tables.len()
+        ));
+    }
+
     fn loads(&mut self, is_free: bool) {
         let parts: Vec<String> =
             self.nodes.iter().filter(|node| node.name != "ground").map(|node| node.name.clone()).collect();
@@ -444,6 +532,12 @@ impl Maker {
 /// Nine digits: what has to be perpendicular is so to more than a model asks for.
 fn nine_digits(v: [f64; 3]) -> String {
     format!("[{:.12}, {:.12}, {:.12}]", v[0], v[1], v[2])
+}
+
+/// Distance of a place from the plane through a point.
+fn distance(place: [f64; 3], at: [f64; 3], normal: [f64; 3]) -> f64 {
+    let length = normal.iter().map(|part| part * part).sum::<f64>().sqrt();
+    (0..3).map(|k| (place[k] - at[k]) * normal[k]).sum::<f64>() / length
 }
 
 fn place_of_start(from: [f64; 3], step: [f64; 3]) -> [f64; 3] {

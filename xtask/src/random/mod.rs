@@ -179,9 +179,7 @@ mod tests {
     fn mechanisms_have_all_kinds_that_are_meant() {
         let text: String = (0..400).map(|index| mechanism(1, index).text()).collect();
         let missing = kinds_without(&text);
-        let meant =
-            ["revolute", "screw", "gear", "cam", "equation", "prescribed_rotation", "bushing", "axial_stop"];
-        assert!(meant.iter().all(|kind| !missing.contains(kind)), "no mechanism has {missing:?}");
+        assert!(missing.is_empty(), "no mechanism has {missing:?}");
         assert!(kinds_without("").len() > 30);
     }
 
