@@ -19,7 +19,7 @@ use crate::judge::{self, Judge, Ledger, Warning};
 use crate::newton::{self, Equations, Failure, Limits, Memory, Outcome};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Coupling, Scheme};
-use crate::stepping::{Controller, Impacts, MethodMemory, Parts, StepControl, Watch};
+use crate::stepping::{Controller, Impacts, MethodMemory, Parts, Resolution, StepControl, Watch};
 use crate::system::{Kinematics, Layout, Linearization, MotionChange, State, System, Threads};
 
 /// What a simulation is told besides system and state.
@@ -143,6 +143,8 @@ pub struct Simulation {
     pub(crate) watch: Watch,
     /// How fast forces switch in steps of planned size.
     pub(crate) impacts: Impacts,
+    /// Whether steps of planned size resolve the motion.
+    pub(crate) resolution: Resolution,
     /// Whether the workspace still holds the step that led to the state.
     pub(crate) is_last_step_known: bool,
 }
@@ -238,8 +240,9 @@ impl Simulation {
         };
         watch.hold_sides(&system, &mut state.kinematics);
         let is_planned = settings.scheme.dynamic && controller.is_none();
-        let impacts = if is_planned { Impacts::new(&system, &state.kinematics) } else { Impacts::default() };
         Ok(Self {
+            impacts: if is_planned { Impacts::new(&system, &state.kinematics) } else { Impacts::default() },
+            resolution: Resolution::new(if is_planned { system.layout().coordinate_count() } else { 0 }),
             origin: state.kinematics.clone(),
             previous: state.clone(),
             next: state.clone(),
@@ -265,7 +268,6 @@ impl Simulation {
             singular,
             stable_at: None,
             watch,
-            impacts,
             is_last_step_known: false,
         })
     }

@@ -84,6 +84,20 @@ pub enum Warning {
         /// What switches.
         what: String,
     },
+    /// Steps of planned size do not resolve the motion.
+    #[error(
+        "the steps are too long for the motion: from t = {time:.6e} s on they are estimated to miss more than 1 % of how far \
+         the model moves, {:.2} % in the end, most in the {unknown}; take smaller steps, or set `relative_tolerance` \
+         instead of `step`", 100.0 * error
+    )]
+    Unresolved {
+        /// When it was first worth telling [s].
+        time: f64,
+        /// Estimated error over how far the model has moved.
+        error: f64,
+        /// Name of the unknown that errs most.
+        unknown: String,
+    },
     /// A wheel that rolls is pulled by its plane.
     #[error(
         "at t = {time:.6e} s the plane of `{joint}` pulls its wheel with {force:.3e} N: a wheel that lies on the plane would \
@@ -154,6 +168,7 @@ impl Warning {
             Self::VelocityReplaced { .. } => "velocity-replaced",
             Self::StartsWithJolt { .. } => "starts-with-jolt",
             Self::ContactTooShort { .. } => "contact-too-short",
+            Self::Unresolved { .. } => "unresolved-motion",
             Self::WheelLifts { .. } => "wheel-lifts",
             Self::WheelSlides { .. } => "wheel-slides",
             Self::SingularPosition { .. } => "singular-position",

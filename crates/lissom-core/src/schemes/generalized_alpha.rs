@@ -79,6 +79,7 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
         // Legend: j third derivative, a_n acceleration at t_n + α_m - α_f. The prediction misses β j, the scheme errs
         // by (β - 1/6 + (α_m - α_f)/2) j.
         error_constant: (beta - 1.0 / 6.0 + 0.5 * (alpha_m - alpha_f)) / beta,
+        planned_share: 0.8,
         dynamic: true,
     }
 }

@@ -144,6 +144,8 @@ pub struct Scheme {
     pub memory_delay: f64,
     /// Local error at the end of a step over what the last stage's prediction misses, both of third order.
     pub error_constant: f64,
+    /// Part of the sum of such errors that errors at the end of a run with steps of one size come to.
+    pub planned_share: f64,
     /// Whether inertia takes part.
     pub dynamic: bool,
 }

@@ -18,6 +18,9 @@ use super::{Combination, Coupling, Increments, Scheme, SchemeKind, Stage, Weight
 /// The prediction misses a sixth of the third derivative; the scheme's own error is of fourth order. With this part
 /// of what is missed, errors at the end of a run are near the tolerance.
 const ERROR_CONSTANT: f64 = 0.5;
+/// With steps of one size the scheme errs by a power of the step less than that part: measured, a quarter of the sum where
+/// it comes to some per cent.
+const PLANNED_SHARE: f64 = 0.25;
 
 /// Registry entry.
 pub const KIND: SchemeKind = SchemeKind {
@@ -62,6 +65,7 @@ pub(super) fn collocation(name: String, rate: [[f64; 2]; 2]) -> Scheme {
         tableau: None,
         memory_delay: 0.0,
         error_constant: ERROR_CONSTANT,
+        planned_share: PLANNED_SHARE,
         dynamic: true,
     }
 }

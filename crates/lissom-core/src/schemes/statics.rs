@@ -18,6 +18,7 @@ pub fn statics() -> Scheme {
         tableau: None,
         memory_delay: 0.0,
         error_constant: 0.0,
+        planned_share: 0.0,
         dynamic: false,
     }
 }

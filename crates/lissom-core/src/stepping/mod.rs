@@ -12,6 +12,7 @@ mod events;
 mod impacts;
 mod method_memory;
 mod parts;
+mod resolution;
 mod samples;
 mod snapshot;
 mod watch;
@@ -22,6 +23,7 @@ pub use controller::StepControl;
 pub(crate) use impacts::Impacts;
 pub(crate) use method_memory::MethodMemory;
 pub(crate) use parts::Parts;
+pub(crate) use resolution::Resolution;
 pub use snapshot::{Snapshot, SnapshotError};
 pub(crate) use watch::{Watch, Watched};
 
@@ -114,6 +116,7 @@ impl Simulation {
                     if share < 1.0 && start.is_none() {
                         start = Some((self.state.clone(), self.ledger));
                     }
+                    self.note_resolution(share == 1.0 && located.is_none());
                     self.accept_step();
                     self.note_impacts();
                     note(report, &outcome);
@@ -270,9 +273,8 @@ impl Simulation {
         excursion(&self.origin, &state.kinematics, self.representative.length)
     }
 
-    /// Estimated error of the last attempt over what is allowed.
-    fn estimated_error(&mut self, tolerance: f64) -> f64 {
-        let reference = self.farthest.max(self.excursion_of(&self.next)).max(SMALLEST_REFERENCE);
+    /// Leaves the estimated error of the last attempt in the workspace, as it is and filtered.
+    fn estimate_error(&mut self) {
         let scheme = &self.settings.scheme;
         let work = &mut *self.work;
         let Some((stage, (predicted, found))) =
@@ -300,6 +302,13 @@ impl Simulation {
                 equilibration.scale(&mut work.filtered);
             }
         }
+    }
+
+    /// Estimated error of the last attempt over what is allowed.
+    fn estimated_error(&mut self, tolerance: f64) -> f64 {
+        self.estimate_error();
+        let reference = self.farthest.max(self.excursion_of(&self.next)).max(SMALLEST_REFERENCE);
+        let work = &*self.work;
         let largest = work.filtered.iter().zip(&work.sizes).fold(0.0_f64, |most, (error, size)| {
             if (error * size).abs() <= most { most } else { (error * size).abs() }
         });

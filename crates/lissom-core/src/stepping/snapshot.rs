@@ -9,7 +9,7 @@ use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
-use super::{Controller, Impacts, MethodMemory, Parts, Watched};
+use super::{Controller, Impacts, MethodMemory, Parts, Resolution, Watched};
 use crate::analysis::snapshot_parts::{Learned, TangentNumbers};
 use crate::analysis::{Settings, Simulation, Totals};
 use crate::judge::singular::Known;
@@ -43,6 +43,7 @@ pub struct Snapshot {
     singular: Vec<Known>,
     watched: Watched,
     impacts: Impacts,
+    resolution: Resolution,
     learned: Learned,
 }
 
@@ -173,6 +174,7 @@ impl Simulation {
             singular: self.singular.known.clone(),
             watched: self.watch.known.clone(),
             impacts: self.impacts.clone(),
+            resolution: self.resolution.clone(),
             learned: self.work.learned(),
         }
     }
@@ -211,6 +213,7 @@ impl Simulation {
         self.singular.known.clone_from(&from.singular);
         self.watch.known.clone_from(&from.watched);
         self.impacts.clone_from(&from.impacts);
+        self.resolution.clone_from(&from.resolution);
         self.work.note_scales(self.system.layout(), &self.scaled);
         self.is_last_step_known = false;
         Ok(())

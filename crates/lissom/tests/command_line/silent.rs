@@ -311,3 +311,19 @@ fn plots_of_a_former_run_do_not_stay_beside_new_results() {
     assert_eq!(run("energy-decaying-clamp-stagnates", &folder).code, 0);
     assert!(!folder.path().join("out/a_b.svg").exists());
 }
+
+#[test]
+fn steps_too_long_for_the_motion_are_told_and_short_ones_are_not() {
+    for name in ["unresolved-universal", "unresolved-vibration", "unresolved-spin"] {
+        warned(name, "unresolved-motion", &["the steps are too long", "% in the end", "node `b"]);
+        let folder = Folder::new(&format!("{name}-fine"));
+        for sets in [
+            ["analysis.step=1e-4", "analysis.output_every=200"],
+            ["analysis.relative_tolerance=1e-4", "analysis.step=1e-4"],
+        ] {
+            let args = ["run", &model(name), "--no-plots", "--quiet", "--set", sets[0], "--set", sets[1]];
+            let run = lissom(&args, folder.path());
+            assert_eq!((run.code, run.errors.as_str()), (0, ""), "{name}: {sets:?}");
+        }
+    }
+}
