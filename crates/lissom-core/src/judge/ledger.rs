@@ -31,11 +31,12 @@ const ROUND_OFF: f64 = 1e-10;
 pub(crate) struct Entry<'a> {
     at: &'a Kinematics,
     multipliers: &'a [f64],
+    violations: &'a [f64],
 }
 
 impl<'a> From<&'a State> for Entry<'a> {
     fn from(state: &'a State) -> Self {
-        Self { at: &state.kinematics, multipliers: &state.multipliers }
+        Self { at: &state.kinematics, multipliers: &state.multipliers, violations: &state.violations }
     }
 }
 
@@ -62,6 +63,8 @@ pub struct Ledger {
     potential: [f64; 2],
     moved: f64,
     floor: f64,
+    /// The most that violated constraints would give back: those that repeat each other yield a little, like springs.
+    unheld: f64,
     /// Steps since the energy was looked at.
     unweighed: u32,
 }
@@ -96,12 +99,13 @@ impl Ledger {
 
     /// Whether the surplus is worth a warning.
     pub fn is_noteworthy(&self) -> bool {
-        self.relative_surplus() > NOTEWORTHY
+        self.surplus > NOTEWORTHY * self.turned_over + self.least_known()
     }
 
+    /// Energies below this are round-off, or held by constraints.
     fn least_known(&self) -> f64 {
         let largest = self.most.max(self.potential[0].abs()).max(self.potential[1].abs());
-        self.floor + ROUND_OFF * largest + f64::MIN_POSITIVE
+        self.floor + self.unheld + ROUND_OFF * largest + f64::MIN_POSITIVE
     }
 
     fn balance(&self, is_motion: bool) -> f64 {
@@ -118,7 +122,10 @@ impl Ledger {
     ) -> Self {
         let loads = system.work_of_loads(start.at, end.at);
         let drives = system.work_of_drives((start.at, start.multipliers), (end.at, end.multipliers));
+        let held = end.multipliers.iter().zip(end.violations);
+        let unheld = held.map(|(force, violation)| (force * violation).abs()).sum::<f64>();
         let mut after = Self {
+            unheld: if unheld > self.unheld { unheld } else { self.unheld },
             loads: self.loads + loads,
             drives: self.drives + drives,
             moved: self.moved + loads.abs() + drives.abs(),
@@ -153,7 +160,7 @@ impl Ledger {
 
     /// Fails where this ledger, after `before`, shows more energy than can be there.
     pub(crate) fn refuse_gain(&self, before: &Self, time: f64) -> Result<(), StepError> {
-        let allowed = GROSS * (self.turned_over + self.least_known());
+        let allowed = GROSS * self.turned_over + self.least_known();
         if self.surplus <= allowed || self.surplus <= before.surplus {
             return Ok(());
         }
