@@ -42,6 +42,14 @@ fn words(action: Action) -> &'static str {
     }
 }
 
+/// Memory that programs can have [bytes], where the system tells it.
+pub(crate) fn available_memory() -> Option<f64> {
+    let told = fs::read_to_string("/proc/meminfo").ok()?;
+    let line = told.lines().find_map(|line| line.strip_prefix("MemTotal:"))?;
+    let kilobytes: f64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(1024.0 * kilobytes)
+}
+
 /// The text of a file.
 ///
 /// # Errors

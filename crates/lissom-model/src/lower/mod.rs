@@ -12,6 +12,7 @@ mod parts;
 mod redundancy;
 pub mod registry;
 mod signals;
+mod size;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -126,6 +127,8 @@ fn parameter_problem(component: &Component, error: &ParameterError) -> Problem {
 /// All problems found, underlined in the model's text.
 pub fn lower(document: &Document) -> Result<Lowered, Report> {
     let mut problems = Vec::new();
+    size::check(document, &mut problems);
+    stop_at(document, &mut problems)?;
     let mut builder = Builder::new();
     builder.set_gravity(document.gravity);
     let mut names = Names::default();

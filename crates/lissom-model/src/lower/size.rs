@@ -1,0 +1,114 @@
+//! How much memory and disk a model asks for, estimated before anything is built: a slip of the pen in a number of
+//! elements or in a step would otherwise end the program without a word.
+
+use crate::document::{AnalysisKind, Document};
+use crate::files;
+use crate::report::Problem;
+
+/// Memory of a node of a beam with its elements, its tangent and its factors, at least [bytes]: measured with lines of
+/// 10⁴ and 10⁵ elements are 15 kB to 17 kB with Radau's complex tangent, about half of it with a real one.
+const PER_NODE: f64 = 8e3;
+/// Memory that no machine is asked for [bytes].
+const MOST_MEMORY: f64 = 1e12;
+/// Bytes of a number in the table of results.
+const PER_NUMBER: f64 = 20.0;
+/// Largest table of results [bytes].
+const LARGEST_TABLE: f64 = 5e10;
+/// Most planned steps: at a microsecond each, which no model reaches, they take three hours.
+const MOST_STEPS: f64 = 1e10;
+
+/// Complaints about a model that is too large.
+pub(super) fn check(document: &Document, problems: &mut Vec<Problem>) {
+    elements(document, files::available_memory().unwrap_or(MOST_MEMORY), problems);
+    steps(document, problems);
+}
+
+fn elements(document: &Document, available: f64, problems: &mut Vec<Problem>) {
+    let nodes = |beam: &crate::document::Beam| beam.elements.value as f64 * beam.order as f64;
+    let memory = PER_NODE * document.beams.iter().map(nodes).sum::<f64>();
+    if memory <= available.min(MOST_MEMORY) {
+        return;
+    }
+    let Some(largest) = document.beams.iter().max_by(|a, b| nodes(a).total_cmp(&nodes(b))) else { return };
+    let message = format!(
+        "the model needs at least {} of memory, most of it for the {} elements of beam `{}`; there are {}",
+        size(memory),
+        largest.elements.value,
+        largest.name.value,
+        size(available.min(MOST_MEMORY))
+    );
+    let help = "take fewer elements: some ten per beam are usual";
+    problems.push(Problem::error(largest.elements.span, message).help(help));
+}
+
+fn steps(document: &Document, problems: &mut Vec<Problem>) {
+    let analysis = &document.analysis;
+    let duration = analysis.end - analysis.start;
+    let (steps, span) = match &analysis.kind {
+        AnalysisKind::Dynamics { step, control: None } => (duration / step.value, step.span),
+        AnalysisKind::Statics { steps } => (*steps as f64, analysis.span),
+        _ => return,
+    };
+    let rows = steps / analysis.output_every as f64;
+    let columns = 1.0 + 3.0 * document.outputs.len() as f64;
+    let table = PER_NUMBER * rows * columns;
+    if steps > MOST_STEPS {
+        let message = format!("the analysis asks for {steps:.1e} steps: at 10 µs each they take {} hours", {
+            (steps * 1e-5 / 3600.0).round()
+        });
+        problems.push(Problem::error(span, message).help("choose a larger `step` or an earlier `end`"));
+    } else if table > LARGEST_TABLE {
+        let message = format!("{rows:.1e} rows of results would take about {} on the disk", size(table));
+        let help = "record fewer of them with `output_every`, or choose a larger `step` or an earlier `end`";
+        problems.push(Problem::error(span, message).help(help));
+    }
+}
+
+/// Bytes in words.
+fn size(bytes: f64) -> String {
+    match bytes {
+        bytes if bytes < 1e9 => format!("{:.0} MB", bytes / 1e6),
+        bytes if bytes < 1e12 => format!("{:.1} GB", bytes / 1e9),
+        bytes => format!("{:.1} TB", bytes / 1e12),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lower::registry::registry;
+
+    fn told(elements: &str, further: &str, available: f64) -> Vec<String> {
+        let text = format!(
+            "lissom = 1\n[sections.s]\nshape = \"general\"\nstiffness = [1, 1, 1, 1, 1, 1]\nmass = {{ per_length = 1, inertia = [1, 1, 1] }}\n\
+             [beams.b]\nsection = \"s\"\nfrom = [0, 0, 0]\nto = [1, 0, 0]\nelements = {elements}\norder = 2\n\
+             [outputs.o]\nkind = \"position\"\nof = \"b.end\"\n[analysis]\nkind = \"dynamics\"\n{further}\n"
+        );
+        let document = Document::parse(&text, "a.toml", &registry()).expect("it can be read");
+        let mut problems = Vec::new();
+        super::elements(&document, available, &mut problems);
+        steps(&document, &mut problems);
+        problems.into_iter().map(|problem| problem.message).collect()
+    }
+
+    #[test]
+    fn too_many_elements_are_told_with_what_they_need() {
+        assert_eq!(told("1000", "end = 1\nstep = 1e-3", 1e9), Vec::<String>::new());
+        let words = told("1_000_000_000", "end = 1\nstep = 1e-3", 32e9).join("\n");
+        assert!(
+            words.contains("16.0 TB") && words.contains("beam `b`") && words.contains("32.0 GB"),
+            "{words}"
+        );
+        assert_eq!(told("100000", "end = 1\nstep = 1e-3", 1e9).len(), 1);
+    }
+
+    #[test]
+    fn too_many_steps_or_rows_are_told() {
+        let words = told("10", "end = 1e3\nstep = 1e-8", 1e9).join("\n");
+        assert!(words.contains("steps") && words.contains("hours"), "{words}");
+        let words = told("10", "end = 10\nstep = 1e-8", 1e9).join("\n");
+        assert!(words.contains("1.0e9 rows") && words.contains("80.0 GB"), "{words}");
+        assert_eq!(told("10", "end = 10\nstep = 1e-8\noutput_every = 1000", 1e9), Vec::<String>::new());
+        assert_eq!(told("10", "end = 10", 1e9), Vec::<String>::new());
+    }
+}
