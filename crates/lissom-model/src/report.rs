@@ -1,7 +1,7 @@
 //! What is wrong with a model file: problems with the place they underline, gathered in a report.
 //! Knows texts and places, not what any key means.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
@@ -208,6 +208,11 @@ impl Sources {
         if name == OVERRIDE { "" } else { name.get(folder..).unwrap_or(name) }
     }
 
+    /// Whether `span` lies in an override.
+    pub(crate) fn is_override(&self, span: Span) -> bool {
+        self.piece(span).is_some_and(|piece| piece.source.name() == OVERRIDE)
+    }
+
     /// The text at `span`, empty where there is none.
     pub(crate) fn text(&self, span: Span) -> &str {
         let Some(piece) = self.piece(span) else { return "" };
@@ -295,6 +300,7 @@ impl Shown {
 fn once_per_text(problems: Vec<Problem>, sources: &Sources) -> Vec<(Problem, Vec<String>)> {
     let mut known: Vec<(Problem, Vec<String>)> = Vec::new();
     let mut first_of = BTreeMap::new();
+    let mut told = BTreeSet::new();
     for problem in problems {
         let part = sources.piece(problem.span).and_then(|piece| {
             let text = piece.text.as_ptr() as usize;
@@ -307,7 +313,7 @@ fn once_per_text(problems: Vec<Problem>, sources: &Sources) -> Vec<(Problem, Vec
         let key = (text, place.start, place.end, problem.label.clone(), problem.help.clone());
         if let Some(&index) = first_of.get(&key) {
             let (_, others): &mut (Problem, Vec<String>) = &mut known[index];
-            if !others.contains(part) {
+            if told.insert((index, part.clone())) {
                 others.push(part.clone());
             }
         } else {
@@ -336,6 +342,14 @@ fn origins(sources: &Sources, span: Span, also: &[String]) -> Vec<Included> {
     }
     found
 }
+
+/// Offsets at which lines of a text start.
+fn line_starts(text: &str) -> Vec<usize> {
+    std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect()
+}
+
+/// Problems that are shown on a terminal: nobody reads thousands, and the first ones are often the cause of the rest.
+const MOST_SHOWN: usize = 50;
 
 /// All that is wrong with a model.
 #[derive(Clone, Debug)]
@@ -381,6 +395,7 @@ impl Report {
     /// Every problem for programs: severity, message, help, and the file with line and column, counted from one, where it
     /// is known.
     pub fn to_value(&self) -> serde_json::Value {
+        let mut lines = BTreeMap::new();
         let of = |shown: &Shown| {
             let problem = &shown.problem;
             let severity = if problem.severity == Severity::Error { "error" } else { "warning" };
@@ -388,10 +403,14 @@ impl Report {
                 serde_json::json!({ "severity": severity, "message": problem.message, "help": problem.help });
             if let Some(piece) = &shown.piece {
                 let place = problem.span.start.saturating_sub(piece.start);
-                let before = piece.text.get(..place).unwrap_or_default();
-                let column = before.rsplit('\n').next().unwrap_or_default().chars().count() + 1;
+                let text = &piece.text;
+                // The starts of lines are looked up: counting them anew for each of many problems takes their product.
+                let starts = lines.entry((text.as_ptr(), text.len())).or_insert_with(|| line_starts(text));
+                let line = starts.partition_point(|start| *start <= place);
+                let start = line.checked_sub(1).map_or(0, |line| starts[line]);
+                let column = text.get(start..place).unwrap_or_default().chars().count() + 1;
                 value["file"] = (*piece.name).into();
-                value["line"] = (before.matches('\n').count() + 1).into();
+                value["line"] = line.into();
                 value["column"] = column.into();
             }
             value
@@ -399,12 +418,18 @@ impl Report {
         self.shown.iter().map(of).collect()
     }
 
-    /// Every problem with file, line, underlined text and remedy, as a text for a terminal.
+    /// Problems with file, line, underlined text and remedy, as a text for a terminal: the first [`MOST_SHOWN`], errors
+    /// before warnings, and how many more there are.
     pub fn render(&self, colour: bool) -> String {
         let mut text = String::new();
-        for shown in &self.shown {
+        for shown in self.shown.iter().take(MOST_SHOWN) {
             shown.write(&mut Painter { out: &mut text, colour });
             text.push('\n');
+        }
+        if let Some(more) = self.shown.len().checked_sub(MOST_SHOWN).filter(|more| *more > 0) {
+            text.push_str("  … and ");
+            text.push_str(&more.to_string());
+            text.push_str(" more\n\n");
         }
         text
     }
@@ -441,6 +466,22 @@ mod tests {
         assert!(text.contains("[--set:1:17]") && text.contains("analysis.step = 0"), "{text}");
         assert!(text.contains("here") && text.contains("help: try"), "{text}");
         assert_eq!(report.to_string(), "a.toml: 1 error");
+    }
+
+    #[test]
+    fn of_many_problems_the_first_are_shown_and_the_rest_are_counted() {
+        let text = "x = 1\n".repeat(8000);
+        let starts = line_starts(&text);
+        let problem = |line: usize| {
+            Problem::error(Span { start: starts[line], end: starts[line] + 2 }, format!("problem {line}"))
+        };
+        let report = Report::new((0..8000).map(problem).collect(), &Sources::new("a.toml", &text));
+        let shown = report.render(false);
+        assert!(shown.contains("problem 49\n") && !shown.contains("problem 50\n"), "{shown}");
+        assert!(shown.contains("and 7950 more") && report.len() == 8000);
+        let value = report.to_value();
+        assert_eq!((&value[7999]["line"], &value[7999]["column"]), (&8000.into(), &1.into()));
+        assert_eq!(value[0]["line"], 1);
     }
 
     #[test]
