@@ -35,7 +35,22 @@ impl ModelText {
         overrides: &[(String, String)],
         library: Arc<Library>,
     ) -> Result<Self, Report> {
-        let tree = text::read(text, file_name, overrides, library);
+        Self::read_without(text, (file_name, &[]), overrides, library)
+    }
+
+    /// The same without the values and entries that the paths `left_out` lead to.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read); also if there is nothing to leave out at a path.
+    pub fn read_without(
+        text: &str,
+        (file_name, left_out): (&str, &[String]),
+        overrides: &[(String, String)],
+        library: Arc<Library>,
+    ) -> Result<Self, Report> {
+        let mut tree = text::read(text, file_name, &[], library);
+        tree.leave_out(left_out);
+        tree.lay(overrides);
         if tree.problems.is_empty() { Ok(Self(tree)) } else { Err(Report::new(tree.problems, &tree.sources)) }
     }
 
@@ -108,6 +123,32 @@ step = 1e-300
         }
         let report = text.document(&registry, &set(&[("analysis.stepp", "1")])).unwrap_err().render(false);
         assert!(report.contains("stepp") && report.contains("[override:1"), "{report}");
+    }
+
+    #[test]
+    fn what_is_left_out_counts_as_never_written() {
+        let registry = Registry::default();
+        let without = |paths: &[&str], overrides: &[(&str, &str)]| {
+            let paths: Vec<String> = paths.iter().map(|path| (*path).to_owned()).collect();
+            let text = ModelText::read_without(TEXT, ("a.toml", &paths), &set(overrides), Arc::default());
+            text.and_then(|text| text.document(&registry, &[]))
+        };
+        let document = without(&["title", "point_masses.\"my ball\".velocity"], &[]).unwrap();
+        assert_eq!(document.title, None);
+        let document = without(&["parameters.area"], &[("parameters.length", "3")]).unwrap();
+        assert_eq!(document.parameters.keys().collect::<Vec<_>>(), ["length"]);
+        for (path, words) in [
+            ("titel", "did you mean `title`"),
+            ("analysis.stepp", "did you mean `step`"),
+            ("title.x", "is a value"),
+            ("bodies.b", "no `bodies` here"),
+        ] {
+            let told = without(&[path], &[]).unwrap_err().render(false);
+            assert!(told.contains(words) && told.contains("[override:1:"), "{path}: {told}");
+        }
+        // What is missing then is told as if it had never been there.
+        let told = without(&["point_masses.\"my ball\".mass"], &[]).unwrap_err().render(false);
+        assert!(told.contains("mass"), "{told}");
     }
 
     #[test]

@@ -210,7 +210,7 @@ impl Sources {
 
     /// Whether `span` lies in an override.
     pub(crate) fn is_override(&self, span: Span) -> bool {
-        self.piece(span).is_some_and(|piece| piece.source.name() == OVERRIDE)
+        self.piece(span).is_some_and(|piece| &*piece.name == OVERRIDE)
     }
 
     /// The text at `span`, empty where there is none.

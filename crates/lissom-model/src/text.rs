@@ -126,6 +126,28 @@ pub(crate) fn read(
 }
 
 impl Tree {
+    /// Leaves out the values and entries that paths lead to, such as `analysis.step` or `springs.damper`.
+    pub(crate) fn leave_out(&mut self, paths: &[String]) {
+        if !self.problems.is_empty() {
+            return;
+        }
+        for path in paths {
+            let start = self.sources.next_start();
+            self.sources.push(OVERRIDE, path.trim());
+            let (_, patch) = parse_override(path, "0", start);
+            let done = patch.and_then(|patch| {
+                if patch.is_of_part(&self.root) {
+                    let place = patch.path.first().map(|(_, span)| *span).unwrap_or_default();
+                    let message = format!("`{path}` lies in a part, where nothing can be left out");
+                    let help = "change the file that the part is made of, or set another value";
+                    return Err(Box::new(Problem::error(place, message).help(help)));
+                }
+                patch.leave_out(&mut self.root)
+            });
+            self.problems.extend(done.err().map(|problem| *problem));
+        }
+    }
+
     /// Lays the overrides `(path, value)` over what is there.
     pub(crate) fn lay(&mut self, overrides: &[(String, String)]) {
         let readable = self.problems.is_empty();
@@ -264,6 +286,32 @@ impl Patch {
         // What is replaced keeps its place among the others: parameters may name those above them.
         let key = table.get(&last).map_or(key, |entry| entry.key);
         table.insert(last, Entry { key, node: value });
+        Ok(())
+    }
+
+    /// Removes what the path leads to.
+    fn leave_out(self, root: &mut Table) -> Result<(), Box<Problem>> {
+        let Some(((last, place), above)) = self.path.split_last() else { return Ok(()) };
+        let missing = |table: &Table, name: &str, place: Span| {
+            let known = table.keys().map(String::as_str);
+            let problem = Problem::error(place, format!("the model has no `{name}` here to leave out"));
+            Box::new(problem.label("not in the file").maybe_help(suggest::help(name, known)))
+        };
+        let mut table = root;
+        for (name, place) in above {
+            if !table.contains_key(name) {
+                return Err(missing(table, name, *place));
+            }
+            let Some(Entry { node: Node { value: Value::Table(inner), .. }, .. }) = table.get_mut(name)
+            else {
+                let message = format!("`{name}` is a value, not a table: the path leads nowhere");
+                return Err(Box::new(Problem::error(*place, message).help("leave out what follows it")));
+            };
+            table = inner;
+        }
+        if table.remove(last).is_none() {
+            return Err(missing(table, last, *place));
+        }
         Ok(())
     }
 

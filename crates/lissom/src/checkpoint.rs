@@ -54,6 +54,8 @@ pub struct Checkpoint {
     pub included: std::collections::BTreeMap<String, String>,
     /// What was changed in it.
     pub overrides: Vec<Override>,
+    /// What was left out of it.
+    pub left_out: Vec<String>,
     /// Whether plots are wanted.
     pub plots: bool,
     /// How often checkpoints are left, as it was given.

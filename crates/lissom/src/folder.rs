@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use lissom_model::files::{self, FileError};
 use lissom_model::output::{
-    BodePlot, CampbellPlot, CsvWriter, Figure, FigureError, Record, RecordError, Summary, figures,
+    BodePlot, CampbellPlot, CsvWriter, CurveRecord, Figure, FigureError, Record, RecordError, Summary,
+    figures, figures_of_curves,
 };
 use lissom_model::scene::{Scene, SceneError};
 use serde_json::Value;
@@ -367,9 +368,9 @@ impl ResultFolder {
     ///
     /// # Errors
     /// The first plot that could not be drawn or written.
-    pub fn write_plots(&self, record: &Record, title: &str) -> Result<(), FolderError> {
+    pub fn write_plots(&self, record: &CurveRecord, title: &str) -> Result<(), FolderError> {
         let mut first = Ok(());
-        for figure in figures(record, title) {
+        for figure in figures_of_curves(record, title) {
             let svg = figure.svg().map_err(FolderError::from).and_then(|text| {
                 Ok(files::write(&self.path.join(format!("{}.svg", figure.name)), text.as_bytes())?)
             });

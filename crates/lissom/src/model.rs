@@ -22,6 +22,8 @@ pub struct Model {
     name: String,
     text: String,
     library: Arc<Library>,
+    /// Paths to what is left out of the text.
+    left_out: Vec<String>,
     /// What ids mean, where it was built in code.
     ids: Option<Arc<IdNames>>,
 }
@@ -36,6 +38,7 @@ impl Model {
             name: path.display().to_string(),
             text: files::read_text(path)?,
             library: Arc::new(Library::beside(path)),
+            left_out: Vec::new(),
             ids: None,
         })
     }
@@ -44,7 +47,19 @@ impl Model {
     /// this name.
     pub fn from_text(name: &str, text: &str) -> Self {
         let library = Arc::new(Library::beside(Path::new(name)));
-        Self { name: name.to_owned(), text: text.to_owned(), library, ids: None }
+        Self { name: name.to_owned(), text: text.to_owned(), library, left_out: Vec::new(), ids: None }
+    }
+
+    /// The same without the values and entries that these paths lead to, such as `analysis.step` or `springs.damper`.
+    /// They are left out before anything is overridden.
+    #[must_use]
+    pub fn without(self, paths: Vec<String>) -> Self {
+        Self { left_out: paths, ..self }
+    }
+
+    /// Paths to what is left out of the text.
+    pub fn left_out(&self) -> &[String] {
+        &self.left_out
     }
 
     /// The same with what ids mean that a builder has given out.
@@ -81,7 +96,8 @@ impl Model {
     /// # Errors
     /// If the text is not TOML, or an override leads nowhere.
     pub fn model_text(&self, overrides: &[Override]) -> Result<ModelText, Report> {
-        ModelText::read_with(&self.text, &self.name, overrides, Arc::clone(&self.library))
+        let named = (self.name.as_str(), self.left_out.as_slice());
+        ModelText::read_without(&self.text, named, overrides, Arc::clone(&self.library))
     }
 
     /// Path or name.

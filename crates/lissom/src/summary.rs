@@ -9,7 +9,7 @@ use lissom_model::output::Summary;
 use lissom_model::sweep::{Accumulator, STATISTICS};
 use serde_json::{Value, json};
 
-use crate::model::Override;
+use crate::model::{Model, Override};
 use crate::report::RunReport;
 use crate::session::{Session, columns};
 
@@ -34,6 +34,13 @@ pub fn of_request(analysis: &str, name: &str, overrides: &[Override], document: 
         tell("assembly", of_assembly(&assembly));
     }
     summary
+}
+
+/// What was left out of the model's text, if anything was.
+pub fn of_left_out(summary: &mut Summary, model: &Model) {
+    if !model.left_out().is_empty() {
+        tell(summary, "unset", json!(model.left_out()));
+    }
 }
 
 /// What is known before the first step. A run that cannot even start is told as failed, with `steps` zero;

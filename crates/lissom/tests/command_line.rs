@@ -2,6 +2,8 @@
 
 #[path = "command_line/assembly.rs"]
 mod assembly;
+#[path = "command_line/changes.rs"]
+mod changes;
 #[path = "command_line/data_file.rs"]
 mod data_file;
 #[path = "command_line/export.rs"]

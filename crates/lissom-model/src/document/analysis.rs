@@ -9,6 +9,7 @@ use crate::keys::Shape;
 use crate::reader::Reader;
 use crate::registry::{ChoiceEntry, Registry};
 use crate::report::{Located, Problem, Span};
+use crate::text::Node;
 
 /// What is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -335,6 +336,12 @@ fn scheme_parameters(
     for parameter in registry.schemes.iter().flat_map(|entry| entry.parameters) {
         let given =
             reader.node(parameter.name).filter(|_| !own.iter().any(|known| known.name == parameter.name));
+        // Where an override chooses another scheme, parameters of the one in the file mean nothing any more.
+        let sources = reader.context.sources;
+        let is_former = |node: &&Node| sources.is_override(scheme.span) && !sources.is_override(node.span);
+        if given.as_ref().is_some_and(is_former) {
+            continue;
+        }
         if let Some(node) = given {
             let owners = registry
                 .schemes

@@ -4,7 +4,7 @@ use lissom_drawing::{
     Axis as ChartAxis, Chart, Curve as ChartCurve, Drawing, DrawingError, Panel as ChartPanel, palette,
 };
 
-use super::{Column, Record};
+use super::{Column, CurveRecord, Record};
 
 /// Most points of a drawn curve.
 const POINTS: usize = 2000;
@@ -117,8 +117,19 @@ pub(super) fn quantity_of(column: &Column) -> String {
 
 /// The figures of a record: one per output.
 pub fn figures(record: &Record, title: &str) -> Vec<Figure> {
+    let points =
+        |column: usize| record.times.iter().copied().zip(record.values[column].iter().copied()).collect();
+    figures_of(&record.columns, points, title)
+}
+
+/// The figures of curves: one per output.
+pub fn figures_of_curves(record: &CurveRecord, title: &str) -> Vec<Figure> {
+    figures_of(record.columns(), |column| record.points(column), title)
+}
+
+fn figures_of(columns: &[Column], points: impl Fn(usize) -> Vec<(f64, f64)>, title: &str) -> Vec<Figure> {
     let mut figures: Vec<(&str, Figure)> = Vec::new();
-    for (column, values) in record.columns.iter().zip(&record.values) {
+    for (which, column) in columns.iter().enumerate() {
         let output = column.output.as_str();
         let known = figures.iter().position(|(known, _)| *known == output);
         let index = known.unwrap_or_else(|| {
@@ -134,8 +145,7 @@ pub fn figures(record: &Record, title: &str) -> Vec<Figure> {
             figures.len() - 1
         });
         let panels = &mut figures[index].1.panels;
-        let points = record.times.iter().copied().zip(values.iter().copied()).collect();
-        let curve = (column.component.clone(), thinned(points));
+        let curve = (column.component.clone(), thinned(points(which)));
         match panels.iter_mut().find(|panel| panel.unit == column.unit) {
             Some(panel) => panel.curves.push(curve),
             None => panels.push(Panel {

@@ -63,6 +63,7 @@ impl Check {
     /// What is known of the model, and whether it can be run.
     fn facts(&self) -> Result<(Value, Exit), Failure> {
         let model = Model::read(&self.model.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let model = model.without(self.model.unset.clone());
         let wrong = |report: &Report| (json!({ "ok": false, "problems": report.to_value() }), Exit::BadModel);
         let document = match model.document(&self.model.set) {
             Ok(document) => document,

@@ -189,12 +189,17 @@ struct ModelArguments {
     /// Put another value into the model, as `analysis.step=1e-4`; may be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = parse_override)]
     set: Vec<Override>,
+
+    /// Leave a value or an entry out of the model, as `analysis.step` or `springs.damper`; may be repeated.
+    #[arg(long, value_name = "PATH")]
+    unset: Vec<String>,
 }
 
 impl ModelArguments {
     /// The text and the checked document.
     fn read(&self) -> Result<(Model, Document), Failure> {
         let model = Model::read(&self.model).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let model = model.without(self.unset.clone());
         let document = model.document(&self.set)?;
         Ok((model, document))
     }

@@ -5,7 +5,8 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use lissom::path::{PathEnd, PathReport, PathSession, PathSessionError, of_request};
-use lissom::{Document, FolderError, Model, Override, Record, ResultFolder, Writer};
+use lissom::{Document, FolderError, Model, Override, ResultFolder, Writer};
+use lissom_model::output::CurveRecord;
 use serde_json::json;
 
 use super::{Exit, Failure, show_warnings};
@@ -46,7 +47,7 @@ pub(super) fn run(
         }
     };
     let mut history = folder.begin().map_err(|error| unwritable(error.into()))?;
-    let mut record = Record::default();
+    let mut record = CurveRecord::default();
     let mut writers: Vec<&mut dyn Writer> = vec![&mut history];
     if wanted.plots {
         writers.push(&mut record);

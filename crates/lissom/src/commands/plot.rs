@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use lissom::{FolderError, Record, ResultFolder};
+use lissom_model::output::CurveRecord;
 use lissom_model::output::{Over, Source, plots};
 
 use super::{Exit, Failure};
@@ -58,7 +59,7 @@ impl Plot {
             return Err(Failure::new(Exit::BadModel, "name a folder of results"));
         };
         if is_plain && others.is_empty() {
-            first.write_plots(record, title).map_err(failed)?;
+            first.write_plots(&CurveRecord::from(record), title).map_err(failed)?;
             return Ok(Exit::Done);
         }
         let names = names(&self.folders);

@@ -11,11 +11,12 @@ use clap::Args;
 use lissom::modes::ModeRequest;
 use lissom::motion::MotionRecorder;
 use lissom::{
-    Checkpoint, CheckpointEvery, CheckpointFile, FolderError, Model, Override, Progress, Record,
-    ResultFolder, RunReport, Session, Stopped, Summary, Writer, summary,
+    Checkpoint, CheckpointEvery, CheckpointFile, FolderError, Model, Override, Progress, ResultFolder,
+    RunReport, Session, Stopped, Summary, Writer, summary,
 };
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Assembly, lower};
+use lissom_model::output::CurveRecord;
 use lissom_model::scene::Scene;
 
 use super::results::unwritable;
@@ -33,6 +34,7 @@ use crate::terminal::{self, Bar, Interrupt};
 Examples:
   lissom run examples/tip-crank.toml
   lissom run examples/tip-crank.toml --out results/fine --set analysis.step=1e-4
+  lissom run examples/four-bar.toml --unset analysis.step      chooses its steps by their error
   lissom run examples/top.toml --set analysis.scheme=hht --set bodies.top.mass=20 --no-plots --quiet
   lissom run examples/tip-crank.toml --checkpoint-every 10s
   lissom run --resume out/tip-crank             goes on where a run with checkpoints was cut off
@@ -47,6 +49,10 @@ pub(super) struct Run {
     /// Put another value into the model, as `analysis.step=1e-4`; may be repeated.
     #[arg(long = "set", value_name = "PATH=VALUE", value_parser = super::parse_override)]
     set: Vec<Override>,
+
+    /// Leave a value or an entry out of the model, as `analysis.step` or `springs.damper`; may be repeated.
+    #[arg(long, value_name = "PATH")]
+    unset: Vec<String>,
 
     /// Folder for the results [default: out/<name of the model file>].
     #[arg(long, value_name = "DIR")]
@@ -65,7 +71,7 @@ pub(super) struct Run {
     checkpoint_every: Option<String>,
 
     /// Go on with the run in this folder from its last checkpoint, as if it had not been cut off.
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["model", "set", "out", "checkpoint_every"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["model", "set", "unset", "out", "checkpoint_every"])]
     resume: Option<PathBuf>,
 
     /// Threads for models of thousands of elements or joints; results do not depend on their number [default: all
@@ -90,6 +96,7 @@ impl Run {
         Self {
             model: Some(model.to_owned()),
             set: set.to_owned(),
+            unset: Vec::new(),
             out: Some(out.to_owned()),
             quiet,
             no_plots: false,
@@ -125,8 +132,11 @@ impl Run {
         let processors = || std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
         lowered.settings.threads = self.threads.unwrap_or_else(processors).get();
         let (folder, mut record) = match &task.resumed {
-            None => (ResultFolder::create(&task.folder).map_err(unwritable)?, Record::default()),
-            Some(checkpoint) => ResultFolder::resume(&task.folder, checkpoint).map_err(unwritable)?,
+            None => (ResultFolder::create(&task.folder).map_err(unwritable)?, CurveRecord::default()),
+            Some(checkpoint) => {
+                let (folder, record) = ResultFolder::resume(&task.folder, checkpoint).map_err(unwritable)?;
+                (folder, CurveRecord::from(&record))
+            }
         };
         let recorder = task
             .plots
@@ -134,6 +144,7 @@ impl Run {
         let scene = task.plots.then(|| Scene::of(&document, &lowered));
         let assembly = lowered.assembly.as_ref().map(Assembly::words);
         let mut summary = summary::of_model(task.model.name(), &task.overrides, &document, &lowered);
+        summary::of_left_out(&mut summary, &task.model);
         let mut session = match Session::start(lowered) {
             Ok(session) => session,
             Err(error) => {
@@ -157,7 +168,7 @@ impl Run {
         };
         if let Some(checkpoint) = &task.resumed {
             session.restore(&checkpoint.session).map_err(|error| Failure::new(Exit::Failed, error))?;
-            record.columns = session.columns().to_vec();
+            record.set_columns(session.columns());
         }
         if let Some((recorder, scene)) = recorder.zip(scene) {
             session.write_states_to(Box::new(task.motion(&folder, recorder, &scene)?));
@@ -206,7 +217,8 @@ impl Run {
             let checkpoint = Checkpoint::read(folder).map_err(|error| Failure::new(Exit::BadModel, error))?;
             return Ok(Task {
                 model: Model::from_text(&checkpoint.model, &checkpoint.text)
-                    .with_included(checkpoint.included.clone()),
+                    .with_included(checkpoint.included.clone())
+                    .without(checkpoint.left_out.clone()),
                 overrides: checkpoint.overrides.clone(),
                 folder: folder.clone(),
                 plots: checkpoint.plots && !self.no_plots,
@@ -216,6 +228,7 @@ impl Run {
         }
         let path = self.model.as_deref().unwrap_or(Path::new(""));
         let model = Model::read(path).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let model = model.without(self.unset.clone());
         let stem = path.file_stem().unwrap_or_default();
         let folder = self.out.clone().unwrap_or_else(|| Path::new("out").join(stem));
         let (overrides, every) = (self.set.clone(), self.checkpoint_every.clone());
@@ -226,7 +239,7 @@ impl Run {
         &self,
         folder: &ResultFolder,
         (summary, session): (&Summary, &Session),
-        (record, plots): (&Record, bool),
+        (record, plots): (&CurveRecord, bool),
         title: &str,
     ) -> Result<(), Failure> {
         folder.write_summary(summary).map_err(unwritable)?;
@@ -295,11 +308,13 @@ impl Task {
         let (model, text) = (self.model.name().to_owned(), self.model.text().to_owned());
         let included = self.model.included();
         let (overrides, plots) = (self.overrides.clone(), self.plots);
+        let left_out = self.model.left_out().to_vec();
         let frame = move |session, [history_length, motion_length]: [u64; 2]| Checkpoint {
             model: model.clone(),
             text: text.clone(),
             included: included.clone(),
             overrides: overrides.clone(),
+            left_out: left_out.clone(),
             plots,
             every: every.clone(),
             history_length,

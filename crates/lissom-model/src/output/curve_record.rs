@@ -1,0 +1,211 @@
+//! Results as they are drawn: curves of a bounded number of points, however many rows there are. Of every stretch of rows
+//! the extremes are kept; where stretches become too many, neighbours are joined.
+
+use std::io;
+
+use super::{Column, Record, Writer};
+
+/// Stretches of a curve: twice as many become half of them. A drawing shows fewer.
+const STRETCHES: usize = 4096;
+
+/// A point (time, value).
+type Point = (f64, f64);
+
+/// The extremes of some consecutive rows, in the order of their times.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Stretch([Point; 2]);
+
+impl Stretch {
+    /// Both stretches, one behind the other.
+    fn joined(self, other: Self) -> Self {
+        let points = [self.0[0], self.0[1], other.0[0], other.0[1]];
+        let by_value = |a: &&Point, b: &&Point| a.1.total_cmp(&b.1);
+        let first = points[0];
+        let least = points.iter().min_by(by_value).copied().unwrap_or(first);
+        // Of equal ones the first is kept, as for the least.
+        let most = points.iter().rev().max_by(by_value).copied().unwrap_or(first);
+        Self(if least.0 <= most.0 { [least, most] } else { [most, least] })
+    }
+}
+
+/// Curves of the columns of a run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct CurveRecord {
+    columns: Vec<Column>,
+    curves: Vec<Vec<Stretch>>,
+    /// First and last row.
+    ends: Option<[(f64, Vec<f64>); 2]>,
+    /// Rows of a whole stretch.
+    rows: usize,
+    /// Rows of the last stretch.
+    begun: usize,
+}
+
+impl CurveRecord {
+    /// What each column holds.
+    pub fn columns(&self) -> &[Column] {
+        &self.columns
+    }
+
+    /// Says anew what the columns hold: a table that was read back tells names alone.
+    pub fn set_columns(&mut self, columns: &[Column]) {
+        self.columns = columns.to_vec();
+    }
+
+    /// The points of a column's curve, in the order of time: all of them where there are few, else the extremes of every
+    /// stretch of time, and both ends.
+    pub fn points(&self, column: usize) -> Vec<Point> {
+        let mut points: Vec<Point> = Vec::new();
+        let end = |which: usize| self.ends.as_ref().map(|ends| (ends[which].0, ends[which].1[column]));
+        points.extend(end(0));
+        for stretch in self.curves.get(column).into_iter().flatten() {
+            points.extend(stretch.0);
+        }
+        points.extend(end(1));
+        points.dedup();
+        points
+    }
+
+    fn push(&mut self, time: f64, values: &[f64]) {
+        match &mut self.ends {
+            None => self.ends = Some([(time, values.to_vec()), (time, values.to_vec())]),
+            Some([_, (last, row)]) => {
+                *last = time;
+                row.copy_from_slice(values);
+            }
+        }
+        let begins = self.begun == 0;
+        for (curve, &value) in self.curves.iter_mut().zip(values) {
+            // What is no number has no place in a drawing, and is dropped there; here it would hide the extremes.
+            let point = (time, value);
+            match curve.last_mut() {
+                Some(last) if !begins && !value.is_nan() => {
+                    *last = if last.0[0].1.is_nan() {
+                        Stretch([point; 2])
+                    } else {
+                        last.joined(Stretch([point; 2]))
+                    };
+                }
+                Some(_) if !begins => {}
+                _ => curve.push(Stretch([point; 2])),
+            }
+        }
+        self.begun += 1;
+        if self.begun < self.rows {
+            return;
+        }
+        self.begun = 0;
+        if self.curves.first().is_some_and(|curve| curve.len() >= 2 * STRETCHES) {
+            self.rows *= 2;
+            self.curves.iter_mut().for_each(halve);
+        }
+    }
+}
+
+/// Joins neighbours.
+fn halve(curve: &mut Vec<Stretch>) {
+    let pairs = curve.chunks(2).map(|pair| match pair {
+        [first, second] if first.0[0].1.is_nan() => *second,
+        [first, second] if second.0[0].1.is_nan() => *first,
+        [first, second] => first.joined(*second),
+        pair => pair[0],
+    });
+    *curve = pairs.collect();
+}
+
+impl From<&Record> for CurveRecord {
+    fn from(record: &Record) -> Self {
+        let mut curves = Self::of(&record.columns);
+        for (index, &time) in record.times.iter().enumerate() {
+            let row: Vec<f64> = record.values.iter().map(|values| values[index]).collect();
+            curves.push(time, &row);
+        }
+        curves
+    }
+}
+
+impl CurveRecord {
+    fn of(columns: &[Column]) -> Self {
+        Self {
+            columns: columns.to_vec(),
+            curves: vec![Vec::new(); columns.len()],
+            ends: None,
+            rows: 1,
+            begun: 0,
+        }
+    }
+}
+
+impl Writer for CurveRecord {
+    fn begin(&mut self, columns: &[Column]) -> io::Result<()> {
+        *self = Self::of(columns);
+        Ok(())
+    }
+
+    fn row(&mut self, time: f64, values: &[f64]) -> io::Result<()> {
+        if values.len() == self.columns.len() {
+            self.push(time, values);
+            return Ok(());
+        }
+        let message = format!("{} values for {} columns", values.len(), self.columns.len());
+        Err(io::Error::new(io::ErrorKind::InvalidInput, message))
+    }
+
+    fn finish(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn curves(rows: u32, value: impl Fn(u32) -> f64) -> CurveRecord {
+        let mut record = CurveRecord::default();
+        record.begin(&[Column::new("a", "", "a", ""), Column::new("b", "", "b", "")]).unwrap();
+        for row in 0..rows {
+            record.row(f64::from(row), &[value(row), -value(row)]).unwrap();
+        }
+        record
+    }
+
+    #[test]
+    fn few_rows_are_all_there() {
+        let points = curves(1000, |row| f64::from(row * row)).points(1);
+        let wanted: Vec<Point> = (0..1000).map(|row| (f64::from(row), -f64::from(row * row))).collect();
+        assert_eq!(points, wanted);
+    }
+
+    #[test]
+    fn a_million_rows_leave_a_bounded_number_of_points_with_all_extremes_and_both_ends() {
+        let value = |row: u32| match row {
+            123_457 => 9.0,
+            876_543 => -8.0,
+            row => (0.01 * f64::from(row)).sin(),
+        };
+        let record = curves(1_000_000, value);
+        for (column, sign) in [(0, 1.0), (1, -1.0)] {
+            let points = record.points(column);
+            assert!(points.len() <= 4 * STRETCHES + 2 && points.len() > STRETCHES, "{}", points.len());
+            assert!(points.contains(&(123_457.0, 9.0 * sign)) && points.contains(&(876_543.0, -8.0 * sign)));
+            assert_eq!(points[0], (0.0, 0.0 * sign));
+            assert_eq!(points.last(), Some(&(999_999.0, sign * value(999_999))));
+            assert!(points.windows(2).all(|pair| pair[0].0 <= pair[1].0));
+        }
+        assert!(record.row_of_wrong_length());
+    }
+
+    #[test]
+    fn gaps_do_not_hide_what_is_beside_them() {
+        let record = curves(100_000, |row| if row % 7 == 0 { f64::NAN } else { f64::from(row) });
+        let points = record.points(0);
+        assert!(points.iter().filter(|point| point.1.is_finite()).count() > STRETCHES);
+        assert!(points.contains(&(99_999.0, 99_999.0)));
+    }
+
+    impl CurveRecord {
+        fn row_of_wrong_length(mut self) -> bool {
+            self.row(1.0, &[1.0]).is_err()
+        }
+    }
+}
