@@ -418,7 +418,7 @@ impl Report {
         self.shown.iter().map(of).collect()
     }
 
-    /// Problems with file, line, underlined text and remedy, as a text for a terminal: the first [`MOST_SHOWN`], errors
+    /// Problems with file, line, underlined text and remedy, as a text for a terminal: the first fifty, errors
     /// before warnings, and how many more there are.
     pub fn render(&self, colour: bool) -> String {
         let mut text = String::new();

@@ -94,12 +94,11 @@ mod tests {
     #[test]
     fn too_many_elements_are_told_with_what_they_need() {
         assert_eq!(told("1000", "end = 1\nstep = 1e-3", 1e9), Vec::<String>::new());
-        let words = told("1_000_000_000", "end = 1\nstep = 1e-3", 32e9).join("\n");
+        let words = told("100000", "end = 1\nstep = 1e-3", 1e9).join("\n");
         assert!(
-            words.contains("16.0 TB") && words.contains("beam `b`") && words.contains("32.0 GB"),
+            words.contains("1.6 GB") && words.contains("beam `b`") && words.contains("1.0 GB"),
             "{words}"
         );
-        assert_eq!(told("100000", "end = 1\nstep = 1e-3", 1e9).len(), 1);
     }
 
     #[test]
