@@ -34,7 +34,10 @@ const EVENTS: &str = "events.csv";
 pub(crate) const MODES: &str = "modes.csv";
 pub(crate) const SHAPES: &str = "shapes.csv";
 /// Files of analyses of the linear model.
-const OF_LINEAR_MODELS: [&str; 22] = [
+const OF_LINEAR_MODELS: [&str; 25] = [
+    "shapes.svg",
+    "energy.csv",
+    "participation.csv",
     "response.csv",
     "response.svg",
     "response.png",

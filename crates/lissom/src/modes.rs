@@ -1,12 +1,13 @@
 //! Natural modes of a model about a state: finds the state, linearises there, and tells of the modes in tables.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use lissom_core::analysis::{InitialError, StepError};
 use lissom_core::linear::{
-    Completeness, LinearError, LinearModel, Mode, ModeError, ModeKind, ModeOptions, NodeShape, SteadyError,
+    Completeness, EffectiveMasses, LinearError, LinearModel, Mode, ModeError, ModeKind, ModeOptions,
+    NodeShape, SteadyError,
 };
 use lissom_core::system::Kinematics;
 use lissom_model::document::AnalysisKind;
@@ -18,6 +19,11 @@ use crate::model::{Model, Override};
 use crate::session::SessionError;
 
 pub use crate::about::About;
+
+/// Shapes that are drawn.
+const DRAWN: usize = 20;
+/// How far parts are moved in pictures of shapes, over the model's length, or turned [rad].
+const FAR: f64 = 0.25;
 
 /// A mode that departs by more from being one when the model has turned belongs to coefficients that change.
 const CONSTANT: f64 = 3e-4;
@@ -130,6 +136,14 @@ pub struct ModeReport {
     pub shapes: Vec<Vec<NodeShape>>,
     /// Share of each part in the kinetic energy of each mode.
     pub shares: Vec<BTreeMap<String, f64>>,
+    /// Share of each part in the strain energy of each mode; empty for modes without strain.
+    pub strain_shares: Vec<BTreeMap<String, f64>>,
+    /// Effective masses of each mode, see [`EffectiveMasses`].
+    pub effective_masses: Vec<EffectiveMasses>,
+    /// Mass and moments of inertia of the whole model.
+    pub masses: EffectiveMasses,
+    /// The state moved along the first shapes, for pictures of them.
+    pub moved: Vec<Kinematics>,
     /// Whether some may have been missed.
     pub completeness: Completeness,
     /// How many were asked for.
@@ -215,6 +229,10 @@ fn tell(model: &LinearModel<'_>, count: usize, shift: Option<f64>) -> Result<Mod
         state: model.kinematics().clone(),
         shapes: found.modes.iter().map(|mode| model.shape(mode)).collect(),
         shares: found.modes.iter().map(|mode| model.kinetic_shares(mode)).collect(),
+        strain_shares: found.modes.iter().map(|mode| model.strain_shares(mode)).collect(),
+        effective_masses: found.modes.iter().map(|mode| model.effective_masses(mode)).collect(),
+        masses: model.masses(),
+        moved: found.modes.iter().take(DRAWN).map(|mode| model.moved_along(mode, FAR)).collect(),
         modes: found.modes,
         completeness: found.completeness,
         asked: count,
@@ -245,6 +263,39 @@ impl ModeReport {
         shapes_table(&self.shapes, is_complex)
     }
 
+    /// The table `energy.csv`: by mode and part its shares in kinetic and strain energy [-], empty where a mode has none.
+    pub fn energy_csv(&self) -> String {
+        let mut text = "mode,part,kinetic,strain\n".to_owned();
+        for (index, (kinetic, strain)) in self.shares.iter().zip(&self.strain_shares).enumerate() {
+            let parts: BTreeSet<&String> = kinetic.keys().chain(strain.keys()).collect();
+            for part in parts {
+                let of = |shares: &BTreeMap<String, f64>| {
+                    if shares.is_empty() {
+                        return String::new();
+                    }
+                    format!("{:?}", shares.get(part).copied().unwrap_or(0.0))
+                };
+                // Writing to a string cannot fail.
+                let _ = writeln!(text, "{},{},{},{}", index + 1, quoted(part), of(kinetic), of(strain));
+            }
+        }
+        text
+    }
+
+    /// The table `participation.csv`: effective masses of each mode along [kg] and about [kg m²] the axes of space, the last row
+    /// those of the whole model.
+    pub fn participation_csv(&self) -> String {
+        let mut text = "mode,x,y,z,rx,ry,rz\n".to_owned();
+        let numbered = self.effective_masses.iter().enumerate();
+        let named = numbered.map(|(index, masses)| ((index + 1).to_string(), masses));
+        for (name, masses) in named.chain([("all".to_owned(), &self.masses)]) {
+            let numbers: Vec<String> = masses.iter().map(|value| format!("{value:?}")).collect();
+            // Writing to a string cannot fail.
+            let _ = writeln!(text, "{name},{}", numbers.join(","));
+        }
+        text
+    }
+
     /// The facts of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
         let mut summary = of_request(name, overrides, document);
@@ -259,6 +310,7 @@ impl ModeReport {
         tell("unknowns", json!(self.unknowns[0] + self.unknowns[1]));
         tell("multipliers", json!(self.unknowns[1]));
         tell("rigid_modes", json!(self.count(ModeKind::Rigid)));
+        tell("masses", json!(self.masses));
         let mode = |(index, (mode, shares)): (usize, (&Mode, &BTreeMap<String, f64>))| {
             json!({
                 "mode": index + 1,
@@ -268,6 +320,8 @@ impl ModeReport {
                 "eigenvalue": [mode.eigenvalue.re, mode.eigenvalue.im],
                 "residual": mode.residual,
                 "kinetic_shares": shares,
+                "strain_shares": self.strain_shares[index],
+                "effective_masses": self.effective_masses[index],
             })
         };
         tell("modes", self.modes.iter().zip(&self.shares).enumerate().map(mode).collect());

@@ -11,6 +11,7 @@
 
 mod arnoldi;
 mod buckling;
+mod energy_shares;
 mod krylov;
 mod lanczos;
 mod mode;
@@ -24,6 +25,7 @@ mod steady;
 mod whirl;
 
 pub use buckling::{Buckling, BucklingError, BucklingMode};
+pub use energy_shares::EffectiveMasses;
 pub use mode::{Completeness, Mode, ModeError, ModeKind, ModeOptions, Modes};
 pub use model::{LinearError, LinearModel};
 pub use output::OutputDerivatives;

@@ -97,7 +97,7 @@ impl LinearModel<'_> {
 }
 
 /// The part a node belongs to: the beam of `beam@0.5`, `beam.start` or `beam.end`, or the body itself.
-fn part_of(node: &str) -> &str {
+pub(super) fn part_of(node: &str) -> &str {
     let base = node.split_once('@').map_or(node, |(beam, _)| beam);
     base.strip_suffix(".start").or_else(|| base.strip_suffix(".end")).unwrap_or(base)
 }

@@ -9,7 +9,7 @@ use lissom_solver::Pattern;
 use super::layout::{LOCKED, Layout};
 use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
-use super::state::{Kinematics, NodeId, NodeMotion};
+use super::state::{CoordinateId, Kinematics, NodeId, NodeMotion};
 use super::threads::Threads;
 use crate::elements::blocks::Blocks;
 use crate::elements::passage::{Passage, STAGES};
@@ -53,6 +53,8 @@ pub(crate) trait AnyBatch: Send + Sync {
     );
     fn passage_forces(&self, passage: &Passage<'_>, out: &mut [Vec<f64>]);
     fn energy(&self, at: &Kinematics) -> Energy;
+    /// Tells the energy of every item, with its nodes and coordinates.
+    fn energies(&self, at: &Kinematics, told: &mut dyn FnMut(&[NodeId], &[CoordinateId], Energy));
     /// Work of loads between two configurations [J].
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64;
     /// Elongation, rate and force of an item that is like a spring.
@@ -246,6 +248,12 @@ impl<E: Element> AnyBatch for Batch<E> {
             sum += item.energy(at);
         }
         sum
+    }
+
+    fn energies(&self, at: &Kinematics, told: &mut dyn FnMut(&[NodeId], &[CoordinateId], Energy)) {
+        for item in &self.items {
+            told(item.nodes(), item.coordinates(), item.energy(at));
+        }
     }
 
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {

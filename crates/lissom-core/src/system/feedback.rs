@@ -332,6 +332,8 @@ impl AnyBatch for Arc<Feedback> {
         Energy::default()
     }
 
+    fn energies(&self, _: &Kinematics, _: &mut dyn FnMut(&[NodeId], &[CoordinateId], Energy)) {}
+
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
         let size = |driven: &Driven, at: &Kinematics| self.graph.evaluate(at, |values| values[driven.signal]);
         let of = |driven: &Driven| match &driven.target {

@@ -4,8 +4,10 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use lissom::core::system::Kinematics;
 use lissom::modes::{About, ModeReport, ModeRequest, ModesError, modes, of_request};
-use lissom::motion::MotionRecorder;
+use lissom::motion::{Motion, MotionRecorder};
+use lissom::picture::Picture;
 use lissom::{Document, Model, Override, ResultFolder};
 use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
@@ -14,13 +16,16 @@ use super::results::{folder_for, unwritable};
 use super::{Exit, Failure, ModelArguments, show_warnings};
 use crate::terminal;
 
+/// Models of more nodes are not drawn: it would take longer than their modes.
+const MOST_DRAWN: usize = 2000;
 /// Modes listed on the terminal; the tables have all.
 const LISTED: usize = 20;
 
 /// Find natural modes: frequencies, damping ratios and shapes of the model linearised about a state.
 ///
 /// The results go to a folder: `modes.csv` (number, frequency, damping ratio, kind), `shapes.csv` (displacement and rotation of
-/// every node), `summary.json` (eigenvalues, share of each part in the kinetic energy) and what `lissom view` shows.
+/// every node), `energy.csv` (share of each part in kinetic and strain energy), `participation.csv` (effective masses), `shapes.svg` (a
+/// picture of the first shapes), `summary.json` (eigenvalues) and what `lissom view` shows.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -84,8 +89,11 @@ pub(super) fn report(
     };
     let (folder, found) = folder_for(folder, found, || of_request(model.name(), overrides, document))?;
     folder.write_table("modes.csv", &found.csv()).map_err(unwritable)?;
+    folder.write_table("energy.csv", &found.energy_csv()).map_err(unwritable)?;
+    folder.write_table("participation.csv", &found.participation_csv()).map_err(unwritable)?;
     folder.write_table("shapes.csv", &found.shapes_csv()).map_err(unwritable)?;
     write_state(&folder, document, &found)?;
+    draw_shapes(&folder, document, &found)?;
     folder.write_summary(&found.summary(model.name(), overrides, document)).map_err(unwritable)?;
     if !quiet {
         for warning in &found.warnings {
@@ -103,6 +111,35 @@ fn write_state(folder: &ResultFolder, document: &Document, found: &ModeReport) -
     let file = folder.motion().map_err(unwritable)?;
     let mut recorder = MotionRecorder::new(&lowered, None, file);
     recorder.write_still(&found.state).map_err(|error| Failure::new(Exit::Failed, error))
+}
+
+/// Draws the first shapes on one sheet, `shapes.svg`.
+fn draw_shapes(folder: &ResultFolder, document: &Document, found: &ModeReport) -> Result<(), Failure> {
+    if found.moved.is_empty() || found.state.nodes.len() > MOST_DRAWN {
+        return Ok(());
+    }
+    let failed = |error: &dyn std::fmt::Display| Failure::new(Exit::Failed, error.to_string());
+    let lowered = lower(document)?;
+    let mut bytes = Vec::new();
+    // A frame for each shape, with its number for a time.
+    let frames: Vec<Kinematics> = (1_u32..)
+        .zip(&found.moved)
+        .map(|(number, moved)| Kinematics { time: f64::from(number), ..moved.clone() })
+        .collect();
+    MotionRecorder::new(&lowered, None, &mut bytes).write_frames(&frames).map_err(|error| failed(&error))?;
+    let motion = Motion::from_bytes(&bytes).map_err(|error| failed(&error))?;
+    let labels = found.modes.iter().take(frames.len()).enumerate();
+    let labels = labels.map(|(index, mode)| format!("{}: {:.4} Hz", index + 1, mode.frequency));
+    let picture = Picture {
+        times: frames.iter().map(|at| at.time).collect(),
+        labels: labels.collect(),
+        ..Picture::default()
+    };
+    let title = document.title.as_deref().unwrap_or_default();
+    let drawing =
+        picture.draw(&Scene::of(document, &lowered), &motion, title).map_err(|error| failed(&error))?;
+    let text = drawing.svg().map_err(|error| failed(&error))?;
+    folder.write_table("shapes.svg", &text).map_err(unwritable)
 }
 
 /// A few lines for a person.

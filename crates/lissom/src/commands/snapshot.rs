@@ -171,7 +171,7 @@ impl Snapshot {
             From::Side => View::Side,
             From::Top => View::Top,
         };
-        let picture = Picture { times, view, paths: self.paths };
+        let picture = Picture { times, view, paths: self.paths, labels: Vec::new() };
         let failed = |error| Failure::new(Exit::Failed, error);
         let bytes = if moving.is_some() {
             let drawings = picture.draw_moving(scene, motion, title).map_err(wrong)?;

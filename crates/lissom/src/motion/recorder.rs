@@ -81,6 +81,17 @@ impl<W: Write + Send> MotionRecorder<W> {
         self.flush()
     }
 
+    /// Writes what stands before the frames, and these, whose times must ascend.
+    ///
+    /// # Errors
+    /// If they cannot be written.
+    pub fn write_frames(&mut self, frames: &[Kinematics]) -> io::Result<()> {
+        let head = self.header.to_bytes(&self.reference);
+        self.buffer.extend_from_slice(&head);
+        frames.iter().for_each(|at| self.frame(at));
+        self.flush()
+    }
+
     /// The next instant at which a frame is wanted [s].
     fn due(&self) -> f64 {
         self.last.map_or(self.start, |last| {

@@ -67,6 +67,8 @@ pub struct Picture {
     pub view: View,
     /// Whether the paths of observed points are drawn.
     pub paths: bool,
+    /// What stands below the panels, one after the other; their instants where there is nothing.
+    pub labels: Vec<String>,
 }
 
 /// So many instants at equal distances over a motion, its ends among them; the last for one.
@@ -127,7 +129,7 @@ impl Picture {
     pub fn draw(&self, scene: &Scene, motion: &Motion, title: &str) -> Result<Drawing, PictureError> {
         let Panels { seen, paths, projection, frame } = self.panels(scene, motion, MOST_PANELS)?;
         let sheet = Sheet::of(frame, seen.len(), MOST);
-        Ok(sheet.drawn(&seen, &paths, &projection, (title, scene.is_static)))
+        Ok(sheet.drawn(&seen, &paths, &projection, (title, scene.is_static, &self.labels)))
     }
 
     /// Draws a model that moves so, with a sheet for each instant, all of one size and scale.
@@ -142,7 +144,7 @@ impl Picture {
     ) -> Result<Vec<Drawing>, PictureError> {
         let Panels { seen, paths, projection, frame } = self.panels(scene, motion, MOST_FRAMES)?;
         let sheet = Sheet::of(frame, 1, MOST_MOVING);
-        let words = (title, scene.is_static);
+        let words = (title, scene.is_static, &[] as &[String]);
         Ok(seen.chunks(1).map(|panel| sheet.drawn(panel, &paths, &projection, words)).collect())
     }
 
@@ -213,7 +215,7 @@ impl Sheet {
         panels: &[(f64, Vec<Seen>)],
         paths: &[Vec<[f64; 2]>],
         projection: &Projection,
-        (title, is_static): (&str, bool),
+        (title, is_static, labels): (&str, bool, &[String]),
     ) -> Drawing {
         let [width, height] = self.frame.extent().map(|extent| extent * self.scale + 2.0 * MARGIN);
         let head = if title.is_empty() { 0.0 } else { 2.0 * LINE };
@@ -237,8 +239,11 @@ impl Sheet {
             for face in faces {
                 drawing.polygon(face.points.iter().map(place).collect(), face.shade);
             }
-            let words =
-                if is_static { format!("load {}", short(*time)) } else { format!("t = {} s", short(*time)) };
+            let words = match labels.get(index) {
+                Some(words) => words.clone(),
+                None if is_static => format!("load {}", short(*time)),
+                None => format!("t = {} s", short(*time)),
+            };
             let middle = [x + 0.5 * width - MARGIN, y + height - MARGIN + 0.6 * LINE];
             drawing.words(middle, &words, 13, Align::Middle, FAINT);
         }

@@ -28,11 +28,95 @@ fn modes_leave_tables_and_a_summary() {
     let shapes = rows(&out, "shapes.csv");
     assert_eq!(shapes[0].join(","), "mode,node,x,y,z,u1,u2,u3,r1,r2,r3");
     assert_eq!(shapes.len(), 1 + 5 * 9);
+    // A picture of each shape, with its frequency.
+    let sheet = std::fs::read_to_string(out.join("shapes.svg")).unwrap();
+    for mode in 1..=5 {
+        assert!(sheet.contains(&format!("{mode}: {:.4} Hz", frequencies[mode - 1])), "{mode}");
+    }
     let facts = summary(&out);
     assert_eq!((&facts["found"], &facts["completeness"]), (&5.into(), &"counted".into()));
     assert_eq!(facts["stopped"], "end");
     assert!((facts["modes"][0]["kinetic_shares"]["bar"].as_f64().unwrap() - 1.0).abs() < 1e-12);
     assert!(run.output.contains("none missed"), "{}", run.output);
+}
+
+/// A mass of 3 kg on a spring of 300 N/m that carries one of 2 kg on a spring of 100 N/m, both along x.
+const CHAIN: &str = r#"
+lissom = 1
+[bodies.first]
+mass = 3
+inertia = [1, 1, 1]
+position = [1, 0, 0]
+[bodies.second]
+mass = 2
+inertia = [1, 1, 1]
+position = [2, 0, 0]
+[joints.rail]
+kind = "prismatic"
+base = "ground"
+tip = "first"
+axis = [1, 0, 0]
+[joints.slide]
+kind = "prismatic"
+base = "first"
+tip = "second"
+axis = [1, 0, 0]
+[springs.foot]
+kind = "axial"
+joint = "rail"
+stiffness = 300
+[springs.top]
+kind = "axial"
+joint = "slide"
+stiffness = 100
+[analysis]
+kind = "modes"
+count = 2
+"#;
+
+#[test]
+fn energies_and_effective_masses_of_two_masses_are_those_of_their_matrices() {
+    let folder = Folder::new("mode-energies");
+    folder.write("chain.toml", CHAIN);
+    let run = lissom(&["run", "chain.toml", "--out", "out"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let out = folder.path().join("out");
+    let (energies, masses) = (rows(&out, "energy.csv"), rows(&out, "participation.csv"));
+    assert_eq!(energies[0].join(","), "mode,part,kinetic,strain");
+    assert_eq!(masses[0].join(","), "mode,x,y,z,rx,ry,rz");
+    // 6 s⁴ + (200 + 300 + 600) s² + 30000 = 0 for M = diag(3, 2), K = [400, -100; -100, 100].
+    let roots =
+        [-1.0, 1.0].map(|sign| (1100.0 + sign * (1100.0_f64.powi(2) - 24.0 * 30_000.0).sqrt()) / 12.0);
+    let number = |text: &str| -> f64 { text.parse().unwrap() };
+    let mut whole = 0.0;
+    for (mode, square) in roots.into_iter().enumerate() {
+        let shape = [100.0, 400.0 - 3.0 * square];
+        let modal = 3.0 * shape[0] * shape[0] + 2.0 * shape[1] * shape[1];
+        let share = |part: &str, column: usize| {
+            let row = energies.iter().find(|row| row[0] == (mode + 1).to_string() && row[1] == part);
+            number(&row.unwrap_or_else(|| panic!("{part} in {energies:?}"))[column])
+        };
+        let kinetic = 3.0 * shape[0] * shape[0] / modal;
+        assert!((share("first", 2) - kinetic).abs() < 1e-9, "{energies:?}");
+        assert!((share("second", 2) - 1.0 + kinetic).abs() < 1e-9);
+        let strain = [300.0 * shape[0] * shape[0], 100.0 * (shape[1] - shape[0]).powi(2)];
+        let of_foot = strain[0] / (strain[0] + strain[1]);
+        assert!((share("rail", 3) - of_foot).abs() < 1e-6, "{energies:?}");
+        assert!((share("slide", 3) - 1.0 + of_foot).abs() < 1e-6);
+        let effective = (3.0 * shape[0] + 2.0 * shape[1]).powi(2) / modal;
+        assert!((number(&masses[mode + 1][1]) - effective).abs() < 1e-9, "{masses:?}");
+        assert!(masses[mode + 1][2..4].iter().all(|value| number(value).abs() < 1e-12), "{masses:?}");
+        whole += number(&masses[mode + 1][1]);
+    }
+    assert!((whole - 5.0).abs() < 1e-9, "{whole}");
+    assert_eq!((masses[3][0].as_str(), number(&masses[3][1])), ("all", 5.0));
+    // About z through the centre of mass at x = 1.4: 2 + 3·0.4² + 2·0.6².
+    assert!((number(&masses[3][6]) - 3.2).abs() < 1e-12, "{masses:?}");
+    let facts = summary(&out);
+    assert!(
+        (facts["modes"][0]["effective_masses"][0].as_f64().unwrap() - number(&masses[1][1])).abs() < 1e-12
+    );
+    assert!(facts["modes"][0]["strain_shares"]["slide"].as_f64().unwrap() > 0.0);
 }
 
 #[test]

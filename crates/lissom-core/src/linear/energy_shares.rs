@@ -1,0 +1,162 @@
+//! Where the energy of a mode is, and how much of the mass it moves along and about each axis.
+
+use std::collections::BTreeMap;
+
+use lissom_motion::{Motion, Vector3, Vector6, screw};
+use num_complex::Complex64;
+
+use super::mode::Mode;
+use super::model::LinearModel;
+use super::shapes::part_of;
+use crate::joints::Quantity;
+use crate::system::{CoordinateId, Kinematics, LOCKED, NodeId};
+
+/// Largest displacement over the model's length, and rotation, at which energies are taken: errors are of its square.
+const SMALL: f64 = 1e-4;
+
+/// Effective masses: translations along x, y and z [kg], rotations about them through the centre of mass [kg m²].
+pub type EffectiveMasses = [f64; 6];
+
+impl LinearModel<'_> {
+    /// Share of each part in the strain energy of a mode, by name: second differences of the energy of its elements along
+    /// the shape, so that forces at the state count. An element belongs to the part of its first node that is not the
+    /// ground, or to the joint on whose coordinate it acts. Sums up to 1; parts under pressure may have shares below 0. Empty
+    /// for a mode without strain.
+    pub fn strain_shares(&self, mode: &Mode) -> BTreeMap<String, f64> {
+        let mut shares = BTreeMap::new();
+        for take in [(|value: &Complex64| value.re) as fn(&Complex64) -> f64, |value| value.im] {
+            let rows: Vec<f64> = mode.shape.iter().map(take).collect();
+            let largest = self.largest(&rows);
+            if largest == 0.0 {
+                continue;
+            }
+            let step = SMALL / largest;
+            for (sense, weight) in [(1.0, 1.0), (-1.0, 1.0), (0.0, -2.0)] {
+                let at = self.displaced(&rows, sense * step);
+                for batch in &self.system.batches {
+                    batch.energies(&at, &mut |nodes, coordinates, energy| {
+                        let share = weight * energy.strain / (step * step);
+                        if share != 0.0 {
+                            *shares.entry(self.owner(nodes, coordinates)).or_insert(0.0) += share;
+                        }
+                    });
+                }
+            }
+        }
+        let total: f64 = shares.values().sum();
+        let all: f64 = shares.values().map(|value| value.abs()).sum();
+        // What is left of differences of a rigid motion is round-off.
+        let rate = mode.eigenvalue.norm_sqr();
+        if rate == 0.0 || total <= SMALL * all {
+            return BTreeMap::new();
+        }
+        for share in shares.values_mut() {
+            *share /= total;
+        }
+        shares
+    }
+
+    /// Effective mass of a mode of unit modal mass: the square of its participation in a rigid motion of the model along and
+    /// about each axis of space. Over all modes of a model their sum is what [`masses`](Self::masses) gives, less what hangs
+    /// on the ground.
+    pub fn effective_masses(&self, mode: &Mode) -> EffectiveMasses {
+        let centre = self.centre();
+        let mut participation = [Complex64::default(); 6];
+        for (k, sum) in participation.iter_mut().enumerate() {
+            for inertia in self.system.inertias() {
+                let rows = self.system.layout().rows_of_node(inertia.node());
+                let momentum = inertia.mass() * self.rigid_twist(inertia.node(), k, &centre);
+                for (&row, value) in rows.iter().zip(momentum.iter()).filter(|(row, _)| **row != LOCKED) {
+                    *sum += mode.shape[row as usize].conj() * *value;
+                }
+            }
+        }
+        participation.map(|value| value.norm_sqr())
+    }
+
+    /// Mass [kg], three times, and moments of inertia about the axes of space through the centre of mass [kg m²].
+    pub fn masses(&self) -> EffectiveMasses {
+        let centre = self.centre();
+        [0, 1, 2, 3, 4, 5].map(|k| {
+            let of = |inertia: &crate::elements::inertia::Inertia| {
+                let twist = self.rigid_twist(inertia.node(), k, &centre);
+                twist.dot(&(inertia.mass() * twist))
+            };
+            self.system.inertias().iter().map(of).sum()
+        })
+    }
+
+    /// The state moved along a mode's shape, its real part, so far that the largest displacement over the model's length, or
+    /// the largest rotation, is `largest`.
+    pub fn moved_along(&self, mode: &Mode, largest: f64) -> Kinematics {
+        let rows: Vec<f64> = mode.shape.iter().map(|value| value.re).collect();
+        let own = self.largest(&rows);
+        self.displaced(&rows, if own > 0.0 { largest / own } else { 0.0 })
+    }
+
+    /// Twist of a node, in its axes, in the rigid motion `k` of unit speed about `centre`.
+    fn rigid_twist(&self, node: NodeId, k: usize, centre: &Vector3) -> Vector6 {
+        let frame = self.at.nodes[node].frame;
+        let axis = Vector3::from_fn(|i, _| if i == k % 3 { 1.0 } else { 0.0 });
+        let (velocity, turning) =
+            if k < 3 { (axis, Vector3::zeros()) } else { (axis.cross(&(frame.position - centre)), axis) };
+        screw(&frame.rotation.apply_inverse(&velocity), &frame.rotation.apply_inverse(&turning))
+    }
+
+    /// Centre of mass [m].
+    fn centre(&self) -> Vector3 {
+        let (mut mass, mut moment) = (0.0, Vector3::zeros());
+        for inertia in self.system.inertias() {
+            let matrix = inertia.mass();
+            let own = matrix[(0, 0)];
+            if own <= 0.0 {
+                continue;
+            }
+            // Momentum of a turn is -m c\u{303}, c the centre in the node's axes.
+            let offset = Vector3::new(matrix[(2, 4)], matrix[(0, 5)], matrix[(1, 3)]) / -own;
+            mass += own;
+            moment += own * self.at.nodes[inertia.node()].frame.transform_point(&offset);
+        }
+        if mass > 0.0 { moment / mass } else { moment }
+    }
+
+    /// Largest displacement over the model's length, or rotation.
+    fn largest(&self, rows: &[f64]) -> f64 {
+        let length = self.representative.length;
+        let length = if length > 0.0 { length } else { 1.0 };
+        let scaled =
+            rows.iter().zip(self.system.layout().quantities()).map(|(value, quantity)| match quantity {
+                Quantity::Length => value.abs() / length,
+                Quantity::Angle | Quantity::State => value.abs(),
+            });
+        scaled.fold(0.0, f64::max)
+    }
+
+    /// The state moved by `share` of displacements by row.
+    fn displaced(&self, rows: &[f64], share: f64) -> Kinematics {
+        let layout = self.system.layout();
+        let mut at = self.at.clone();
+        for (node, motion) in at.nodes.iter_mut().enumerate() {
+            let own = layout.rows_of_node(node);
+            let psi = Vector6::from_fn(|k, _| match own[k] {
+                LOCKED => 0.0,
+                row => share * rows[row as usize],
+            });
+            motion.frame = motion.frame * Motion::exponential(&psi);
+        }
+        for (coordinate, motion) in at.coordinates.iter_mut().enumerate() {
+            motion.value += share * rows[layout.row_of_coordinate(coordinate)];
+        }
+        at
+    }
+
+    /// The part or joint that an element belongs to.
+    fn owner(&self, nodes: &[NodeId], coordinates: &[CoordinateId]) -> String {
+        let layout = self.system.layout();
+        if let Some(&node) = nodes.iter().find(|&&node| node != crate::system::GROUND) {
+            return part_of(layout.node_name(node)).to_owned();
+        }
+        let name = coordinates.first().map_or("ground", |&own| layout.coordinate_name(own));
+        name.rsplit_once('.').map_or(name, |(joint, _)| joint).to_owned()
+    }
+}
