@@ -112,6 +112,46 @@ end = 1
 step = 1e-3
 "#;
 
+/// A slender blade of length 1 with EI/(m l⁴) = 100 on a hub that is driven.
+const BLADE: &str = r#"
+lissom = 1
+[parameters]
+speed = 0.0
+[initial]
+angular_velocity = [0, 0, "speed"]
+[sections.bar]
+shape = "general"
+stiffness = [1e9, 1e9, 1e9, 300, 100, 100]
+mass = { per_length = 1, inertia = [2e-7, 1e-7, 1e-7] }
+[bodies.hub]
+mass = 1
+inertia = [1, 1, 1]
+[joints.bearing]
+kind = "revolute"
+base = "ground"
+tip = "hub"
+axis = [0, 0, 1]
+[joints.drive]
+kind = "prescribed_rotation"
+joint = "bearing"
+rotation = "speed*t"
+[beams.blade]
+section = "bar"
+from = [0, 0, 0]
+to = [1, 0, 0]
+elements = 8
+order = 3
+up = [0, 0, 1]
+[joints.root]
+kind = "clamp"
+base = "hub"
+tip = "blade.start"
+[analysis]
+kind = "dynamics"
+end = 1
+step = 1e-3
+"#;
+
 #[test]
 fn a_pinned_shaft_whirls_as_timoshenko_with_gyroscopic_terms() {
     let found = find(SHAFT, &request("parameters.speed", 0.0, 5000.0, 6, 8, &[1]));
@@ -179,48 +219,57 @@ fn a_pinned_shaft_whirls_as_timoshenko_with_gyroscopic_terms() {
 }
 
 #[test]
+fn an_overhung_disc_whirls_forward_and_backward_as_in_closed_form() {
+    // Inclination θ = θ₁ + iθ₂ in axes at rest: I_t θ'' - i I_p Ω θ' + k θ = 0 about the centre of the joint.
+    let driven = "[joints.drive]\nkind = \"prescribed_rotation\"\njoint = \"bearing\"\nrotation = \"speed*t\"\n[bodies.disc]";
+    let text = OVERHUNG.replace("[bodies.disc]", driven);
+    let found = find(&text, &request("parameters.speed", 25.0, 200.0, 8, 4, &[1]));
+    let (across, along, stiffness) = (0.15 + 5.0 * 0.3 * 0.3, 0.3_f64, 2000.0_f64);
+    let rows = rows(&found);
+    for speed in [50.0, 100.0, 150.0, 200.0] {
+        let root = ((along * speed).powi(2) + 4.0 * across * stiffness).sqrt();
+        for (whirl, rate) in [("forward", root + along * speed), ("backward", root - along * speed)] {
+            let rate = rate / (2.0 * across);
+            let seen: Vec<f64> = rows
+                .iter()
+                .filter(|row| row[0].parse::<f64>().unwrap() == speed && row[6] == whirl)
+                .filter_map(|row| row[7].parse::<f64>().ok())
+                .map(|seen| seen * TAU)
+                .collect();
+            let least = seen.iter().map(|seen| (seen / rate - 1.0).abs()).fold(f64::INFINITY, f64::min);
+            assert!(least < 1e-8, "{whirl} {rate} at {speed}: {seen:?} in {rows:#?}");
+        }
+    }
+}
+
+#[test]
+fn a_blade_on_a_wide_hub_flaps_and_lags_as_published() {
+    // A hub as wide as the blade is long: μ = ω √(m l⁴/EI) of a rotating Euler-Bernoulli cantilever by power series [Wright, Smith,
+    // Thresher and Wang 1982 have five digits]; lag: the square less that of the rotation.
+    let text =
+        BLADE.replace("from = [0, 0, 0]", "from = [1, 0, 0]").replace("to = [1, 0, 0]", "to = [2, 0, 0]");
+    let found = find(&text, &request("parameters.speed", 0.0, 120.0, 5, 6, &[1]));
+    let exact: [(f64, [f64; 2]); 4] = [
+        (3.0, [6.081_749_684_998, 24.927_745_241_135]),
+        (6.0, [10.443_865_869_460, 32.027_243_982_645]),
+        (9.0, [15.054_077_058_518, 41.115_408_160_182]),
+        (12.0, [19.721_541_935_255, 51.070_134_014_271]),
+    ];
+    for (eta, flaps) in exact {
+        let point = found.points.iter().find(|point| (point.value - 10.0 * eta).abs() < 1e-9).unwrap();
+        let rates: Vec<f64> = point.modes.iter().map(|of| of.mode.eigenvalue.im / 10.0).collect();
+        for exact in flaps.into_iter().flat_map(|flap| [flap, (flap * flap - eta * eta).sqrt()]) {
+            let least = rates.iter().map(|rate| (rate / exact - 1.0).abs()).fold(f64::INFINITY, f64::min);
+            assert!(least < 1e-4, "{exact} at {eta}: {rates:?}");
+        }
+    }
+}
+
+#[test]
 fn a_blade_is_stiffened_by_its_rotation() {
     // A slender blade on a hub of radius 0.5: flap of a rotating cantilever, against the two-term formula of Southwell with the
     // exact value at rest; and lag, which is softer by the square of the rotation.
-    let text = r#"
-lissom = 1
-[parameters]
-speed = 0.0
-[initial]
-angular_velocity = [0, 0, "speed"]
-[sections.bar]
-shape = "general"
-stiffness = [1e9, 1e9, 1e9, 300, 100, 100]
-mass = { per_length = 1, inertia = [2e-7, 1e-7, 1e-7] }
-[bodies.hub]
-mass = 1
-inertia = [1, 1, 1]
-[joints.bearing]
-kind = "revolute"
-base = "ground"
-tip = "hub"
-axis = [0, 0, 1]
-[joints.drive]
-kind = "prescribed_rotation"
-joint = "bearing"
-rotation = "speed*t"
-[beams.blade]
-section = "bar"
-from = [0, 0, 0]
-to = [1, 0, 0]
-elements = 8
-order = 3
-up = [0, 0, 1]
-[joints.root]
-kind = "clamp"
-base = "hub"
-tip = "blade.start"
-[analysis]
-kind = "dynamics"
-end = 1
-step = 1e-3
-"#;
-    let found = find(text, &request("parameters.speed", 0.0, 120.0, 5, 4, &[1, 3]));
+    let found = find(BLADE, &request("parameters.speed", 0.0, 120.0, 5, 4, &[1, 3]));
     // Rotating Euler-Bernoulli cantilever without hub radius, flap: η = Ω √(ρA l⁴/EI) = 12 gives 13.1702, 6 gives 7.3604
     // (Wright et al. 1982); lag: square less that of the rotation.
     for (speed, flap) in [(60.0, 7.3604), (120.0, 13.1702)] {
@@ -232,6 +281,165 @@ step = 1e-3
             let least = rates.iter().map(|rate| (rate / exact - 1.0).abs()).fold(f64::INFINITY, f64::min);
             assert!(least < 1e-4, "{exact} at {speed}: {rates:?}");
         }
+    }
+}
+
+/// Three blades on a hub that turns freely, at 20 rad/s; one is struck at its tip after 0.2 s.
+fn turbine() -> String {
+    let mut text = r#"
+lissom = 1
+[parameters]
+speed = 20.0
+[initial]
+angular_velocity = [0, 0, "speed"]
+steady_rotation = true
+[sections.bar]
+shape = "general"
+stiffness = [1e6, 1e6, 1e6, 30, 60, 150]
+mass = { per_length = 1, inertia = [2e-4, 1e-4, 1e-4] }
+[bodies.hub]
+mass = 2
+inertia = [0.3, 0.3, 0.5]
+[joints.bearing]
+kind = "revolute"
+base = "ground"
+tip = "hub"
+axis = [0, 0, 1]
+[loads.strike]
+kind = "force"
+on = "blade0.end"
+vector = [0, 0.3, 0.3]
+scale = "exp(-((t-0.2)/0.02)^2)"
+[outputs.tip]
+kind = "position"
+of = "blade0.end"
+relative_to = "hub"
+[analysis]
+kind = "dynamics"
+scheme = "radau-iia"
+end = 12
+step = 4e-3
+"#
+    .to_owned();
+    for k in 0..3 {
+        let (sine, cosine) = (f64::from(k) * TAU / 3.0).sin_cos();
+        let [x, y] = [0.2, 1.2].map(|r| (r * cosine, r * sine)).map(|(x, y)| format!("{x:?}, {y:?}"));
+        text += &format!(
+            "[beams.blade{k}]\nsection = \"bar\"\nfrom = [{x}, 0]\nto = [{y}, 0]\nelements = 3\nup = [0, 0, 1]\n\
+             [joints.root{k}]\nkind = \"clamp\"\nbase = \"hub\"\ntip = \"blade{k}.start\"\n"
+        );
+    }
+    text
+}
+
+/// The rate near `rate` at which a signal of equal steps, weighed with Hann's window, is strongest, and how strong it is there and
+/// a twelfth beside it.
+fn peak(signal: &[f64], step: f64, rate: f64) -> (f64, [f64; 2]) {
+    let mean = signal.iter().sum::<f64>() / signal.len() as f64;
+    let strength = |rate: f64| {
+        let (mut real, mut imaginary) = (0.0, 0.0);
+        for (k, value) in signal.iter().enumerate() {
+            let window = 1.0 - (TAU * k as f64 / (signal.len() - 1) as f64).cos();
+            let (sine, cosine) = (rate * step * k as f64).sin_cos();
+            real += window * (value - mean) * cosine;
+            imaginary += window * (value - mean) * sine;
+        }
+        real.hypot(imaginary)
+    };
+    let (mut low, mut high) = (rate * 0.985, rate * 1.015);
+    for _ in 0..40 {
+        let third = (high - low) / 3.0;
+        if strength(low + third) < strength(high - third) { low += third } else { high -= third }
+    }
+    (0.5 * (low + high), [strength(low), strength(rate * 13.0 / 12.0)])
+}
+
+#[test]
+fn a_three_bladed_rotor_decays_with_the_frequencies_of_its_diagram() {
+    let text = turbine();
+    let ask = ModeRequest { count: Some(9), about: Some(About::Rotation), shift: None };
+    let model = Model::from_text("model.toml", &text);
+    let found = modes(&model, &[], &ask).unwrap_or_else(|error| panic!("{error}"));
+    let mut session = model.session(&[]).unwrap();
+    let (record, report) = session.record();
+    assert!(report.is_complete(), "{report:?}");
+    let from = record.times.iter().position(|&time| time > 0.4).unwrap();
+    // Flap is along the axis, lag across blade and axis; the first of each has no other near it but that of all blades
+    // together, which turns the hub as well.
+    for (component, index) in [("z", 2), ("y", 1)] {
+        let signal = &record.column("tip", component).unwrap()[from..];
+        let own = |mode: &&lissom_core::linear::Mode| {
+            let at = found.modes.iter().position(|known| known.eigenvalue == mode.eigenvalue).unwrap();
+            let tip = found.shapes[at].iter().find(|shape| shape.node == "blade0.end").unwrap();
+            let sizes = tip.displacement.map(|value| value.norm());
+            mode.frequency > 0.0
+                && sizes[index] > 0.9 * sizes.iter().fold(0.0_f64, |most, size| most.max(*size))
+        };
+        let rate = found.modes.iter().find(own).unwrap().eigenvalue.im;
+        let (seen, [there, beside]) = peak(signal, 4e-3, rate);
+        assert!((seen / rate - 1.0).abs() < 2e-3, "{component}: {seen} for {rate} in {}", found.csv());
+        assert!(there > 10.0 * beside, "{component}: {there} {beside}");
+    }
+}
+
+#[test]
+fn two_blades_on_a_support_that_yields_one_way_are_refused_with_the_reason() {
+    let text = r#"
+lissom = 1
+[initial]
+angular_velocity = [0, 0, 10]
+[bodies.support]
+mass = 5
+inertia = [1, 1, 1]
+angular_velocity = [0, 0, 0]
+[joints.slide]
+kind = "prismatic"
+base = "ground"
+tip = "support"
+axis = [1, 0, 0]
+[springs.support]
+kind = "axial"
+joint = "slide"
+stiffness = 5000
+[bodies.hub]
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+[joints.bearing]
+kind = "revolute"
+base = "support"
+tip = "hub"
+axis = [0, 0, 1]
+[bodies.blade1]
+mass = 1
+inertia = [0.01, 0.1, 0.1]
+position = [0.6, 0, 0]
+[bodies.blade2]
+mass = 1
+inertia = [0.01, 0.1, 0.1]
+position = [-0.6, 0, 0]
+[joints.hinge1]
+kind = "revolute"
+base = "hub"
+tip = "blade1"
+at = [0.1, 0, 0]
+axis = [0, 0, 1]
+[joints.hinge2]
+kind = "revolute"
+base = "hub"
+tip = "blade2"
+at = [-0.1, 0, 0]
+axis = [0, 0, 1]
+[analysis]
+kind = "dynamics"
+end = 1
+step = 1e-3
+"#;
+    let ask = ModeRequest { count: Some(4), about: Some(About::Rotation), shift: None };
+    let error = modes(&Model::from_text("model.toml", text), &[], &ask).expect_err("its coefficients change");
+    assert!(matches!(error, ModesError::Periodic { .. }), "{error}");
+    let words = error.to_string();
+    for part in ["coefficients that change as the model turns", "support that yields", "Floquet"] {
+        assert!(words.contains(part), "{words}");
     }
 }
 
