@@ -142,7 +142,10 @@ fn grid(document: &Document) -> String {
                 None => format!("h = {} s ({scheme})", short(step.value)),
             }
         }
-        AnalysisKind::Statics { steps } => format!("{steps} load steps"),
+        AnalysisKind::Statics { steps: Some(steps), .. } => format!("{steps} load steps"),
+        AnalysisKind::Statics { steps: None, relative_tolerance } => {
+            format!("load steps to a tolerance of {}", short(*relative_tolerance))
+        }
         AnalysisKind::Path { end, .. } => format!("path to load factor {}", short(*end)),
         AnalysisKind::Buckling { count } => format!("{count} load factors of buckling"),
         AnalysisKind::Modes { count, .. } => format!("{count} modes"),

@@ -4,7 +4,7 @@
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
-use lissom_core::analysis::path::{EquilibriumPath, PathError, PathSettings};
+use lissom_core::analysis::path::{BranchChoice, EquilibriumPath, PathError, PathSettings};
 use lissom_core::linear::{Buckling, BucklingError, Completeness, LinearError, LinearModel, NodeShape};
 use lissom_model::document::{AnalysisKind, DEFAULT_BUCKLING_COUNT};
 use lissom_model::lower::{Lowered, lower};
@@ -93,6 +93,7 @@ pub fn buckling(
         first: FIRST,
         end: 1.0,
         most_steps: MOST_STEPS,
+        branch: BranchChoice::default(),
         scaling: settings.scaling,
         limits: settings.limits,
         solver: settings.solver,

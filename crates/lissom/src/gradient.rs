@@ -237,6 +237,9 @@ pub fn gradient(
     })
 }
 
+/// Load steps where the model does not name their number.
+const LOAD_STEPS: usize = 10;
+
 /// The document of a run up to the time that is asked for.
 fn prepared(model: &Model, overrides: &[Override], target: &Target) -> Result<Document, GradientError> {
     let mut document = model.document(overrides)?;
@@ -245,12 +248,16 @@ fn prepared(model: &Model, overrides: &[Override], target: &Target) -> Result<Do
         return Err(GradientError::NotInTime(analysis.kind.name()));
     }
     analysis.tolerance = analysis.tolerance.min(TOLERANCE);
+    if let AnalysisKind::Statics { steps, .. } = &mut analysis.kind {
+        // The neighbouring model takes the same steps.
+        steps.get_or_insert(LOAD_STEPS);
+    }
     if let Measure::Time(time) = target.measure {
         let (start, end) = (analysis.start, analysis.end);
         if !(time > start && time <= end) {
             return Err(GradientError::Time { time, start, end });
         }
-        if let AnalysisKind::Statics { steps } = &mut analysis.kind {
+        if let AnalysisKind::Statics { steps: Some(steps), .. } = &mut analysis.kind {
             // As many load steps as lead there.
             *steps = ((*steps as f64 * (time - start) / (end - start)) - 1e-9).ceil().max(1.0) as usize;
         }

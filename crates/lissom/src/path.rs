@@ -4,7 +4,7 @@ use std::io;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use lissom_core::analysis::path::{CriticalPoint, EquilibriumPath, PathError, PathSettings};
+use lissom_core::analysis::path::{BranchChoice, CriticalPoint, EquilibriumPath, PathError, PathSettings};
 use lissom_model::channels::Channel;
 use lissom_model::document::{AnalysisKind, OutputKind};
 use lissom_model::lower::{Lowered, lower};
@@ -100,7 +100,7 @@ impl PathSession {
     /// If the model is wrong, has no load or no equilibrium without one.
     pub fn new(document: &Document) -> Result<Self, PathSessionError> {
         let began = Instant::now();
-        let AnalysisKind::Path { first, end, most_steps } = document.analysis.kind else {
+        let AnalysisKind::Path { first, end, most_steps, branch } = document.analysis.kind else {
             return Err(PathSessionError::NotAPath(document.analysis.kind.name()));
         };
         let Lowered { system, state, settings, channels, .. } = lower(document)?;
@@ -114,6 +114,7 @@ impl PathSession {
             first: first.copysign(end),
             end,
             most_steps,
+            branch: BranchChoice { number: branch.unsigned_abs() as usize, is_reversed: branch < 0 },
             scaling: settings.scaling,
             limits: settings.limits,
             solver: settings.solver,

@@ -129,6 +129,10 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     let mut tell = |name: &str, fact: Value| tell(summary, name, fact);
     tell("stopped", json!(report.stopped.name()));
     tell("stopped_by", json!(session.stopped_by()));
+    if session.plan().is_static {
+        let fact = |(time, directions): &(f64, Option<usize>)| json!({ "time": time, "unstable_directions": directions });
+        tell("stability", simulation.stability().iter().map(fact).collect());
+    }
     tell("events", of_events(session));
     if let Some(error) = report.error() {
         tell("error", json!(error.to_string()));

@@ -1,6 +1,7 @@
 //! Campbell diagrams against closed forms: frequencies of rotors over their speed, whirl, critical speeds.
 
 use std::f64::consts::TAU;
+use std::fmt::Write;
 
 use lissom::Model;
 use lissom::campbell::{CampbellError, CampbellReport, CampbellRequest, campbell};
@@ -324,7 +325,9 @@ step = 4e-3
     for k in 0..3 {
         let (sine, cosine) = (f64::from(k) * TAU / 3.0).sin_cos();
         let [x, y] = [0.2, 1.2].map(|r| (r * cosine, r * sine)).map(|(x, y)| format!("{x:?}, {y:?}"));
-        text += &format!(
+        // Writing to a string cannot fail.
+        let _ = write!(
+            text,
             "[beams.blade{k}]\nsection = \"bar\"\nfrom = [{x}, 0]\nto = [{y}, 0]\nelements = 3\nup = [0, 0, 1]\n\
              [joints.root{k}]\nkind = \"clamp\"\nbase = \"hub\"\ntip = \"blade{k}.start\"\n"
         );
@@ -371,7 +374,7 @@ fn a_three_bladed_rotor_decays_with_the_frequencies_of_its_diagram() {
         let own = |mode: &&lissom_core::linear::Mode| {
             let at = found.modes.iter().position(|known| known.eigenvalue == mode.eigenvalue).unwrap();
             let tip = found.shapes[at].iter().find(|shape| shape.node == "blade0.end").unwrap();
-            let sizes = tip.displacement.map(|value| value.norm());
+            let sizes = tip.displacement.map(num_complex::Complex64::norm);
             mode.frequency > 0.0
                 && sizes[index] > 0.9 * sizes.iter().fold(0.0_f64, |most, size| most.max(*size))
         };

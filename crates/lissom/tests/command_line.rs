@@ -32,6 +32,8 @@ mod redundancy;
 mod silent;
 #[path = "command_line/snapshot.rs"]
 mod snapshot;
+#[path = "command_line/statics.rs"]
+mod statics;
 #[path = "command_line/study.rs"]
 mod study;
 mod support;

@@ -19,7 +19,9 @@ use crate::judge::{self, Judge, Ledger, Warning};
 use crate::newton::{self, Equations, Failure, Limits, Memory, Outcome};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Coupling, Scheme};
-use crate::stepping::{Controller, Impacts, MethodMemory, Parts, Resolution, StepControl, Watch};
+use crate::stepping::{
+    Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, StepControl, Watch,
+};
 use crate::system::{Kinematics, Layout, Linearization, MotionChange, State, System, Threads};
 
 /// What a simulation is told besides system and state.
@@ -123,6 +125,8 @@ pub struct Simulation {
     /// Where in a planned step it stands, and the size of the next attempt.
     pub(crate) parts: Parts,
     pub(crate) controller: Option<Controller>,
+    /// Size of the next load step, where it is chosen.
+    pub(crate) load_control: Option<LoadControl>,
     /// Times that steps of chosen size do not cross [s].
     pub(crate) kinks: Vec<f64>,
     /// How far any node has moved since the start, for the error estimate [-].
@@ -139,6 +143,9 @@ pub struct Simulation {
     pub(crate) singular: SingularPositions,
     /// The last load parameter at which the equilibrium was stable, in statics [s].
     pub(super) stable_at: Option<f64>,
+    /// From which load parameter on [s] an equilibrium is unstable in how many directions; none where that cannot be
+    /// told.
+    pub(crate) stability: Vec<(f64, Option<usize>)>,
     /// Numbers that may change their sign within a step.
     pub(crate) watch: Watch,
     /// How fast forces switch in steps of planned size.
@@ -171,13 +178,7 @@ impl Simulation {
         known: Option<&Representative>,
     ) -> Result<Self, InitialError> {
         let mut warnings = Vec::new();
-        let (system, mut state) = if settings.from_equilibrium && settings.scheme.dynamic {
-            let (system, state, doubts) = equilibrium::at_rest(system, state, &settings)?;
-            warnings.extend(doubts);
-            (system, state)
-        } else {
-            (system, state)
-        };
+        let (system, mut state) = equilibrium::start_at_rest(system, state, &settings, &mut warnings)?;
         if let Some(row) = system.layout().rate_rows().next().filter(|_| !settings.scheme.dynamic) {
             return Err(InitialError::StateInStatics(system.layout().name_of(row)));
         }
@@ -199,9 +200,11 @@ impl Simulation {
             settle(&system, &mut state, &mut initial, &settings)?;
             held_values = (!state.kinematics.held.is_empty()).then_some(initial);
         }
-        let mut violations = vec![0.0; system.layout().multiplier_count];
-        system.violations(&state.kinematics, &mut violations);
-        state.violations = violations;
+        if !settings.scheme.dynamic {
+            equilibrium::hold_start(&system, &mut state, settings.solver);
+        }
+        state.violations = vec![0.0; system.layout().multiplier_count];
+        system.violations(&state.kinematics, &mut state.violations);
         let scaled = Scaled::new(&settings.scaling, &representative, settings.step_size);
         let equilibrated = settings.scaling.equilibrates();
         let mut work =
@@ -230,9 +233,11 @@ impl Simulation {
         let interval = settings.scheme.dynamic.then_some(settings.step_size);
         let ledger = Ledger::new(&system, &state.kinematics, &representative, interval);
         let singular = SingularPositions::new(&system, &state.kinematics, representative.length);
-        let controller = settings.control.filter(|_| settings.scheme.dynamic);
-        let controller = controller.map(|_| Controller::new(settings.step_size));
-        let kinks = if controller.is_some() { system.kinks() } else { Vec::new() };
+        let is_chosen = settings.control.is_some();
+        let controller = (is_chosen && settings.scheme.dynamic).then(|| Controller::new(settings.step_size));
+        let load_control =
+            (is_chosen && !settings.scheme.dynamic).then(|| LoadControl::new(settings.step_size));
+        let kinks = if is_chosen { system.kinks() } else { Vec::new() };
         let watch = if settings.scheme.dynamic {
             Watch::new(&system, &state, controller.is_some())
         } else {
@@ -259,6 +264,7 @@ impl Simulation {
             parts: Parts::whole(),
             kinks,
             controller,
+            load_control,
             farthest: 0.0,
             totals: Totals { smallest_relative_pivot: f64::INFINITY, ..Totals::default() },
             velocity_correction,
@@ -267,6 +273,7 @@ impl Simulation {
             warnings,
             singular,
             stable_at: None,
+            stability: Vec::new(),
             watch,
             is_last_step_known: false,
         })
@@ -295,6 +302,12 @@ impl Simulation {
     /// Reasons to doubt the motion up to the state, each kind once.
     pub fn warnings(&self) -> &[Warning] {
         &self.warnings
+    }
+
+    /// Stability of the equilibria of load steps: from which load parameter on [s] they are unstable in how many
+    /// directions; none where that cannot be told.
+    pub fn stability(&self) -> &[(f64, Option<usize>)] {
+        &self.stability
     }
 
     /// Sums over all steps.
@@ -496,24 +509,6 @@ impl Simulation {
             memory.renew(self.scaled.step_size());
         }
         self.note_singular_positions();
-    }
-
-    /// Takes note of whether the step that was accepted has come through a singular position.
-    fn note_singular_positions(&mut self) {
-        if self.singular.is_empty() {
-            return;
-        }
-        let (before, at) = (&self.previous.kinematics, &self.state.kinematics);
-        let length = self.representative.length;
-        // Load steps have no velocities; each is looked at.
-        let way = if self.settings.scheme.dynamic && length > 0.0 {
-            self.representative.largest_speed(&self.system, at) / length * (at.time - before.time)
-        } else {
-            f64::INFINITY
-        };
-        if let Some(warning) = self.singular.look(&self.system, at, way) {
-            warn(&mut self.warnings, warning);
-        }
     }
 
     /// Counts a step that was completed.

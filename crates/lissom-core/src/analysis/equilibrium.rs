@@ -3,11 +3,50 @@
 
 use std::sync::Arc;
 
+use lissom_solver::SolverKind;
+
 use super::dynamics::{Settings, Simulation};
 use super::initial::InitialError;
 use crate::judge::Warning;
+use crate::linear::LinearModel;
 use crate::schemes::statics;
 use crate::system::{State, System};
+
+/// A state whose unbalanced forces would move it by less than this part of the model's length is held by its constraints.
+const HELD: f64 = 1e-9;
+
+/// Gives the start of load steps the multipliers that hold it, where loads act at once and constraints alone bear them: it is an
+/// equilibrium then, whose reactions are told and whose work begins with them.
+pub(crate) fn hold_start(system: &System, state: &mut State, solver: &SolverKind) {
+    let mut still = state.clone();
+    for node in &mut still.kinematics.nodes {
+        node.twist.fill(0.0);
+    }
+    if let Ok(model) = LinearModel::of(system, &still, solver)
+        && model.imbalance() <= HELD
+        && model.multipliers().iter().all(|value| value.is_finite())
+    {
+        state.multipliers.copy_from_slice(model.multipliers());
+    }
+}
+
+/// Moves a motion's start into equilibrium, where that is asked for.
+///
+/// # Errors
+/// As [`at_rest`].
+pub(crate) fn start_at_rest(
+    system: Arc<System>,
+    state: State,
+    settings: &Settings,
+    warnings: &mut Vec<Warning>,
+) -> Result<(Arc<System>, State), InitialError> {
+    if !(settings.from_equilibrium && settings.scheme.dynamic) {
+        return Ok((system, state));
+    }
+    let (system, state, doubt) = at_rest(system, state, settings)?;
+    warnings.extend(doubt);
+    Ok((system, state))
+}
 
 /// Moves the places of `state` into equilibrium, in one load step. Tells if it is unstable.
 ///
@@ -25,8 +64,13 @@ pub fn at_rest(
     for node in &mut moved.kinematics.nodes {
         node.twist.fill(0.0);
     }
-    let settings =
-        Settings { scheme: statics::statics(), step_size, from_equilibrium: false, ..settings.clone() };
+    let settings = Settings {
+        scheme: statics::statics(),
+        step_size,
+        control: None,
+        from_equilibrium: false,
+        ..settings.clone()
+    };
     let mut simulation = Simulation::new(system, moved, settings)?;
     simulation.step().map_err(|error| InitialError::NoEquilibrium(Box::new(error)))?;
     let doubt =

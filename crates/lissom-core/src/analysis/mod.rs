@@ -19,6 +19,7 @@ pub mod phase;
 mod projection;
 mod secants;
 mod sensitivity;
+mod singular_positions;
 pub(crate) mod snapshot_parts;
 mod stability;
 mod step_error;

@@ -22,7 +22,11 @@ impl Simulation {
             return;
         }
         let time = self.state.kinematics.time;
-        match self.unstable_directions() {
+        let directions = self.unstable_directions();
+        if self.stability.last().is_none_or(|(_, known)| *known != directions) {
+            self.stability.push((time, directions));
+        }
+        match directions {
             Some(0) => self.stable_at = Some(time),
             Some(directions) => {
                 let onset = self.stable_at;

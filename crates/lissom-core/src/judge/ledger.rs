@@ -177,7 +177,9 @@ impl Ledger {
     /// nothing but what the trapezoidal rule misses.
     pub(crate) fn missing_work(&self, before: &Self) -> f64 {
         let stored = self.energy.strain - before.energy.strain;
-        let done = self.loads + self.drives - before.loads - before.drives;
-        (stored - done).abs() / (stored.abs() + done.abs() + self.least_known())
+        let (loads, drives) = (self.loads - before.loads, self.drives - before.drives);
+        // What drives lift against a load is done by one and undone by the other.
+        let turned_over = stored.abs() + loads.abs() + drives.abs();
+        (stored - loads - drives).abs() / (turned_over + self.least_known())
     }
 }

@@ -9,7 +9,8 @@ use super::mode::Mode;
 use super::model::LinearModel;
 use super::shapes::part_of;
 use crate::joints::Quantity;
-use crate::system::{CoordinateId, Kinematics, LOCKED, NodeId};
+
+use crate::system::{Kinematics, LOCKED, NodeId, Owner};
 
 /// Largest displacement over the model's length, and rotation, at which energies are taken: errors are of its square.
 const SMALL: f64 = 1e-4;
@@ -23,7 +24,7 @@ impl LinearModel<'_> {
     /// ground, or to the joint on whose coordinate it acts. Sums up to 1; parts under pressure may have shares below 0. Empty
     /// for a mode without strain.
     pub fn strain_shares(&self, mode: &Mode) -> BTreeMap<String, f64> {
-        let mut shares = BTreeMap::new();
+        let (mut shares, mut energies) = (BTreeMap::new(), Vec::new());
         for take in [(|value: &Complex64| value.re) as fn(&Complex64) -> f64, |value| value.im] {
             let rows: Vec<f64> = mode.shape.iter().map(take).collect();
             let largest = self.largest(&rows);
@@ -33,13 +34,10 @@ impl LinearModel<'_> {
             let step = SMALL / largest;
             for (sense, weight) in [(1.0, 1.0), (-1.0, 1.0), (0.0, -2.0)] {
                 let at = self.displaced(&rows, sense * step);
-                for batch in &self.system.batches {
-                    batch.energies(&at, &mut |nodes, coordinates, energy| {
-                        let share = weight * energy.strain / (step * step);
-                        if share != 0.0 {
-                            *shares.entry(self.owner(nodes, coordinates)).or_insert(0.0) += share;
-                        }
-                    });
+                energies.clear();
+                self.system.batches.iter().for_each(|batch| batch.strain_energies(&at, &mut energies));
+                for (owner, energy) in energies.iter().filter(|(_, energy)| *energy != 0.0) {
+                    *shares.entry(self.name_of(owner)).or_insert(0.0) += weight * energy / (step * step);
                 }
             }
         }
@@ -151,12 +149,12 @@ impl LinearModel<'_> {
     }
 
     /// The part or joint that an element belongs to.
-    fn owner(&self, nodes: &[NodeId], coordinates: &[CoordinateId]) -> String {
+    fn name_of(&self, owner: &Owner) -> String {
         let layout = self.system.layout();
-        if let Some(&node) = nodes.iter().find(|&&node| node != crate::system::GROUND) {
+        if let Some(node) = owner.node {
             return part_of(layout.node_name(node)).to_owned();
         }
-        let name = coordinates.first().map_or("ground", |&own| layout.coordinate_name(own));
+        let name = owner.coordinate.map_or("ground", |own| layout.coordinate_name(own));
         name.rsplit_once('.').map_or(name, |(joint, _)| joint).to_owned()
     }
 }

@@ -27,6 +27,11 @@ impl ArcControl {
         Self { size, longest: size }
     }
 
+    /// Goes on with another step, on another path.
+    pub(crate) fn restart(&mut self, size: f64) {
+        self.size = size;
+    }
+
     /// The next step; `turn` is the largest displacement or rotation on a unit of the path.
     pub(crate) fn propose(&self, turn: f64) -> f64 {
         self.size.min(LARGEST_TURN / turn)

@@ -10,6 +10,7 @@ mod dense;
 mod error_estimate;
 mod events;
 mod impacts;
+mod load_steps;
 mod method_memory;
 mod parts;
 mod resolution;
@@ -21,6 +22,7 @@ pub(crate) use arc::ArcControl;
 pub(crate) use controller::Controller;
 pub use controller::StepControl;
 pub(crate) use impacts::Impacts;
+pub(crate) use load_steps::LoadControl;
 pub(crate) use method_memory::MethodMemory;
 pub(crate) use parts::Parts;
 pub(crate) use resolution::Resolution;
@@ -34,6 +36,7 @@ use crate::newton::{Memory, Outcome};
 use crate::scaling::ScaleBy;
 use crate::system::State;
 use error_estimate::{SMALLEST_ERROR, SMALLEST_REFERENCE, excursion, inertial_part};
+use load_steps::Attempts;
 
 /// Attempts at a step that are given up before the step is.
 const MOST_REJECTED: usize = 60;
@@ -74,6 +77,7 @@ impl Simulation {
         let before = self.work.effort;
         let mut report = StepReport::default();
         let result = match self.controller {
+            None if self.load_control.is_some() => self.chosen_load_step(limit, watch, &mut report),
             Some(controller) => {
                 let limit = self.next_sample().map_or(limit, |sample| sample.min(limit));
                 self.controlled_step(controller, limit, watch, &mut report).and_then(|()| self.take_samples())
@@ -154,6 +158,63 @@ impl Simulation {
                 }
             }
         }
+    }
+
+    /// Takes a load step that is as long as contraction and unexplained work allow.
+    fn chosen_load_step(
+        &mut self,
+        limit: f64,
+        watch: &mut dyn Stopwatch,
+        report: &mut StepReport,
+    ) -> Result<(), StepError> {
+        let (Some(control), Some(mut choice)) = (self.settings.control, self.load_control) else {
+            unreachable!("load steps of chosen size have their settings")
+        };
+        let now = self.state.kinematics.time + self.state.time_remainder;
+        // A step across a kink of a load would not see what the load does between.
+        let near = NEAR * control.max_step;
+        let ahead = |kink: &&f64| **kink > now + near && **kink < limit - near;
+        let limit = self.kinks.iter().find(ahead).map_or(limit, |kink| kink.next_down());
+        let rest = limit - now;
+        let mut attempts = Attempts::default();
+        let mut first_error = None;
+        loop {
+            let size = choice.propose(rest, control.max_step);
+            let error = match self.attempt(size, watch) {
+                Ok(outcome) => {
+                    let missing = self.next_ledger.missing_work(&self.ledger);
+                    if !choice.refuses(size, missing, control.relative_tolerance, &mut attempts) {
+                        choice.accept(size, outcome.iterations, missing, control.relative_tolerance);
+                        note(report, &outcome);
+                        break;
+                    }
+                    None
+                }
+                Err(error) => Some(error),
+            };
+            report.rejected += 1;
+            if watch.is_cancelled() {
+                return Err(StepError::Interrupted { time: self.state.kinematics.time });
+            }
+            let Some(error) = error else { continue };
+            attempts = Attempts::default();
+            let may_help = error.may_need_a_smaller_step() && report.rejected < MOST_REJECTED;
+            // The first failure tells more than those of shorter steps.
+            let first = first_error.get_or_insert(error);
+            if !(may_help && choice.halve(size)) {
+                return Err(first.clone());
+            }
+        }
+        report.parts = 1;
+        let is_last = self.scaled.step_size() == rest;
+        self.load_control = Some(choice);
+        self.accept_step();
+        if is_last {
+            (self.state.kinematics.time, self.state.time_remainder) = (limit, 0.0);
+        }
+        self.is_last_step_known = true;
+        self.note_stability();
+        Ok(())
     }
 
     /// Takes a step whose size follows from the estimated error.

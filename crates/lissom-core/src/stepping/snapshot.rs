@@ -9,7 +9,7 @@ use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
 use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
-use super::{Controller, Impacts, MethodMemory, Parts, Resolution, Watched};
+use super::{Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, Watched};
 use crate::analysis::snapshot_parts::{Learned, TangentNumbers};
 use crate::analysis::{Settings, Simulation, Totals};
 use crate::judge::singular::Known;
@@ -19,7 +19,7 @@ use crate::scaling::Scaled;
 use crate::system::{CoordinateMotion, Kinematics, NodeMotion, State};
 
 /// Changes whenever what a snapshot holds does.
-const VERSION: u32 = 6;
+const VERSION: u32 = 7;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -35,6 +35,8 @@ pub struct Snapshot {
     method_memory: Option<(f64, bool, Vec<f64>, Vec<f64>)>,
     parts: Parts,
     controller: Option<Controller>,
+    load_control: Option<LoadControl>,
+    stability: Vec<(f64, Option<usize>)>,
     farthest: f64,
     totals: Totals,
     velocity_correction: f64,
@@ -166,6 +168,8 @@ impl Simulation {
             method_memory: self.method_memory.as_ref().map(MethodMemory::to_numbers),
             parts: self.parts,
             controller: self.controller,
+            load_control: self.load_control,
+            stability: self.stability.clone(),
             farthest: self.farthest,
             totals: self.totals,
             velocity_correction: self.velocity_correction,
@@ -205,6 +209,8 @@ impl Simulation {
         }
         self.parts = from.parts;
         self.controller = from.controller;
+        self.load_control = from.load_control;
+        self.stability.clone_from(&from.stability);
         self.farthest = from.farthest;
         self.totals = from.totals;
         self.velocity_correction = from.velocity_correction;

@@ -6,6 +6,7 @@ use std::ops::Range;
 use lissom_motion::{Block, Matrix6, Vector3, WIDTH, lie_bracket_matrix};
 use lissom_solver::Pattern;
 
+use super::GROUND;
 use super::layout::{LOCKED, Layout};
 use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
@@ -53,8 +54,8 @@ pub(crate) trait AnyBatch: Send + Sync {
     );
     fn passage_forces(&self, passage: &Passage<'_>, out: &mut [Vec<f64>]);
     fn energy(&self, at: &Kinematics) -> Energy;
-    /// Tells the energy of every item, with its nodes and coordinates.
-    fn energies(&self, at: &Kinematics, told: &mut dyn FnMut(&[NodeId], &[CoordinateId], Energy));
+    /// Appends the strain energy of every item [J], with whom it belongs to.
+    fn strain_energies(&self, at: &Kinematics, out: &mut Vec<(Owner, f64)>);
     /// Work of loads between two configurations [J].
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64;
     /// Elongation, rate and force of an item that is like a spring.
@@ -72,6 +73,13 @@ pub(crate) trait AnyBatch: Send + Sync {
     /// The two nodes of an element that are turned most against each other, and the cosine of half that angle.
     fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])>;
     fn as_any_mut(&mut self) -> &mut dyn Any;
+}
+
+/// Whom an element belongs to: its first node that is not the ground, or its first coordinate.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Owner {
+    pub(crate) node: Option<NodeId>,
+    pub(crate) coordinate: Option<CoordinateId>,
 }
 
 /// Which unknowns derivatives are taken with respect to.
@@ -250,10 +258,14 @@ impl<E: Element> AnyBatch for Batch<E> {
         sum
     }
 
-    fn energies(&self, at: &Kinematics, told: &mut dyn FnMut(&[NodeId], &[CoordinateId], Energy)) {
-        for item in &self.items {
-            told(item.nodes(), item.coordinates(), item.energy(at));
-        }
+    fn strain_energies(&self, at: &Kinematics, out: &mut Vec<(Owner, f64)>) {
+        out.extend(self.items.iter().map(|item| {
+            let owner = Owner {
+                node: item.nodes().iter().copied().find(|&node| node != GROUND),
+                coordinate: item.coordinates().first().copied(),
+            };
+            (owner, item.energy(at).strain)
+        }));
     }
 
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use lissom_solver::Pattern;
 
 use super::System;
-use super::batch::{AnyBatch, Chart, scatter, through, work};
+use super::batch::{AnyBatch, Chart, Owner, scatter, through, work};
 use super::layout::Layout;
 use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
@@ -332,7 +332,7 @@ impl AnyBatch for Arc<Feedback> {
         Energy::default()
     }
 
-    fn energies(&self, _: &Kinematics, _: &mut dyn FnMut(&[NodeId], &[CoordinateId], Energy)) {}
+    fn strain_energies(&self, _: &Kinematics, _: &mut Vec<(Owner, f64)>) {}
 
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
         let size = |driven: &Driven, at: &Kinematics| self.graph.evaluate(at, |values| values[driven.signal]);

@@ -16,6 +16,7 @@ use std::sync::Arc;
 
 pub use assembly::{Augmentation, Linearization, Point, Scratch};
 pub use batch::Chart;
+pub(crate) use batch::Owner;
 pub use builder::{BuildError, Builder, PlaceOnTip, Placement};
 pub use layout::{Freedoms, LOCKED, Layout};
 pub use passage::Course;

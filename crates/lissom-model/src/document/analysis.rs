@@ -23,8 +23,10 @@ pub enum AnalysisKind {
     },
     /// Equilibrium under loads that grow with the time.
     Statics {
-        /// Number of load steps.
-        steps: usize,
+        /// Number of load steps; none where they are chosen.
+        steps: Option<usize>,
+        /// Part of its work that a load step of chosen size may leave unexplained.
+        relative_tolerance: f64,
     },
     /// Equilibria under loads times a load factor.
     Path {
@@ -34,6 +36,8 @@ pub enum AnalysisKind {
         end: f64,
         /// Most steps.
         most_steps: usize,
+        /// The bifurcation at which it goes over to the branch, counted from 1, negative for the other sense; 0 for none.
+        branch: i32,
     },
     /// Load factors of buckling, by a linear estimate.
     Buckling {
@@ -72,6 +76,9 @@ pub const DEFAULT_BUCKLING_COUNT: usize = 5;
 /// First step of a path as part of its end, and most steps, where they are not given.
 const FIRST_OF_PATH: f64 = 0.02;
 const MOST_STEPS_OF_PATH: usize = 1000;
+
+/// Part of its work that a load step of chosen size may leave unexplained where nothing says otherwise.
+const TOLERANCE_OF_WORK: f64 = 0.01;
 
 /// How steps are chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -181,7 +188,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
     } else if word == "path" {
         path(&reader)
     } else {
-        Some(AnalysisKind::Statics { steps: reader.count("steps").map_or(10, |steps| steps.value) })
+        load_steps(&reader)
     };
     let scaling = reader.choice("scaling").map_or(Scaling::Physical, |word| match word.value {
         "unit" => Scaling::Unit,
@@ -246,7 +253,36 @@ fn path(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
     let first =
         if reader.has("step") { reader.number("step")?.value } else { FIRST_OF_PATH * end.value.abs() };
     let most_steps = reader.count("steps").map_or(MOST_STEPS_OF_PATH, |steps| steps.value);
-    Some(AnalysisKind::Path { first, end: end.value, most_steps })
+    let branch = match reader.node("branch") {
+        None => 0.0,
+        Some(_) => reader.number("branch")?.value,
+    };
+    if branch.fract() != 0.0 {
+        return reader.context.fail(
+            reader.node("branch")?.span,
+            format!("`branch` must be a whole number, not {branch}"),
+            "1 is the first bifurcation of the path, -1 its branch in the other sense, 0 stays on the path",
+        );
+    }
+    Some(AnalysisKind::Path { first, end: end.value, most_steps, branch: branch as i32 })
+}
+
+/// Load steps of one size, or chosen.
+fn load_steps(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
+    let steps = reader.node("steps").map_or(Some(None), |_| reader.count("steps").map(Some))?;
+    let tolerance = reader.node("relative_tolerance");
+    if let (Some(node), Some(_)) = (tolerance, steps) {
+        return reader.context.fail(
+            node.span,
+            "this is for load steps that are chosen, but `steps` gives their number".to_owned(),
+            "leave out one of them",
+        );
+    }
+    let relative_tolerance = match tolerance {
+        None => TOLERANCE_OF_WORK,
+        Some(_) => reader.number("relative_tolerance")?.value,
+    };
+    Some(AnalysisKind::Statics { steps: steps.map(|steps| steps.value), relative_tolerance })
 }
 
 fn modes(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {

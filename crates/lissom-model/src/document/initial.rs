@@ -56,9 +56,17 @@ fn motion(reader: &Reader<'_, '_>) -> Option<InitialMotion> {
         None => Vector3::zeros(),
         Some(node) => reader.context.place(node, &reader.words("about"))?.value,
     };
-    let equilibrium = reader.has("equilibrium") && reader.flag("equilibrium").is_some_and(|flag| flag.value);
+    let flag = |key: &str| reader.has(key) && reader.flag(key).is_some_and(|flag| flag.value);
+    let (equilibrium, steady_rotation) = (flag("equilibrium"), flag("steady_rotation"));
+    if equilibrium && steady_rotation {
+        return reader.context.fail(
+            reader.node("steady_rotation")?.span,
+            "a start is in equilibrium at rest or in steady rotation, not both".to_owned(),
+            "leave out one of them",
+        );
+    }
     let (velocity, angular_velocity) = (vector("velocity")?, vector("angular_velocity")?);
-    Some(InitialMotion { velocity, angular_velocity, about, equilibrium })
+    Some(InitialMotion { velocity, angular_velocity, about, equilibrium, steady_rotation })
 }
 
 /// The names of bodies, point masses and beams that the list under `key` means, each with its place.

@@ -131,6 +131,11 @@ impl Document {
         self.initial.is_some_and(|initial| initial.equilibrium)
     }
 
+    /// Whether places at the start are those of a steady rotation.
+    pub fn starts_in_steady_rotation(&self) -> bool {
+        self.initial.is_some_and(|initial| initial.steady_rotation)
+    }
+
     /// The section called `name`.
     pub fn section(&self, name: &str) -> Option<&Section> {
         self.sections.iter().find(|section| section.name.value == name)
@@ -389,4 +394,6 @@ pub struct InitialMotion {
     pub about: Vector3,
     /// Whether the places at the start are those of static equilibrium.
     pub equilibrium: bool,
+    /// Whether the places at the start are those of a steady rotation with the velocities given.
+    pub steady_rotation: bool,
 }

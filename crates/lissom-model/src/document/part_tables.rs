@@ -48,7 +48,7 @@ pub(crate) fn part_motion() -> Vec<Key> {
         "",
         "bodies, point masses, beams and entries of [parts] that move in this way",
     )];
-    keys.extend(initial().into_iter().filter(|key| key.name != "equilibrium"));
+    keys.extend(initial().into_iter().filter(|key| !matches!(key.name, "equilibrium" | "steady_rotation")));
     keys
 }
 
@@ -63,6 +63,12 @@ pub(crate) fn initial() -> Vec<Key> {
             Shape::Flag,
             "",
             "start from static equilibrium under the loads of the first instant, default false",
+        ),
+        optional(
+            "steady_rotation",
+            Shape::Flag,
+            "",
+            "start from the places at which the model keeps turning with its velocities, default false",
         ),
     ]
 }

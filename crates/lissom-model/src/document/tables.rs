@@ -522,21 +522,36 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
             dynamics.push(key);
         }
     }
-    let mut statics = common();
+    let mut variants = vec![
+        Variant { word: "dynamics", summary: "Motion in time.", keys: dynamics },
+        Variant { word: "statics", summary: "Equilibrium in load steps.", keys: load_steps(common()) },
+    ];
+    variants.extend(analyses_without_records(common()));
+    variants
+}
+
+/// Keys of load steps, with those that all runs have.
+fn load_steps(mut statics: Vec<Key>) -> Vec<Key> {
     statics.push(optional("end", Shape::Number, "s", "last time, default 1"));
-    statics.push(optional("steps", Shape::Count(1, 1_000_000), "", "load steps, default 10"));
+    statics.push(optional(
+        "steps",
+        Shape::Count(1, 1_000_000),
+        "",
+        "number of load steps; without it they are chosen by contraction and error",
+    ));
+    statics.push(optional(
+        "relative_tolerance",
+        Shape::Positive,
+        "",
+        "part of its work that a load step of chosen size may leave unexplained, default 0.01",
+    ));
     statics.push(optional(
         "ramp",
         Shape::Flag,
         "",
         "whether gravity and loads that are constant grow from nothing over the load steps, default true",
     ));
-    let mut variants = vec![
-        Variant { word: "dynamics", summary: "Motion in time.", keys: dynamics },
-        Variant { word: "statics", summary: "Equilibrium in load steps.", keys: statics },
-    ];
-    variants.extend(analyses_without_records(common()));
-    variants
+    statics
 }
 
 /// Analyses that record nothing over time.
@@ -547,6 +562,7 @@ fn analyses_without_records(mut common: Vec<Key>) -> Vec<Variant> {
         optional("end", Shape::Number, "", "load factor at which the path ends, default 1"),
         optional("step", Shape::Positive, "", "first step of the load factor, default a fiftieth of `end`"),
         optional("steps", Shape::Count(1, 1_000_000), "", "most steps, default 1000"),
+        optional("branch", Shape::Between(-1000.0, 1000.0), "", "bifurcation at which the path goes over to its branch, counted from 1; negative for the other sense of the branch; default 0, none"),
     ]);
     let mut buckling = common.clone();
     buckling.push(optional("count", Shape::Count(1, 10_000), "", "number of load factors, default 5"));

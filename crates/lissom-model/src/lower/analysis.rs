@@ -29,6 +29,10 @@ pub struct Plan {
     pub output_step: Option<f64>,
 }
 
+/// First and longest load step of chosen size, as parts of the whole range.
+const FIRST_LOAD_STEP: f64 = 0.1;
+const LONGEST_LOAD_STEP: f64 = 0.25;
+
 /// Settings and plan of an analysis.
 pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(Settings, Plan), Problem> {
     let duration = analysis.end - analysis.start;
@@ -37,7 +41,14 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
             let steps = (duration / step.value - 1e-6).ceil().max(1.0);
             (scheme(analysis)?, step.value, steps as usize, *control)
         }
-        AnalysisKind::Statics { steps } => (statics::statics(), duration / *steps as f64, *steps, None),
+        AnalysisKind::Statics { steps: Some(steps), .. } => {
+            (statics::statics(), duration / *steps as f64, *steps, None)
+        }
+        AnalysisKind::Statics { steps: None, relative_tolerance } => {
+            let max_step = LONGEST_LOAD_STEP * duration;
+            let choice = StepChoice { relative_tolerance: *relative_tolerance, max_step, output_step: None };
+            (statics::statics(), FIRST_LOAD_STEP * duration, 1, Some(choice))
+        }
         AnalysisKind::Modes { .. } | AnalysisKind::Path { .. } | AnalysisKind::Buckling { .. } => {
             (statics::statics(), duration, 1, None)
         }

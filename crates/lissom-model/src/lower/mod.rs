@@ -162,6 +162,12 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
         }
     }
     parts::velocities(document, &names, &system, &mut state.kinematics);
+    if document.starts_in_steady_rotation() {
+        match beginning::steady_rotation(document, &system, &state, &settings) {
+            Ok(turning) => state = turning,
+            Err(problem) => return Err(document.report(vec![problem])),
+        }
+    }
     let mut warnings = beginning::drives(document, &system, &state, &mut problems);
     couplings::check(document, &system, &state, &mut problems);
     let channels = output_channels::of(document, &system, (&drawn, &state), &names.resolver(), &mut problems);

@@ -46,7 +46,9 @@ fn steps(document: &Document, problems: &mut Vec<Problem>) {
     let duration = analysis.end - analysis.start;
     let (steps, span) = match &analysis.kind {
         AnalysisKind::Dynamics { step, control: None } => (duration / step.value, step.span),
-        AnalysisKind::Statics { steps } => (*steps as f64, analysis.span),
+        AnalysisKind::Statics { steps: Some(steps), .. } => (*steps as f64, analysis.span),
+        // Steps of chosen size are few.
+        AnalysisKind::Statics { steps: None, .. } => (1.0, analysis.span),
         _ => return,
     };
     let rows = steps / analysis.output_every as f64;

@@ -195,6 +195,12 @@ fn analysis(document: &Document, lowered: &Lowered) -> String {
     }
     let (plan, settings) = (&lowered.plan, &lowered.settings);
     let kind = if plan.is_static { "load steps" } else { "steps" };
+    if let (Some(control), true) = (&settings.control, plan.is_static) {
+        return format!(
+            "{} … {} s in load steps that leave at most {} of their work unexplained, solver {}",
+            plan.start, plan.end, control.relative_tolerance, settings.solver.name
+        );
+    }
     if let Some(control) = &settings.control {
         return format!(
             "{} … {} s in steps chosen for a relative error of {}, {}, solver {}",

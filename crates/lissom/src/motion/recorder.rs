@@ -88,7 +88,9 @@ impl<W: Write + Send> MotionRecorder<W> {
     pub fn write_frames(&mut self, frames: &[Kinematics]) -> io::Result<()> {
         let head = self.header.to_bytes(&self.reference);
         self.buffer.extend_from_slice(&head);
-        frames.iter().for_each(|at| self.frame(at));
+        for at in frames {
+            self.frame(at);
+        }
         self.flush()
     }
 

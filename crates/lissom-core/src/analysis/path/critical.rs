@@ -15,6 +15,11 @@ const NARROW: f64 = 1e-10;
 /// A search ends when the rate is this part of what it is at the ends of the step.
 const FLAT: f64 = 1e-11;
 
+/// Trials in a row that may fail.
+const MOST_FAILURES: usize = 2;
+/// Over this part of the step the signature is straight: the square of it is what its zero errs by.
+const STRAIGHT: f64 = 1e-4;
+
 /// A critical point is known well where its rate or its place is known to this part of the step.
 const LOCATED: f64 = 1e-6;
 
@@ -60,6 +65,22 @@ struct Trial {
     rate: f64,
     unstable: usize,
     signature: f64,
+}
+
+/// A point between two, the load factor by the cubic that has the rates of both.
+fn between(low: Trial, high: Trial, part: f64) -> Trial {
+    let width = high.distance - low.distance;
+    let change = high.load_factor - low.load_factor;
+    let bend = [width * low.rate - change, change - width * high.rate];
+    let load_factor =
+        low.load_factor + part * change + part * (1.0 - part) * ((1.0 - part) * bend[0] + part * bend[1]);
+    Trial {
+        distance: low.distance + part * width,
+        load_factor,
+        rate: low.rate + part * (high.rate - low.rate),
+        unstable: low.unstable,
+        signature: 0.0,
+    }
 }
 
 impl EquilibriumPath {
@@ -166,6 +187,7 @@ impl EquilibriumPath {
         iterations: &mut usize,
     ) -> (Trial, bool) {
         let (mut low, mut high) = (first, last);
+        let mut failures = 0;
         for trial in 0..MOST_TRIALS {
             let width = high.distance - low.distance;
             if width <= NARROW * last.distance {
@@ -177,12 +199,31 @@ impl EquilibriumPath {
                 part = 0.5;
             }
             let part = part.clamp(1e-3, 1.0 - 1e-3);
-            let Ok(next) = self.trial(start, low.distance + part * width, iterations) else { break };
+            // At the bifurcation itself the stiffness has no factors: beside it, on one side and then the other.
+            let part = match failures {
+                0 => part,
+                1 => 0.5 * part,
+                _ => 0.5 * (1.0 + part),
+            };
+            let Ok(next) = self.trial(start, low.distance + part * width, iterations) else {
+                failures += 1;
+                if failures > MOST_FAILURES {
+                    break;
+                }
+                continue;
+            };
+            failures = 0;
             if next.unstable == first.unstable { low = next } else { high = next }
         }
-        let known = high.distance - low.distance <= LOCATED * last.distance
+        let width = high.distance - low.distance;
+        let known = width <= LOCATED * last.distance
             || low.signature.abs().min(high.signature.abs())
                 <= LOCATED * first.signature.abs().max(last.signature.abs());
+        // The signature is proportional to the eigenvalue that vanishes, and straight on so short a way.
+        if low.signature * high.signature < 0.0 && width > 0.0 {
+            let part = low.signature / (low.signature - high.signature);
+            return (between(low, high, part), known || width <= STRAIGHT * last.distance);
+        }
         (if low.signature.abs() < high.signature.abs() { low } else { high }, known)
     }
 }

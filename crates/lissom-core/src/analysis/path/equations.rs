@@ -20,6 +20,8 @@ use crate::system::{
 
 /// Corrections larger than this are cut short [-, rad].
 const LARGEST_CORRECTION: f64 = 0.5;
+/// Iterations for the softest direction: at a bifurcation that is known to 1e-10 the first one finds it.
+const INVERSE_ITERATIONS: usize = 4;
 /// Iterates whose last correction is larger are far from equilibrium, and their stresses no guide [-].
 const FAR: f64 = 1e-3;
 
@@ -30,6 +32,8 @@ pub(super) enum Condition {
     Arc(f64),
     /// The load factor itself.
     Load(f64),
+    /// The part of the way from the start of the step that lies along its tangent.
+    Along(f64),
 }
 
 /// Displacements and multipliers in units of the scaled equations, by row, and the load factor.
@@ -127,6 +131,18 @@ impl PathWork {
         self.inner(&self.total, &self.total).sqrt()
     }
 
+    /// All changes since the start of the last solution, by row.
+    pub(super) fn total(&self) -> &[f64] {
+        &self.total
+    }
+
+    /// The sign of the displacement or rotation that is largest in scaled size.
+    pub(super) fn sense_of_largest(&self, values: &[f64]) -> f64 {
+        let scaled = self.sizes.iter().zip(values).map(|(size, value)| size * value);
+        let largest = scaled.fold(0.0_f64, |most, value| if value.abs() > most.abs() { value } else { most });
+        largest.signum()
+    }
+
     /// Whether the load moves nothing.
     pub(super) fn load_is_zero(&self) -> bool {
         self.response.iter().all(|&value| value == 0.0)
@@ -167,7 +183,7 @@ impl PathEquations<'_> {
         work.correction = 0.0;
         let Some(tangent) = self.tangent else { return };
         let length = match self.condition {
-            Condition::Arc(length) => length,
+            Condition::Arc(length) | Condition::Along(length) => length,
             Condition::Load(load) => (load - self.start_factor) / tangent.load_rate,
         };
         let guess = Change {
@@ -338,6 +354,24 @@ impl PathEquations<'_> {
         Ok(Solution { state, load_factor: self.work.load_factor, tangent, iterations })
     }
 
+    /// The direction of length 1 in which the stiffness factored last is softest, by inverse iteration.
+    pub(super) fn softest_direction(&mut self) -> Vec<f64> {
+        let count = self.systems[1].layout().coordinate_count();
+        let mut direction = vec![0.0; count + self.work.multipliers.len()];
+        for ((value, probe), size) in direction.iter_mut().zip(&self.work.probe).zip(&self.work.sizes) {
+            *value = probe * size;
+        }
+        for _ in 0..INVERSE_ITERATIONS {
+            direction[count..].fill(0.0);
+            self.solve(&mut direction);
+            let norm = self.work.inner(&direction, &direction).sqrt();
+            for value in &mut direction {
+                *value /= norm;
+            }
+        }
+        direction
+    }
+
     /// A failure with names.
     pub(super) fn describe(&self, failure: &Failure) -> StepError {
         let layout = self.systems[1].layout();
@@ -389,6 +423,11 @@ impl Equations for PathEquations<'_> {
             Condition::Arc(length) => {
                 let excess = 0.5 * (work.inner(&work.total, &work.total) - length * length);
                 -(excess + work.inner(&work.total, &rows)) / work.inner(&work.total, &work.response)
+            }
+            Condition::Along(length) => {
+                let direction = self.tangent.map_or(&[][..], |tangent| &tangent.direction);
+                let way = work.inner(direction, &work.total) + work.inner(direction, &rows);
+                (length - way) / work.inner(direction, &work.response)
             }
         };
         for (value, response) in rows.iter_mut().zip(&work.response) {

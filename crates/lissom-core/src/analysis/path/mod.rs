@@ -5,6 +5,7 @@
 //! whole one: no load knows of the factor. Distances along the path are root mean squares of rotations and of displacements over
 //! the model's length; multipliers have no part in them.
 
+mod branch;
 mod critical;
 mod equations;
 
@@ -17,6 +18,8 @@ use crate::newton::{self, Limits, Memory};
 use crate::scaling::ScalingChoice;
 use crate::stepping::ArcControl;
 use crate::system::{Kinematics, State, System};
+pub use branch::BranchChoice;
+use branch::Departure;
 pub use critical::{CriticalKind, CriticalPoint};
 use equations::{Condition, PathEquations, PathWork};
 
@@ -35,6 +38,8 @@ pub struct PathSettings {
     pub end: f64,
     /// Most steps.
     pub most_steps: usize,
+    /// Which branch is followed.
+    pub branch: BranchChoice,
     /// Scaling and augmented term.
     pub scaling: ScalingChoice,
     /// When Newton's iterations stop.
@@ -74,6 +79,29 @@ pub enum PathError {
         arc: f64,
         /// Why the last attempt failed.
         error: StepError,
+    },
+    /// There are fewer bifurcations than that at which the path was to be left.
+    #[error(
+        "after {steps} steps the load factor is {load_factor:.6e}, and the path has met {met} bifurcation(s), not the {wanted} \
+         that `branch` asks for: give more `steps`, a smaller first `step`, or another `branch`"
+    )]
+    NoBifurcation {
+        /// Steps taken.
+        steps: usize,
+        /// Load factor reached.
+        load_factor: f64,
+        /// Bifurcations met.
+        met: usize,
+        /// The one wanted.
+        wanted: usize,
+    },
+    /// No other path was found at a bifurcation.
+    #[error("no branch is found at the bifurcation at load factor {load_factor:.6e}: {reason}")]
+    NoBranchThere {
+        /// Load factor of the bifurcation.
+        load_factor: f64,
+        /// What the attempts came to.
+        reason: String,
     },
     /// The number of steps is used up.
     #[error(
@@ -127,6 +155,10 @@ pub struct EquilibriumPath {
     control: ArcControl,
     work: PathWork,
     steps: usize,
+    /// Bifurcations met.
+    bifurcations: usize,
+    /// The bifurcation at which it stands, where it is to be left there.
+    departure: Option<Departure>,
     is_finished: bool,
 }
 
@@ -178,6 +210,8 @@ impl EquilibriumPath {
             control: ArcControl::new(1.0),
             work,
             steps: 0,
+            bifurcations: 0,
+            departure: None,
             is_finished: false,
         };
         let start = path.state.clone();
@@ -246,7 +280,15 @@ impl EquilibriumPath {
         }
         if self.steps >= self.settings.most_steps {
             let (steps, load_factor, end) = (self.steps, self.load_factor, self.settings.end);
+            let (met, wanted) = (self.bifurcations, self.settings.branch.number);
+            if met < wanted {
+                return Err(PathError::NoBifurcation { steps, load_factor, met, wanted });
+            }
             return Err(PathError::TooManySteps { steps, load_factor, end });
+        }
+        if let Some(departure) = self.departure.take() {
+            self.depart(&departure, &mut report)?;
+            return Ok(report);
         }
         loop {
             let size = self.control.propose(self.tangent.turn);
@@ -276,7 +318,9 @@ impl EquilibriumPath {
         let (from, end) = (self.load_factor, self.settings.end);
         let mut found = self.solve_along(&start, Condition::Arc(size))?;
         report.iterations += found.iterations;
-        let is_last = (from - end) * (found.load_factor - end) <= 0.0;
+        // Before the branch the load factor may be beyond the end.
+        let is_on_branch = self.bifurcations >= self.settings.branch.number;
+        let is_last = is_on_branch && (from - end) * (found.load_factor - end) <= 0.0;
         if is_last {
             found = self.solve_along(&start, Condition::Load(end))?;
             report.iterations += found.iterations;
@@ -296,6 +340,11 @@ impl EquilibriumPath {
         if turns || changes > 0 {
             critical = self.critical_points(&start, length, &found, &mut report.iterations);
         }
+        if self.stop_at_bifurcation(&start, length, &mut critical)? {
+            report.critical = critical;
+            self.steps += 1;
+            return Ok(true);
+        }
         report.critical = critical;
         self.control.accept(size, found.iterations, cosine);
         self.take(found, length);
@@ -314,6 +363,21 @@ impl EquilibriumPath {
     fn solve_along(&mut self, start: &State, condition: Condition) -> Result<Solution, StepError> {
         let tangent = self.tangent.clone();
         self.solve(start, self.load_factor, Some(&tangent), condition)
+    }
+
+    /// Solves at a distance along the tangent, and gives the direction in which the stiffness there is softest.
+    fn solve_for_mode(&mut self, start: &State, distance: f64) -> Result<(Solution, Vec<f64>), StepError> {
+        let found = self.solve_along(start, Condition::Arc(distance))?;
+        let mut equations = PathEquations {
+            systems: [&self.systems[0], &self.systems[1]],
+            settings: &self.settings,
+            start,
+            start_factor: self.load_factor,
+            tangent: Some(&self.tangent),
+            condition: Condition::Arc(distance),
+            work: &mut self.work,
+        };
+        Ok((found, equations.softest_direction()))
     }
 
     fn solve(

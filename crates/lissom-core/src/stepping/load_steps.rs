@@ -1,0 +1,111 @@
+//! Load steps of chosen size: as long as Newton's method contracts well and the work of the loads is explained.
+//!
+//! The error of a load step is the part of its work, by the trapezoidal rule, that is not stored as energy: of the third
+//! order in the step on a smooth path of equilibria, all of it where the model jumps. What does not get smaller with
+//! the step is a jump, or is dissipated, and is no reason for shorter ones.
+
+use serde::{Deserialize, Serialize};
+
+/// Iterations that a step of the right length takes: few tangents serve several steps.
+const EASY: f64 = 15.0;
+/// Least and largest change from step to step.
+const CHANGE: (f64, f64) = (0.3, 2.0);
+/// Part of the step that the tolerance would allow.
+const SAFETY: f64 = 0.8;
+/// Where a step of half the length leaves more than this part unexplained of what the whole left, its length is not the
+/// cause.
+const SAME: f64 = 0.7;
+/// Steps are halved so often at most.
+const MOST_HALVINGS: u32 = 12;
+
+/// The length of the next load step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct LoadControl {
+    size: f64,
+    /// Steps are not shorter than this.
+    least: f64,
+}
+
+/// One step's attempts.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Attempts {
+    /// What the last attempt left unexplained, if it had a solution.
+    missing: Option<f64>,
+}
+
+impl LoadControl {
+    /// With the length of the first step.
+    pub(crate) fn new(size: f64) -> Self {
+        Self { size, least: size / f64::from(1_u32 << MOST_HALVINGS) }
+    }
+
+    /// The next step, where `rest` is left of the range.
+    pub(super) fn propose(&self, rest: f64, most: f64) -> f64 {
+        let size = self.size.min(most);
+        // Two steps of equal length rather than one with a short rest.
+        if rest <= size * (1.0 + 1e-9) {
+            rest
+        } else if rest < 2.0 * size {
+            0.5 * rest
+        } else {
+            size
+        }
+    }
+
+    /// Whether a step that left the part `missing` of its work unexplained is to be tried again with half its length.
+    pub(super) fn refuses(
+        &mut self,
+        size: f64,
+        missing: f64,
+        tolerance: f64,
+        attempts: &mut Attempts,
+    ) -> bool {
+        let helps = attempts.missing.is_none_or(|before| missing < SAME * before);
+        attempts.missing = Some(missing);
+        missing > tolerance && helps && self.halve(size)
+    }
+
+    /// A step had no solution: whether half of it may be tried.
+    pub(super) fn halve(&mut self, size: f64) -> bool {
+        self.size = 0.5 * size;
+        self.size >= self.least
+    }
+
+    /// A step of that length was taken, in so many iterations.
+    pub(super) fn accept(&mut self, size: f64, iterations: usize, missing: f64, tolerance: f64) {
+        let ease = EASY / iterations.max(1) as f64;
+        // The part that is missing grows with the square of the length.
+        let error = if missing > 0.0 { SAFETY * (tolerance / missing).sqrt() } else { CHANGE.1 };
+        let error = if missing > tolerance { 1.0 } else { error };
+        self.size = (size * ease.min(error).clamp(CHANGE.0, CHANGE.1)).max(self.least);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_linear_range_is_taken_in_few_steps_that_end_with_it() {
+        let mut control = LoadControl::new(0.1);
+        let (mut at, mut sizes) = (0.0, Vec::new());
+        while at < 1.0 - 1e-12 {
+            let size = control.propose(1.0 - at, 0.25);
+            control.accept(size, 2, 0.0, 0.01);
+            at += size;
+            sizes.push(size);
+        }
+        assert!((at - 1.0).abs() < 1e-12 && sizes.len() <= 6, "{sizes:?}");
+    }
+
+    #[test]
+    fn what_halving_does_not_explain_is_taken() {
+        let mut control = LoadControl::new(0.1);
+        let mut attempts = Attempts::default();
+        assert!(control.refuses(0.1, 0.3, 0.01, &mut attempts), "it may be the length");
+        assert!(!control.refuses(0.05, 0.28, 0.01, &mut attempts), "it is not");
+        let mut attempts = Attempts::default();
+        assert!(control.refuses(0.1, 0.3, 0.01, &mut attempts));
+        assert!(!control.refuses(0.05, 0.005, 0.01, &mut attempts), "it was");
+    }
+}

@@ -1,0 +1,91 @@
+//! What the program tells of load steps: limit points, and the stability of every equilibrium.
+
+use super::support::{Folder, lissom, summary};
+
+/// A shallow truss of two springs that snaps through at 9.95 N.
+const TRUSS: &str = r#"
+lissom = 1
+[point_masses.top]
+mass = 1.0
+position = [0, 0.3, 0]
+plane = "xy"
+[springs.left]
+kind = "point"
+base = "ground"
+at_base = [-1, 0, 0]
+tip = "top"
+stiffness = 1000.0
+[springs.right]
+kind = "point"
+base = "ground"
+at_base = [1, 0, 0]
+tip = "top"
+stiffness = 1000.0
+[loads.down]
+kind = "force"
+on = "top"
+vector = [0, -40, 0]
+[outputs.top]
+kind = "position"
+of = "top"
+[analysis]
+kind = "statics"
+"#;
+
+#[test]
+fn chosen_load_steps_end_at_a_limit_point_and_say_so() {
+    let folder = Folder::new("statics-limit");
+    folder.write("truss.toml", TRUSS);
+    let run = lissom(&["run", "truss.toml", "--out", "out", "--no-plots"], folder.path());
+    assert_eq!(run.code, 3, "{}", run.errors);
+    assert!(run.errors.contains("limit"), "{}", run.errors);
+    let facts = summary(&folder.path().join("out"));
+    // The limit is at 2000 (ℓ₀/ℓ - 1) y, ℓ³ = ℓ₀.
+    let free = 1.09_f64.sqrt();
+    let length = free.cbrt();
+    let limit = 2000.0 * (free / length - 1.0) * (length * length - 1.0).sqrt() / 40.0;
+    let reached = facts["time"].as_f64().unwrap();
+    assert!(reached <= limit && reached > 0.99 * limit, "{reached} of {limit}");
+    assert_eq!(facts["stopped"], "failed");
+    assert!(facts["planned_steps"].is_null());
+}
+
+/// A column that is pushed along itself beyond its Euler load, π² EI/4 = 246.7 N at 0.617 of the load.
+const COLUMN: &str = r#"
+lissom = 1
+[sections.strip]
+shape = "general"
+stiffness = [1e7, 1e7, 1e7, 1e4, 1e4, 100]
+mass = [1, 1, 1, 1, 1, 1]
+[beams.strip]
+section = "strip"
+from = [0, 0, 0]
+to = [1, 0, 0]
+elements = 12
+up = [0, 0, 1]
+[joints.root]
+kind = "clamp"
+base = "ground"
+tip = "strip.start"
+[loads.end]
+kind = "force"
+on = "strip.end"
+vector = [-400, 0, 0]
+[analysis]
+kind = "statics"
+steps = 20
+"#;
+
+#[test]
+fn the_stability_of_every_equilibrium_is_told() {
+    let folder = Folder::new("statics-stability");
+    folder.write("column.toml", COLUMN);
+    let run = lissom(&["run", "column.toml", "--out", "out", "--no-plots"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    let facts = summary(&folder.path().join("out"));
+    let told = facts["stability"].as_array().unwrap();
+    assert_eq!(told.len(), 2, "{told:?}");
+    assert_eq!((told[0]["time"].as_f64().unwrap(), told[0]["unstable_directions"].as_u64()), (0.05, Some(0)));
+    assert!((told[1]["time"].as_f64().unwrap() - 0.65).abs() < 1e-9, "{told:?}");
+    assert_eq!(told[1]["unstable_directions"], 1);
+}
