@@ -34,6 +34,7 @@ use crate::report::{Located, Problem, Report};
 
 pub use analysis::Plan;
 pub use assembly::{Assembly, Brought, MovedPart};
+pub use size::check_run;
 
 /// A model ready to run. Copies share the system.
 #[derive(Clone)]

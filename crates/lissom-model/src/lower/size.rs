@@ -3,7 +3,7 @@
 
 use crate::document::{AnalysisKind, Document};
 use crate::files;
-use crate::report::Problem;
+use crate::report::{Problem, Report};
 
 /// Memory of a node of a beam with its elements, its tangent and its factors, at least [bytes]: measured with lines of
 /// 10⁴ and 10⁵ elements are 15 kB to 17 kB with Radau's complex tangent, about half of it with a real one.
@@ -20,7 +20,16 @@ const MOST_STEPS: f64 = 1e10;
 /// Complaints about a model that is too large.
 pub(super) fn check(document: &Document, problems: &mut Vec<Problem>) {
     elements(document, files::available_memory().unwrap_or(MOST_MEMORY), problems);
-    steps(document, problems);
+}
+
+/// Whether a run to the end is of a size that can be meant. Who takes single steps need not ask.
+///
+/// # Errors
+/// If it would take hours, or fill the disk.
+pub fn check_run(document: &Document) -> Result<(), Report> {
+    let mut problems = Vec::new();
+    steps(document, &mut problems);
+    if problems.is_empty() { Ok(()) } else { Err(document.report(problems)) }
 }
 
 fn elements(document: &Document, available: f64, problems: &mut Vec<Problem>) {

@@ -7,7 +7,7 @@ use lissom::{Document, Model, Report, Session};
 use lissom_core::analysis::mobility::{Mobility, Redundant, mobility};
 use lissom_core::judge::Warning;
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::{Lowered, lower};
+use lissom_model::lower::{Lowered, check_run, lower};
 use serde_json::{Value, json};
 
 use super::{Exit, Failure, ModelArguments, show_warnings};
@@ -38,6 +38,7 @@ impl Check {
         }
         let (model, document) = self.model.read()?;
         show_warnings(&document);
+        check_run(&document)?;
         let lowered = lower(&document)?;
         let freedom = mobility(&lowered.system, &lowered.state);
         terminal::print(&told(model.name(), &document, &lowered, &freedom));
@@ -69,7 +70,7 @@ impl Check {
             Ok(document) => document,
             Err(report) => return Ok(wrong(&report)),
         };
-        let lowered = match lower(&document) {
+        let lowered = match check_run(&document).and_then(|()| lower(&document)) {
             Ok(lowered) => lowered,
             Err(report) => return Ok(wrong(&report)),
         };

@@ -11,11 +11,11 @@ use clap::Args;
 use lissom::modes::ModeRequest;
 use lissom::motion::MotionRecorder;
 use lissom::{
-    Checkpoint, CheckpointEvery, CheckpointFile, FolderError, Model, Override, Progress, ResultFolder,
-    RunReport, Session, Stopped, Summary, Writer, summary,
+    Checkpoint, CheckpointEvery, CheckpointFile, Document, FolderError, Model, Override, Progress,
+    ResultFolder, RunReport, Session, Stopped, Summary, Writer, summary,
 };
 use lissom_model::document::AnalysisKind;
-use lissom_model::lower::{Assembly, lower};
+use lissom_model::lower::{Assembly, Lowered, check_run, lower};
 use lissom_model::output::CurveRecord;
 use lissom_model::scene::Scene;
 
@@ -128,23 +128,21 @@ impl Run {
         if !self.quiet {
             show_warnings(&document);
         }
-        let mut lowered = lower(&document)?;
+        let mut lowered = check_run(&document).and_then(|()| lower(&document))?;
         let processors = || std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
         lowered.settings.threads = self.threads.unwrap_or_else(processors).get();
         let (folder, mut record) = match &task.resumed {
             None => (ResultFolder::create(&task.folder).map_err(unwritable)?, CurveRecord::default()),
-            Some(checkpoint) => {
-                let (folder, record) = ResultFolder::resume(&task.folder, checkpoint).map_err(unwritable)?;
-                (folder, CurveRecord::from(&record))
-            }
+            Some(checkpoint) => ResultFolder::resume(&task.folder, checkpoint)
+                .map(|(folder, record)| (folder, CurveRecord::from(&record)))
+                .map_err(unwritable)?,
         };
         let recorder = task
             .plots
             .then(|| MotionRecorder::new(&lowered, document.analysis.frames_per_second, io::sink()));
         let scene = task.plots.then(|| Scene::of(&document, &lowered));
         let assembly = lowered.assembly.as_ref().map(Assembly::words);
-        let mut summary = summary::of_model(task.model.name(), &task.overrides, &document, &lowered);
-        summary::of_left_out(&mut summary, &task.model);
+        let mut summary = task.summary(&document, &lowered);
         let mut session = match Session::start(lowered) {
             Ok(session) => session,
             Err(error) => {
@@ -299,6 +297,13 @@ impl Task {
         }
         folder.write_scene(scene).map_err(unwritable)?;
         Ok(recorder.writing_to(folder.motion().map_err(unwritable)?))
+    }
+
+    /// What is known before the first step.
+    fn summary(&self, document: &Document, lowered: &Lowered) -> Summary {
+        let mut summary = summary::of_model(self.model.name(), &self.overrides, document, lowered);
+        summary::of_left_out(&mut summary, &self.model);
+        summary
     }
 
     /// Where checkpoints go, if any are wanted.
