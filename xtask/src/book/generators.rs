@@ -1,7 +1,7 @@
 //! The table of what `cargo xtask figures` makes: a name, as in a chapter's marker, and what makes the text.
 
 use super::fragment::Fragment;
-use super::{BookError, Studio, conditioning, convergence, factorization, roundoff, simulation};
+use super::{BookError, Studio, conditioning, convergence, factorization, roundoff, simulation, work};
 
 /// Makes what stands between the markers of one name.
 pub(super) struct Generator {
@@ -33,5 +33,6 @@ pub(super) const GENERATORS: &[Generator] = &[
     quick("convergence-tip-crank", convergence::tip_crank),
     quick("convergence-components", convergence::components),
     quick("convergence-smooth-start", convergence::smooth_start),
+    Generator { name: "work-against-error", is_long: true, make: work::table },
     Generator { name: "convergence-tip-crank-long", is_long: true, make: convergence::tip_crank_long },
 ];

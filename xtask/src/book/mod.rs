@@ -13,6 +13,7 @@ mod regions;
 mod roundoff;
 mod simulation;
 pub(crate) mod verification;
+mod work;
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -82,11 +83,16 @@ impl Studio {
         Ok(Model::read(&self.root.join(format!("examples/{name}.toml")))?)
     }
 
+    /// How far a table is.
+    fn show(&self, done: usize, planned: usize) {
+        self.bar.set_length(planned as u64);
+        self.bar.set_position(done as u64);
+    }
+
     /// For studies.
     fn watch(&self) -> impl Fn(usize, usize) -> ControlFlow<()> + Sync + '_ {
         |done, planned| {
-            self.bar.set_length(planned as u64);
-            self.bar.set_position(done as u64);
+            self.show(done, planned);
             ControlFlow::Continue(())
         }
     }

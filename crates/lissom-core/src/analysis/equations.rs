@@ -7,7 +7,7 @@ use super::compliance::Compliance;
 use super::corrections::{Add, Measure, Multiply};
 use super::phase::{Phase, Stopwatch};
 use super::workspace::Workspace;
-use crate::elements::passage::Passage;
+use crate::elements::step_stages::StepStages;
 use crate::joints::blocks::JointStarts;
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::{Quantity, attached};
@@ -15,7 +15,7 @@ use crate::mechanisms::Mechanism;
 use crate::newton::{Correction, Equations, Failure};
 use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
 use crate::schemes::{Increments, Scheme, Tableau};
-use crate::system::{Chart, Course, Kinematics, LOCKED, Point, Receiver, State, System};
+use crate::system::{Chart, Kinematics, LOCKED, Point, Receiver, State, StepPoint, System};
 
 /// Corrections of rotations larger than this are cut short [rad].
 const LARGEST_ROTATION: f64 = 1.0;
@@ -52,8 +52,8 @@ impl StepEquations<'_> {
             work.unit.predict(&stage.prediction, &mut work.increments[i]);
             work.multipliers[i].copy_from_slice(&self.start.multipliers);
         }
-        if extrapolates {
-            let [of_increments, of_multipliers] = &work.guesses;
+        if extrapolates && work.without.has(Mechanism::Prediction) {
+            let [of_increments, of_multipliers] = &work.predictors;
             of_increments.improve(&mut work.increments);
             of_multipliers.improve(&mut work.multipliers);
         }
@@ -89,13 +89,13 @@ impl StepEquations<'_> {
     }
 
     /// The step as those see it whose strains and violations are integrated.
-    pub(super) fn course(&self, tableau: &Tableau) -> Option<Course<'_>> {
+    pub(super) fn step_point(&self, tableau: &Tableau) -> Option<StepPoint<'_>> {
         let work = &*self.work;
         let [first, second, end] = &work.motions[..] else { return None };
         let (durations, lasting) = self.scaled.durations(tableau);
         let start = &self.start.kinematics;
-        Some(Course {
-            passage: Passage {
+        Some(StepPoint {
+            step: StepStages {
                 start,
                 stages: [&first.at, &second.at],
                 end: &end.at,
@@ -140,8 +140,8 @@ impl StepEquations<'_> {
     pub(crate) fn evaluate(&mut self) {
         if let Some(tableau) = &self.scheme.tableau {
             let mut residuals = std::mem::take(&mut self.work.residuals);
-            if let Some(course) = self.course(tableau) {
-                self.system.course_residuals(&course, &mut residuals);
+            if let Some(point) = self.step_point(tableau) {
+                self.system.step_residuals(&point, &mut residuals);
             }
             self.work.residuals = residuals;
             return;
@@ -230,7 +230,7 @@ impl StepEquations<'_> {
             return places;
         }
         if places.size > LARGEST_ROTATION {
-            self.work.secants.interrupt();
+            self.work.anderson.interrupt();
             let cut = LARGEST_ROTATION / places.size;
             self.work.residuals.iter_mut().flatten().for_each(|value| *value *= cut);
         }
@@ -414,7 +414,7 @@ impl Equations for StepEquations<'_> {
             }
         }
         if work.without.has(Mechanism::Secants) {
-            work.secants.improve(&mut work.residuals);
+            work.anderson.improve(&mut work.residuals);
         }
         self.watch.begin(Phase::Rest);
         let correction = self.add_corrections();
@@ -427,7 +427,7 @@ impl Equations for StepEquations<'_> {
         let (choice, representative) = self.scaling;
         self.scaled = Scaled::new(choice, representative, self.scaled.step_size());
         self.watch.begin(Phase::Linearisation);
-        self.work.secants.forget();
+        self.work.anderson.forget();
         self.linearize();
         self.work.force_round_off = self.force_round_off();
         self.watch.begin(Phase::Factorisation);
@@ -464,7 +464,7 @@ impl Equations for StepEquations<'_> {
     }
 
     fn restart(&mut self) {
-        self.work.secants.interrupt();
+        self.work.anderson.interrupt();
         self.predict();
     }
 
@@ -473,7 +473,7 @@ impl Equations for StepEquations<'_> {
     }
 
     fn back_off(&mut self) {
-        self.work.secants.forget();
+        self.work.anderson.forget();
         let last = std::mem::take(&mut self.work.residuals);
         let mut before = std::mem::take(&mut self.work.before);
         // A correction that is not finite was not applied.

@@ -1,5 +1,6 @@
 //! What the user asks for: consistent initial values, time steps, load steps, a count of freedoms.
 
+mod anderson;
 pub mod assembly;
 pub(crate) mod compliance;
 pub mod conditioning;
@@ -9,15 +10,14 @@ mod equations;
 pub mod equilibrium;
 mod factorization;
 pub mod factorization_study;
-mod guess;
 mod held_values;
 pub mod initial;
 pub(crate) mod loops;
 pub mod mobility;
 pub mod path;
 pub mod phase;
+mod predictor;
 mod projection;
-mod secants;
 mod sensitivity;
 mod singular_positions;
 pub(crate) mod snapshot_parts;

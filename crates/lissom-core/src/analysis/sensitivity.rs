@@ -76,7 +76,7 @@ impl Simulation {
         work.increments.clone_from(&base.work.increments);
         work.multipliers.clone_from(&base.work.multipliers);
         work.yielding.clone_from(&base.work.yielding);
-        work.secants.forget();
+        work.anderson.forget();
         std::mem::swap(&mut work.factorization, &mut base.work.factorization);
         std::mem::swap(&mut work.equilibration, &mut base.work.equilibration);
         work.note_scales(self.system.layout(), &self.scaled);

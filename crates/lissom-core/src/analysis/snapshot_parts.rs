@@ -3,9 +3,9 @@
 use lissom_solver::FactorError;
 use serde::{Deserialize, Serialize};
 
+use super::anderson::Anderson;
 use super::compliance::Compliance;
-use super::guess::Guess;
-use super::secants::Secants;
+use super::predictor::Predictor;
 use super::workspace::{Effort, Workspace};
 use crate::system::System;
 
@@ -21,8 +21,9 @@ pub(crate) enum TangentNumbers {
 /// All that outlives a step besides the state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Learned {
-    guesses: [Guess; 2],
-    secants: Secants,
+    predictors: [Predictor; 2],
+    is_miss_known: bool,
+    anderson: Anderson,
     effort: Effort,
     backed_off: bool,
     /// The tangent factored last, if any was, and what belongs to it.
@@ -36,8 +37,9 @@ pub(crate) struct Learned {
 impl Workspace {
     pub(crate) fn learned(&self) -> Learned {
         Learned {
-            guesses: self.guesses.clone(),
-            secants: self.secants.clone(),
+            predictors: self.predictors.clone(),
+            is_miss_known: self.is_miss_known,
+            anderson: self.anderson.clone(),
             effort: self.effort,
             backed_off: self.backed_off,
             tangent: self.report.as_ref().map(|_| self.factorization.numbers()),
@@ -53,10 +55,11 @@ impl Workspace {
     /// # Errors
     /// If a tangent cannot be factored: it is not the one that was taken.
     pub(crate) fn restore(&mut self, system: &System, from: &Learned) -> Result<(), FactorError> {
-        for (guess, learned) in self.guesses.iter_mut().zip(&from.guesses) {
+        for (guess, learned) in self.predictors.iter_mut().zip(&from.predictors) {
             guess.restore(learned);
         }
-        self.secants.restore(&from.secants);
+        self.is_miss_known = from.is_miss_known;
+        self.anderson.restore(&from.anderson);
         self.effort = from.effort;
         self.backed_off = from.backed_off;
         if let (Some(equilibration), Some(factors)) = (&mut self.equilibration, &from.equilibration) {

@@ -3,16 +3,16 @@
 use lissom_solver::FactorReport;
 use serde::{Deserialize, Serialize};
 
+use super::anderson::Anderson;
 use super::compliance::Compliance;
 use super::corrections::processor;
 use super::factorization::Factorization;
-use super::guess::Guess;
-use super::secants::Secants;
+use super::predictor::Predictor;
 use crate::equilibration::Equilibration;
 use crate::joints::Quantity;
 use crate::joints::blocks::JointStarts;
 use crate::joints::derivatives::IncrementTangent;
-use crate::mechanisms::{Mechanism, Without};
+use crate::mechanisms::Without;
 use crate::scaling::{Representative, Scaled, StageMotion, UnitStart};
 use crate::schemes::{Increments, Scheme};
 use crate::system::{Layout, Scratch, State, System, Threads};
@@ -32,7 +32,9 @@ pub(crate) struct Workspace {
     /// The scheme's first guess of the increments, by stage.
     pub(crate) predicted: Vec<Vec<f64>>,
     /// What first guesses of the increments have missed, and of the multipliers; stage after stage.
-    pub(super) guesses: [Guess; 2],
+    pub(super) predictors: [Predictor; 2],
+    /// Whether they know the last step.
+    pub(super) is_miss_known: bool,
     /// Whether the next first guess is to make use of them.
     pub(crate) extrapolates: bool,
     /// Departures from going straight on since the start of the step, by stage and coordinate row.
@@ -86,7 +88,7 @@ pub(crate) struct Workspace {
     /// For evaluation on several threads, where that pays.
     pub(crate) threads: Option<Threads>,
     pub(crate) report: Option<FactorReport>,
-    pub(crate) secants: Secants,
+    pub(crate) anderson: Anderson,
     /// Mechanisms that are left out.
     pub(crate) without: Without,
 }
@@ -107,7 +109,11 @@ impl Workspace {
         Self {
             unit: UnitStart::new(layout, scheme),
             predicted: vec![vec![0.0; count]; stages],
-            guesses: [Guess::new(stages, &sizes), Guess::new(stages, &vec![1.0; layout.multiplier_count])],
+            predictors: [
+                Predictor::new(stages, &sizes),
+                Predictor::new(stages, &vec![1.0; layout.multiplier_count]),
+            ],
+            is_miss_known: false,
             extrapolates: false,
             increments: vec![vec![0.0; count]; stages],
             node_tangents: match scheme.increments {
@@ -135,7 +141,7 @@ impl Workspace {
             scratch: Some(Box::default()),
             stiffness: vec![0.0; layout.size()],
             factorization: Factorization::new(solver, system.structure(), &scheme.coupling),
-            secants: Secants::new(stages, layout.size(), &sizes),
+            anderson: Anderson::new(stages, layout.size(), &sizes),
             sizes,
             multiplier_sizes: vec![1.0; layout.multiplier_count],
             row_factors: vec![1.0; layout.size()],
@@ -150,15 +156,13 @@ impl Workspace {
 
     /// Takes note of what the scheme's first guess has missed; `multipliers` are those at the start of the step.
     pub(crate) fn learn(&mut self, scheme: &Scheme, multipliers: &[f64]) {
-        if !self.without.has(Mechanism::Prediction) {
-            return;
-        }
         for (stage, predicted) in scheme.stages.iter().zip(&mut self.predicted) {
             self.unit.predict(&stage.prediction, predicted);
         }
-        let [of_increments, of_multipliers] = &mut self.guesses;
+        let [of_increments, of_multipliers] = &mut self.predictors;
         of_increments.learn(&self.increments, |stage| &self.predicted[stage]);
         of_multipliers.learn(&self.multipliers, |_| multipliers);
+        self.is_miss_known = true;
     }
 
     /// Takes note of how residuals are to be scaled for the tangent in use.
@@ -175,8 +179,28 @@ impl Workspace {
     }
 
     /// Makes the next first guess from the scheme alone.
-    pub(crate) fn forget_guesses(&mut self) {
-        self.guesses.iter_mut().for_each(Guess::forget);
+    pub(crate) fn forget_predictions(&mut self) {
+        self.predictors.iter_mut().for_each(Predictor::forget);
+        self.is_miss_known = false;
+    }
+
+    /// Goes over to steps that are `ratio` times as long: what is missed of places is of third order in the step, the
+    /// change of multipliers of first order.
+    pub(crate) fn rescale_predictions(&mut self, ratio: f64) {
+        let [of_increments, of_multipliers] = &mut self.predictors;
+        of_increments.rescale(ratio, 3);
+        of_multipliers.rescale(ratio, 1);
+    }
+
+    /// Whether it is known what the last step has missed.
+    pub(crate) fn is_miss_known(&self) -> bool {
+        self.is_miss_known
+    }
+
+    /// What the prediction of the last stage has missed at the last step, brought to the present step size.
+    pub(crate) fn last_miss(&self) -> impl Iterator<Item = f64> {
+        let stages = self.increments.len();
+        self.predictors[0].last_missed(stages - 1, stages)
     }
 }
 

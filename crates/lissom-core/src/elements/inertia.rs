@@ -11,7 +11,7 @@ use lissom_motion::{Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times
 
 use super::blocks::Blocks;
 use super::inertia_blocks::InertiaBlocks;
-use super::passage::{Passage, STAGES};
+use super::step_stages::{STAGES, StepStages};
 use super::{Element, Energy, MOST_UNKNOWNS, Tangents, add_block};
 use crate::registry::Function;
 use crate::system::state::split;
@@ -110,22 +110,22 @@ impl Element for Inertia {
 
     /// Gravity is corrected along the momenta P_j, so that its work is exactly the change of potential energy:
     /// by ρ P_j with ρ Σ D_j V_j·P_j = -ΔW - Σ D_j V_j·M γ_j.
-    fn passage_forces(&self, passage: &Passage<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
-        for (at, out) in passage.stages.iter().zip(out.iter_mut()) {
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
+        for (at, out) in step.stages.iter().zip(out.iter_mut()) {
             self.forces(at, out);
         }
         if self.gravity.is_zero() {
             return;
         }
         let node = self.node[0];
-        let twists = passage.stages.map(|at| at.nodes[node].twist);
+        let twists = step.stages.map(|at| at.nodes[node].twist);
         let momenta = twists.map(|twist| self.mass * twist);
-        let powers = [0, 1].map(|j| momenta[j].dot(&self.gravity_in_body(passage.stages[j])));
-        let change = &passage.changes[node];
-        let g = split(&self.gravity_in_body(passage.start)).0;
+        let powers = [0, 1].map(|j| momenta[j].dot(&self.gravity_in_body(step.stages[j])));
+        let change = &step.changes[node];
+        let g = split(&self.gravity_in_body(step.start)).0;
         let (mass, moment) = self.moments();
-        let missed = g.dot(&(mass * change.shift + change.turn * moment)) - passage.whole(powers);
-        let (inverse, _) = passage.shares([0, 1].map(|j| twists[j].dot(&momenta[j])));
+        let missed = g.dot(&(mass * change.shift + change.turn * moment)) - step.whole(powers);
+        let (inverse, _) = step.shares([0, 1].map(|j| twists[j].dot(&momenta[j])));
         for (momentum, out) in momenta.iter().zip(out) {
             for k in 0..6 {
                 out[k] -= missed * inverse * momentum[k];

@@ -15,12 +15,12 @@ pub mod inertia;
 mod inertia_blocks;
 pub(crate) mod joint_load;
 pub mod moment;
-pub mod passage;
 pub(crate) mod point_spring;
 pub mod quadrature;
 pub(crate) mod rolling;
 pub mod shape;
 pub mod sides;
+pub mod step_stages;
 pub mod stop;
 
 use crate::joints::Quantity;
@@ -28,8 +28,8 @@ use crate::registry::{Parameter, ParameterError, Parameters};
 use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
 use blocks::Blocks;
 use lissom_motion::Vector3;
-use passage::{Passage, STAGES};
 use serde::{Deserialize, Serialize};
+use step_stages::{STAGES, StepStages};
 
 /// Most local unknowns an element may have: four nodes and two coordinates.
 pub const MOST_UNKNOWNS: usize = 26;
@@ -154,12 +154,12 @@ pub trait Element: Send + Sync + 'static {
         None
     }
 
-    /// Adds the forces at both stages of a passage, for schemes that integrate strains. Their work over it is the
+    /// Adds the forces at both stages of a step, for schemes that integrate strains. Their work over it is the
     /// change of the elements' energy, as far as the method's stages integrate squares exactly. Default, for
     /// forces without energy or with strains that the stages integrate exactly: `forces` at each stage.
-    fn passage_forces(&self, passage: &Passage<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
         let size = 6 * self.nodes().len() + self.coordinates().len();
-        for (at, out) in passage.stages.iter().zip(out) {
+        for (at, out) in step.stages.iter().zip(out) {
             self.forces(at, &mut out[..size]);
         }
     }

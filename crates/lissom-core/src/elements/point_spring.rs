@@ -8,8 +8,8 @@ use lissom_motion::{Matrix3, Vector3, skew};
 use nalgebra::SMatrix;
 
 use super::force_law::{ForceLaw, Response, SIDE_OF_LENGTH};
-use super::passage::{Passage, STAGES, above_round_off};
 use super::sides::Sides;
+use super::step_stages::{STAGES, StepStages, above_round_off};
 use super::{Attached, Attachment, Element, ElementKind, Energy, MOST_UNKNOWNS, Tangents, add_block};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 use crate::system::state::split;
@@ -157,28 +157,28 @@ impl Element for PointSpring {
     }
 
     /// The elongation is integrated; what that misses is put back along the relative velocities of the points.
-    fn passage_forces(&self, passage: &Passage<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
-        let [a, b] = self.points(passage.start);
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
+        let [a, b] = self.points(step.start);
         let before = b.position - a.position;
         let moved = |point: &Point, node: NodeId| {
-            let change = &passage.changes[node];
+            let change = &step.changes[node];
             point.rotation * (change.shift + change.turn * point.offset)
         };
         let moves = [moved(&a, self.nodes[0]), moved(&b, self.nodes[1])];
         let change = moves[1] - moves[0];
         let length = before.norm();
         let longer = change.dot(&(2.0 * before + change)) / (length + (before + change).norm());
-        let points = passage.stages.map(|at| self.points(at));
+        let points = step.stages.map(|at| self.points(at));
         let speeds = [0, 1].map(|j| points[j][1].velocity - points[j][0].velocity);
-        let tensions = [0, 1].map(|j| self.tension(passage.stages[j], &points[j]));
-        let (inverse, shares) = passage.shares(speeds.map(|speed| speed.norm_squared()));
-        let missed = longer - passage.whole(tensions.map(|(_, _, rate, _)| rate));
+        let tensions = [0, 1].map(|j| self.tension(step.stages[j], &points[j]));
+        let (inverse, shares) = step.shares(speeds.map(|speed| speed.norm_squared()));
+        let missed = longer - step.whole(tensions.map(|(_, _, rate, _)| rate));
         let round_off = 16.0 * f64::EPSILON * (moves[0].norm() + moves[1].norm());
         let missed = missed * above_round_off(missed.abs(), round_off);
         let rates = [0, 1].map(|j| tensions[j].2 + shares[j] * missed);
-        let lengths = passage.at_stages(length, rates);
+        let lengths = step.at_stages(length, rates);
         for j in 0..STAGES {
-            let sides = self.sides.of(passage.stages[j]);
+            let sides = self.sides.of(step.stages[j]);
             let tension = self.law.evaluate(lengths[j] - self.length, rates[j], sides).force;
             let pull = tension * (tensions[j].0 + missed * inverse * speeds[j]);
             add_pull(&points[j], &pull, &mut out[j]);

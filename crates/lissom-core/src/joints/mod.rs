@@ -21,7 +21,6 @@ pub mod generic;
 pub mod inline;
 pub mod moved;
 pub mod parallel_axes;
-pub(crate) mod passage;
 pub mod perpendicular_axes;
 pub mod planar;
 pub mod point_in_plane;
@@ -37,6 +36,7 @@ pub mod rigid_link;
 pub mod rolling;
 pub mod screw;
 pub mod spherical;
+pub(crate) mod step_stages;
 pub mod swing_arm;
 pub mod universal;
 

@@ -69,7 +69,7 @@ impl Graph {
         &self.events
     }
 
-    /// Appends the values whose passages through zero are events, in the order of the events.
+    /// Appends the values whose crossings of zero are events, in the order of the events.
     pub(crate) fn event_values(&self, at: &Kinematics, out: &mut Vec<f64>) {
         if !self.events.is_empty() {
             self.evaluate(at, |values| out.extend(self.events.iter().map(|event| values[event.root])));

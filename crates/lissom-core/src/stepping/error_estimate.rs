@@ -1,17 +1,24 @@
 //! The error of a step: what the scheme's prediction from the start of the step has missed at its end, filtered once
 //! through the tangent, so that motions faster than the step count as little as the scheme lets them through.
 //!
+//! Legend: z departure from going straight on at the end of the step, z_predicted = ½ h² times the acceleration (or the
+//! scheme's memory of it) at the start, r ratio of the step to the one before, κ the scheme's constant, J tangent in use
+//! with its constraints, so that what cannot move has no error, w₂ M its part from inertia, τ relative tolerance.
+//!
 //! ```text
-//! e = κ (z - z_predicted),   J ẽ = w₂ M e,   ε = max_i |ẽ_i| size_i / (tolerance · reference)
+//! m_n = z - z_predicted = O(h³)
+//! third order:   e = κ m_n,                             ε = |J⁻¹ w₂ M e| / (reference · τ/10)
+//! fourth order:  e = (m_n - r³ m_{n-1}) 4/(1 + 3/r),    ε = (|J⁻¹ w₂ M e| / (reference · τ^(4/3)/2))^(3/4)
 //! ```
 //!
-//! z departure from going straight on at the end of the step, z_predicted = ½ h² times the acceleration (or the
-//! scheme's memory of it) at the start: both are of order h² and differ in order h³. J is the tangent in use with its
-//! constraints, so that what cannot move has no error; w₂ M its part from inertia [cf. Hairer and Wanner 1996, IV.8].
-//! Sizes are 1 for rotations and 1/ℓ_r for translations. The reference is how far any node has moved or turned since
-//! the start, at most 1.
+//! Schemes of second order err in the third order, and are judged so, as is a first step and one behind a kink or a
+//! switch. Schemes of third order err in the fourth: what a step has missed beyond what the one before lets expect is that,
+//! brought to steps of one size by its last factor. Places then err in proportion to h³ at the end of a run, and so to τ.
+//! The filter is that of [Hairer and Wanner 1996, IV.8]. The norm is the largest entry, lengths in ℓ_r. The reference is how
+//! far any node has moved or turned since the start, or a drive will have within the longest step, at most 1.
 
-use crate::system::{Kinematics, LOCKED, System};
+use crate::joints::Quantity;
+use crate::system::{Drive, Kinematics, LOCKED, System};
 
 /// Motions smaller than this part of the model's size are not resolved for their own sake.
 pub(crate) const SMALLEST_REFERENCE: f64 = 1e-6;
@@ -34,6 +41,17 @@ pub(crate) fn excursion(from: &Kinematics, to: &Kinematics, length: f64) -> f64 
         }
     }
     most
+}
+
+/// How far drives go between two instants, at most 1.
+pub(crate) fn driven(system: &System, (from, to): (f64, f64), length: f64) -> f64 {
+    let of = |drive: &Drive| {
+        let function = &drive.prescribed.value;
+        let way = (function.value(to) - function.value(from)).abs();
+        let row = system.layout().coordinate_rows[drive.prescribed.coordinate] as usize;
+        if system.layout().quantities()[row] == Quantity::Length { way / length } else { way }
+    };
+    system.drives().iter().map(of).fold(0.0_f64, f64::max).min(1.0)
 }
 
 /// `out = M e` over the coordinate rows; zero where there is no mass.

@@ -37,7 +37,7 @@ impl Simulation {
         }
         let mut at_start = 0;
         let mut located = loop {
-            let Some(located) = self.watch.passage(&self.system, (&self.state, &self.next), size) else {
+            let Some(located) = self.watch.crossing(&self.system, (&self.state, &self.next), size) else {
                 return Ok((outcome, None));
             };
             if located.size > 0.0 {

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::system::{Kinematics, System};
 
-/// Steps after a passage at whose ends the rate is looked at.
+/// Steps after a crossing at whose ends the rate is looked at.
 const STEPS: u8 = 2;
 /// Part of its rate that an approach keeps there if the contact is resolved.
 const KEPT: f64 = 0.5;
@@ -80,7 +80,7 @@ impl Approach {
         let Some((entry, steps)) = &mut self.passed else { return false };
         *steps += 1;
         let is_stopped = rate / *entry < KEPT;
-        // The passage itself belongs to two motions.
+        // The crossing itself belongs to two motions.
         let is_over = *steps > STEPS || is_stopped;
         if is_over {
             self.passed = None;

@@ -35,13 +35,16 @@ use crate::mechanisms::Mechanism;
 use crate::newton::{Memory, Outcome};
 use crate::scaling::ScaleBy;
 use crate::system::State;
-use error_estimate::{SMALLEST_ERROR, SMALLEST_REFERENCE, excursion, inertial_part};
+use error_estimate::{SMALLEST_ERROR, SMALLEST_REFERENCE, driven, excursion, inertial_part};
 use load_steps::Attempts;
 
 /// Attempts at a step that are given up before the step is.
 const MOST_REJECTED: usize = 60;
 /// Part of the tolerance that a single step may use up, so that errors at the end of a run are near the tolerance.
 const SHARE_OF_STEP: f64 = 0.1;
+/// The same of estimates of fourth order, whose tolerance is taken to the power of 4/3: with 1 errors at the end are the
+/// tolerance, with a half they stay below it.
+const SHARE_OF_FOURTH: f64 = 0.5;
 /// A node may turn by so much in a step of controlled size: what it turns further cannot be told from less [rad].
 const LARGEST_TURN: f64 = 1.0;
 /// Times closer than this part of the largest step are the same [-].
@@ -232,7 +235,8 @@ impl Simulation {
         // Where it must end anyway at a kink, or has begun at one, nothing is to be gained by another tiny step.
         let near = NEAR * control.max_step;
         let ahead = |kink: &&f64| **kink > now + near && **kink < limit - near;
-        let limit = self.kinks.iter().find(ahead).map_or(limit, |kink| kink.next_down());
+        let kink = self.kinks.iter().find(ahead).map(|kink| kink.next_down());
+        let limit = kink.unwrap_or(limit);
         let rest = limit - now;
         let located = loop {
             let size = controller.propose(rest).min(control.max_step).min(self.turning_limit());
@@ -241,7 +245,7 @@ impl Simulation {
             let error = match self.attempt(size, watch) {
                 Ok(outcome) => {
                     watch.begin(Phase::Rest);
-                    let error = self.estimated_error(control.relative_tolerance);
+                    let error = self.estimated_error(control);
                     if error <= 1.0 {
                         match self.end_at_event((size, outcome), watch, report) {
                             Ok((outcome, located)) => {
@@ -285,11 +289,18 @@ impl Simulation {
         self.accept_step();
         if self.scaled.step_size() == rest {
             (self.state.kinematics.time, self.state.time_remainder) = (limit, 0.0);
+            if kink.is_some() {
+                self.work.forget_predictions();
+            }
         }
         self.farthest = self.farthest.max(self.excursion_of(&self.state));
         self.controller = Some(controller);
         self.is_last_step_known = true;
-        self.after_events(located.as_ref(), control.max_step)
+        self.after_events(located.as_ref(), control.max_step)?;
+        if self.watch.known.has_switched {
+            self.work.forget_predictions();
+        }
+        Ok(())
     }
 
     /// Solves a step of `size` [s] from the state.
@@ -313,13 +324,13 @@ impl Simulation {
                 .change(system, settings.scheme.memory_delay, states, size)
                 .map_err(|error| StepError::Velocities { time, error })?;
         }
+        work.rescale_predictions(size / self.scaled.step_size());
         self.scaled = self.scaled.resized(&settings.scaling, size);
         // Scaled tangents of motions hardly depend on the step size, those of load steps and unscaled ones do.
         if !settings.scheme.dynamic || settings.scaling.by == ScaleBy::None {
             self.memory = Memory::default();
         }
         work.note_scales(system.layout(), &self.scaled);
-        work.forget_guesses();
         Ok(())
     }
 
@@ -335,18 +346,9 @@ impl Simulation {
     }
 
     /// Leaves the estimated error of the last attempt in the workspace, as it is and filtered.
-    fn estimate_error(&mut self) {
-        let scheme = &self.settings.scheme;
+    fn estimate_error(&mut self, order: Order) {
+        self.miss_of_attempt(order);
         let work = &mut *self.work;
-        let Some((stage, (predicted, found))) =
-            scheme.stages.iter().zip(work.predicted.iter_mut().zip(&work.increments)).last()
-        else {
-            unreachable!("every scheme has a stage")
-        };
-        work.unit.predict(&stage.prediction, predicted);
-        for ((error, found), predicted) in work.error.iter_mut().zip(found).zip(&*predicted) {
-            *error = scheme.error_constant * (found - predicted);
-        }
         let (motion, constraints) = work.filtered.split_at_mut(work.error.len());
         if self.watch.known.has_switched {
             // The filter would hide a motion that the switch has just woken: an impact on a stiff stop.
@@ -358,25 +360,67 @@ impl Simulation {
             if let Some(equilibration) = &work.equilibration {
                 equilibration.scale(&mut work.filtered);
             }
-            work.factorization.solve_inertial(&scheme.coupling, &mut work.filtered);
+            work.factorization.solve_inertial(&self.settings.scheme.coupling, &mut work.filtered);
             if let Some(equilibration) = &work.equilibration {
                 equilibration.scale(&mut work.filtered);
             }
         }
     }
 
-    /// Estimated error of the last attempt over what is allowed.
-    fn estimated_error(&mut self, tolerance: f64) -> f64 {
-        self.estimate_error();
-        let reference = self.farthest.max(self.excursion_of(&self.next)).max(SMALLEST_REFERENCE);
+    /// What the last attempt's error is estimated from, by row: what the prediction has missed, times the scheme's constant;
+    /// or what it has missed beyond what the last step lets expect.
+    fn miss_of_attempt(&mut self, order: Order) {
+        let scheme = &self.settings.scheme;
+        let work = &mut *self.work;
+        let Some((stage, (predicted, found))) =
+            scheme.stages.iter().zip(work.predicted.iter_mut().zip(&work.increments)).last()
+        else {
+            unreachable!("every scheme has a stage")
+        };
+        work.unit.predict(&stage.prediction, predicted);
+        let mut error = std::mem::take(&mut work.error);
+        for ((error, found), predicted) in error.iter_mut().zip(found).zip(&*predicted) {
+            *error = found - predicted;
+        }
+        match order {
+            // Behind a switch the motion is not smooth, and constants that take it to be do not hold.
+            Order::Third if self.watch.known.has_switched => {}
+            Order::Third => error.iter_mut().for_each(|error| *error *= scheme.error_constant),
+            Order::Fourth => {
+                let before = self.state.kinematics.time - self.previous.kinematics.time;
+                let weight = 4.0 / (1.0 + 3.0 * before / self.scaled.step_size());
+                for (error, last) in error.iter_mut().zip(work.last_miss()) {
+                    *error = weight * (*error - last);
+                }
+            }
+        }
+        work.error = error;
+    }
+
+    /// Estimated error of the last attempt over what is allowed, as the size of the step would have it: to the power of
+    /// three over the order of the estimate.
+    fn estimated_error(&mut self, control: StepControl) -> f64 {
+        let StepControl { relative_tolerance: tolerance, max_step } = control;
+        let mut reference = self.farthest.max(self.excursion_of(&self.next)).max(SMALLEST_REFERENCE);
+        if reference < 1.0 {
+            let ahead = (self.origin.time, self.next.kinematics.time + max_step);
+            reference = reference.max(driven(&self.system, ahead, self.representative.length));
+        }
+        let is_fourth = self.settings.scheme.stages.len() == 2 && self.work.is_miss_known();
+        let order = if is_fourth { Order::Fourth } else { Order::Third };
+        self.estimate_error(order);
         let work = &*self.work;
         let largest = work.filtered.iter().zip(&work.sizes).fold(0.0_f64, |most, (error, size)| {
             if (error * size).abs() <= most { most } else { (error * size).abs() }
         });
-        let allowed = SHARE_OF_STEP * tolerance;
+        let (allowed, power) = match order {
+            Order::Third => (SHARE_OF_STEP * tolerance, 1.0),
+            Order::Fourth => (SHARE_OF_FOURTH * tolerance.powf(4.0 / 3.0), 3.0 / 4.0),
+        };
         let places = largest / (reference * allowed).max(SMALLEST_ERROR);
         let states = self.error_of_states() / allowed;
-        if states <= places || places.is_nan() { places } else { states }
+        let error = if states <= places || places.is_nan() { places } else { states };
+        error.powf(power)
     }
 
     /// The same of first-order states, each relative to its magnitude, unfiltered.
@@ -389,6 +433,13 @@ impl Simulation {
         // A NaN counts as the largest.
         errors.fold(0.0_f64, |most, error| if error <= most || most.is_nan() { most } else { error })
     }
+}
+
+/// Order of an estimate in the step size.
+#[derive(Clone, Copy)]
+enum Order {
+    Third,
+    Fourth,
 }
 
 fn note(report: &mut StepReport, outcome: &Outcome) {

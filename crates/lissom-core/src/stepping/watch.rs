@@ -29,7 +29,7 @@ const CLOSE: f64 = 1e-6;
 /// Steps solved anew for one root: three are usual.
 const MOST_REFINEMENTS: usize = 6;
 /// Changes of sign within a longest step above which the motion slides along the surface that is passed.
-const MOST_PASSAGES: usize = 1000;
+const MOST_CROSSINGS: usize = 1000;
 
 /// What is known of the watched numbers between two steps.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -44,7 +44,7 @@ pub(crate) struct Watched {
     pub(crate) stopped_by: Option<usize>,
     /// Whether a force has switched at the state: what follows may be much faster than what was before.
     pub(crate) has_switched: bool,
-    /// Since when passages are counted [s], and how many there were.
+    /// Since when crossings are counted [s], and how many there were.
     recent: (f64, usize),
 }
 
@@ -149,7 +149,7 @@ impl Watch {
     }
 
     /// The first instant of the step of `size` [s] at which something passes through zero.
-    pub(crate) fn passage(&mut self, system: &System, step: (&State, &State), size: f64) -> Option<Located> {
+    pub(crate) fn crossing(&mut self, system: &System, step: (&State, &State), size: f64) -> Option<Located> {
         let events = system.signals().events();
         let mut before = 0.0;
         for instant in INSTANTS {
@@ -240,7 +240,7 @@ impl Watch {
             known.recent = (time, 0);
         }
         known.recent.1 += who.len();
-        if known.recent.1 > MOST_PASSAGES { Err(who[0]) } else { Ok(happened) }
+        if known.recent.1 > MOST_CROSSINGS { Err(who[0]) } else { Ok(happened) }
     }
 
     /// After inputs have changed at the state: sides of events change with them, and nothing happens.

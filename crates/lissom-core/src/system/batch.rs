@@ -13,8 +13,8 @@ use super::receiver::{Place, Receiver};
 use super::state::{CoordinateId, Kinematics, NodeId, NodeMotion};
 use super::threads::Threads;
 use crate::elements::blocks::Blocks;
-use crate::elements::passage::{Passage, STAGES};
 use crate::elements::sides::Sides;
+use crate::elements::step_stages::{STAGES, StepStages};
 use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
 use crate::joints::derivatives::IncrementTangent;
 use crate::lanes::processor_for;
@@ -52,7 +52,7 @@ pub(crate) trait AnyBatch: Send + Sync {
         scratch: &mut Tangents,
         out: &mut Receiver<'_>,
     );
-    fn passage_forces(&self, passage: &Passage<'_>, out: &mut [Vec<f64>]);
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [Vec<f64>]);
     fn energy(&self, at: &Kinematics) -> Energy;
     /// Appends the strain energy of every item [J], with whom it belongs to.
     fn strain_energies(&self, at: &Kinematics, out: &mut Vec<(Owner, f64)>);
@@ -210,11 +210,11 @@ impl<E: Element> AnyBatch for Batch<E> {
         }
     }
 
-    fn passage_forces(&self, passage: &Passage<'_>, out: &mut [Vec<f64>]) {
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [Vec<f64>]) {
         for (index, item) in self.items.iter().enumerate() {
             let rows = self.item_rows(index);
             let mut local = [[0.0; MOST_UNKNOWNS]; STAGES];
-            item.passage_forces(passage, &mut local);
+            item.stage_forces(step, &mut local);
             for (local, out) in local.iter().zip(out.iter_mut()) {
                 scatter(rows, local, out);
             }

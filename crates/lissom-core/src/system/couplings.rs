@@ -2,13 +2,13 @@
 
 use super::assembly::Point;
 use super::receiver::Receiver;
-use super::{Course, Kinematics, System};
-use crate::elements::passage::{STAGES, above_round_off};
+use super::{Kinematics, StepPoint, System};
+use crate::elements::step_stages::{STAGES, above_round_off};
 use crate::joints::Quantity;
 use crate::joints::coupling::{Coupled, Coupling, MOST_COUPLED};
-use crate::joints::passage::ROUND_OFF;
+use crate::joints::step_stages::ROUND_OFF;
 
-/// A coupling at a stage of a step whose violations are integrated, see `joints::passage`.
+/// A coupling at a stage of a step whose violations are integrated, see `joints::step_stages`.
 pub(crate) struct CouplingVisit {
     /// B̃.
     pub(crate) rows: Coupled,
@@ -85,65 +85,60 @@ impl System {
         self.couplings.iter().any(|coupling| coupling.by_time(at) != 0.0)
     }
 
-    /// Adds forces and integrated violations of all couplings to the residuals at the stages of `course`.
-    pub(super) fn add_coupling_course(&self, course: &Course<'_>, out: &mut [Vec<f64>]) {
+    /// Adds forces and integrated violations of all couplings to the residuals at the stages of `point`.
+    pub(super) fn add_coupling_stages(&self, point: &StepPoint<'_>, out: &mut [Vec<f64>]) {
         for coupling in &self.couplings {
             let row = self.row_of_coupling(coupling);
-            let weight =
-                course.augmentation.weight * course.augmentation.relative(self.layout.quantities[row]);
-            for (stage, visit) in self.coupling_visits(coupling, course).iter().enumerate() {
-                let mu = course.multipliers[stage][coupling.multiplier] + weight * visit.violation;
+            let weight = point.augmentation.weight * point.augmentation.relative(self.layout.quantities[row]);
+            for (stage, visit) in self.coupling_visits(coupling, point).iter().enumerate() {
+                let mu = point.multipliers[stage][coupling.multiplier] + weight * visit.violation;
                 out[stage][row] = visit.violation;
                 self.add_coupling_forces(coupling, &visit.rows, mu, &mut out[stage]);
             }
         }
     }
 
-    /// Gradients and integrated violations of a coupling at the stages of `course`.
+    /// Gradients and integrated violations of a coupling at the stages of `point`.
     pub(crate) fn coupling_visits(
         &self,
         coupling: &Coupling,
-        course: &Course<'_>,
+        point: &StepPoint<'_>,
     ) -> [CouplingVisit; STAGES] {
-        let passage = &course.passage;
-        let mut rows = passage.stages.map(|at| coupling.gradient(at));
+        let step = &point.step;
+        let mut rows = step.stages.map(|at| coupling.gradient(at));
         let mut rates = [0.0; STAGES];
         let mut weights = [Coupled::default(); STAGES];
         let mut squares = [0.0; STAGES];
         let mut way = 0.0_f64;
-        for (j, at) in passage.stages.iter().enumerate() {
+        for (j, at) in step.stages.iter().enumerate() {
             let speeds = coupling.rates(at);
             rates[j] = coupling.by_time(at);
             let mut terms = rates[j].abs();
             for (k, &coordinate) in coupling.coordinates.iter().enumerate() {
                 let unit = match self.layout.coordinate_quantity(coordinate) {
                     Quantity::Length | Quantity::State => 1.0,
-                    Quantity::Angle => passage.length,
+                    Quantity::Angle => step.length,
                 };
                 rates[j] += rows[j][k] * speeds[k];
                 terms += (rows[j][k] * speeds[k]).abs();
                 weights[j][k] = unit * unit * speeds[k];
                 squares[j] += weights[j][k] * speeds[k];
             }
-            way = way.max(passage.lasting[j].abs() * terms);
+            way = way.max(step.lasting[j].abs() * terms);
         }
-        let end = course.increments[STAGES];
-        let change = coupling.violation_change(
-            passage.start,
-            end.coordinates,
-            (passage.end.time, passage.end.elapsed),
-        );
-        let missed = change - passage.whole(rates);
-        let (inverse, mut shares) = passage.shares(squares);
-        let whole: f64 = passage.lasting.iter().sum();
+        let end = point.increments[STAGES];
+        let change =
+            coupling.violation_change(step.start, end.coordinates, (step.end.time, step.end.elapsed));
+        let missed = change - step.whole(rates);
+        let (inverse, mut shares) = step.shares(squares);
+        let whole: f64 = step.lasting.iter().sum();
         if inverse == 0.0 {
             shares = [1.0 / whole; STAGES];
         }
         // What is below round-off counts in the violations but would be noise in the forces.
         let known = missed * above_round_off(missed.abs(), ROUND_OFF * way);
-        let before = course.violations[coupling.multiplier];
-        let violations =
-            passage.at_stages(0.0, [0, 1].map(|j| rates[j] + shares[j] * missed + before / whole));
+        let before = point.violations[coupling.multiplier];
+        let violations = step.at_stages(0.0, [0, 1].map(|j| rates[j] + shares[j] * missed + before / whole));
         for j in 0..STAGES {
             for k in 0..coupling.count() {
                 rows[j][k] += inverse * known * weights[j][k];

@@ -20,7 +20,7 @@ use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
 use super::state::{CoordinateId, Kinematics, NodeId};
 use super::threads::Threads;
-use crate::elements::passage::Passage;
+use crate::elements::step_stages::StepStages;
 use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
 use crate::signals::measurement::Measurement;
 use crate::signals::{Argument, Graph, HeldId, SignalId};
@@ -322,8 +322,8 @@ impl AnyBatch for Arc<Feedback> {
         self.hand_derivatives(at, chart, scratch, out);
     }
 
-    fn passage_forces(&self, passage: &Passage<'_>, out: &mut [Vec<f64>]) {
-        for (at, out) in passage.stages.iter().zip(out) {
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [Vec<f64>]) {
+        for (at, out) in step.stages.iter().zip(out) {
             self.add_forces(at, out);
         }
     }

@@ -6,10 +6,10 @@ mod builder;
 mod couplings;
 mod feedback;
 mod layout;
-mod passage;
 pub(crate) mod places;
 mod receiver;
 pub(crate) mod state;
+mod step_stages;
 mod threads;
 
 use std::sync::Arc;
@@ -19,9 +19,9 @@ pub use batch::Chart;
 pub(crate) use batch::Owner;
 pub use builder::{BuildError, Builder, PlaceOnTip, Placement};
 pub use layout::{Freedoms, LOCKED, Layout};
-pub use passage::Course;
 pub use receiver::{Blend, Receiver, Sum};
 pub use state::{CoordinateId, CoordinateMotion, Kinematics, MotionChange, NodeId, NodeMotion, State};
+pub use step_stages::StepPoint;
 pub(crate) use threads::Threads;
 pub use threads::WORTH_WHILE;
 

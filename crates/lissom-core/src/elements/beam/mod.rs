@@ -22,7 +22,7 @@ mod blocks;
 mod forces;
 pub mod line;
 mod linearize;
-mod passage;
+mod step_stages;
 mod stiffness;
 
 use lissom_motion::{
@@ -36,9 +36,9 @@ use blocks::BeamBlocks;
 use forces::{Constants, forces};
 
 use super::blocks::Blocks;
-use super::passage::{Passage, STAGES};
 use super::quadrature::gauss_legendre;
 use super::shape::lagrange;
+use super::step_stages::{STAGES, StepStages};
 use super::{Element, Energy, MOST_UNKNOWNS, Tangents, add_block};
 use crate::system::state::split;
 use crate::system::{Kinematics, NodeId};
@@ -326,8 +326,8 @@ impl<const N: usize> Element for Beam<N> {
         Some(Box::new(BeamBlocks::new(items)))
     }
 
-    fn passage_forces(&self, passage: &Passage<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
-        self.add_passage_forces(passage, out);
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
+        self.add_stage_forces(step, out);
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {

@@ -1,4 +1,4 @@
-//! A beam's forces at the stages of a passage, with strains integrated from their rates. See `passage` for the
+//! A beam's forces at the stages of a step, with strains integrated from their rates. See `step` for the
 //! formulas; σ_j are the twists of the nodes relative to the reference node.
 
 use lissom_motion::{
@@ -8,7 +8,7 @@ use lissom_motion::{
 
 use super::{Beam, Relative, Station, combine};
 use crate::elements::MOST_UNKNOWNS;
-use crate::elements::passage::{Passage, STAGES, above_round_off, weigh};
+use crate::elements::step_stages::{STAGES, StepStages, above_round_off, weigh};
 use crate::system::Kinematics;
 
 /// Changes of relative coordinates below this [rad, element lengths] lose digits in a difference; for these the
@@ -45,10 +45,10 @@ pub(super) struct Strains {
 }
 
 impl<const N: usize> Beam<N> {
-    /// Adds the forces at the stages of `passage`.
-    pub(super) fn add_passage_forces(&self, passage: &Passage<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
-        let mut visits = passage.stages.map(|at| self.visit(at));
-        let inverse = self.integrate(passage, &mut visits, |visits, station, strains| {
+    /// Adds the forces at the stages of `step`.
+    pub(super) fn add_stage_forces(&self, step: &StepStages<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
+        let mut visits = step.stages.map(|at| self.visit(at));
+        let inverse = self.integrate(step, &mut visits, |visits, station, strains| {
             for (visit, strain) in visits.iter_mut().zip(&strains.stressing) {
                 let stress = station.weight * (station.law.stiffness * strain);
                 visit.work += stress.dot(&strains.missed);
@@ -93,15 +93,15 @@ impl<const N: usize> Beam<N> {
     /// Integrates the strains of every station and hands them to `each`. Gives 1/Q.
     pub(super) fn integrate(
         &self,
-        passage: &Passage<'_>,
+        step: &StepStages<'_>,
         visits: &mut [Visit<N>; STAGES],
         mut each: impl FnMut(&mut [Visit<N>; STAGES], &Station<N>, &Strains),
     ) -> f64 {
         let length = self.length();
-        let [from, to] = [passage.start, passage.end].map(|at| self.relative(at));
-        let (inverse, shares) = passage.shares([visits[0].square, visits[1].square]);
-        let moved = self.coordinate_changes(passage, &from, &to);
-        let round_off = ROUND_OFF * self.way(passage) / length;
+        let [from, to] = [step.start, step.end].map(|at| self.relative(at));
+        let (inverse, shares) = step.shares([visits[0].square, visits[1].square]);
+        let moved = self.coordinate_changes(step, &from, &to);
+        let round_off = ROUND_OFF * self.way(step) / length;
         for station in &self.stations {
             let strain = |relative: &Relative<N>| {
                 station.strain(&combine(&station.shape, relative), &combine(&station.slope, relative))
@@ -116,24 +116,24 @@ impl<const N: usize> Beam<N> {
                 Some(changes) => station.strain_change(&from, changes),
                 None => strain(&to) - begin,
             };
-            let mut missed = change - passage.whole(rates);
+            let mut missed = change - step.whole(rates);
             missed *= above_round_off(weigh(&missed, length).dot(&missed).sqrt(), round_off);
             for (rate, share) in rates.iter_mut().zip(shares) {
                 *rate += share * missed;
             }
-            let strains = passage.at_stages(begin, rates);
+            let strains = step.at_stages(begin, rates);
             let stressing = std::array::from_fn(|i| strains[i] + station.law.damping * rates[i]);
             each(visits, station, &Strains { stressing, missed });
         }
         inverse
     }
 
-    /// Changes of the relative coordinates over a passage without cancellation, or none where they are so large
+    /// Changes of the relative coordinates over a step without cancellation, or none where they are so large
     /// that their difference is good enough. With η the relative motion, exp(d + Δd) = exp d exp η, they follow
     /// from d' = T(d)⁻¹ η along the way, by one step of the classical Runge-Kutta method.
     fn coordinate_changes(
         &self,
-        passage: &Passage<'_>,
+        step: &StepStages<'_>,
         from: &Relative<N>,
         to: &Relative<N>,
     ) -> Option<Relative<N>> {
@@ -146,7 +146,7 @@ impl<const N: usize> Beam<N> {
             return None;
         }
         let section = |i: usize| {
-            let change = passage.changes[self.nodes[i]];
+            let change = step.changes[self.nodes[i]];
             self.offsets[i].as_ref().map_or(change, |offset| change.carried_at(offset))
         };
         let base = section(Self::REFERENCE);
@@ -165,11 +165,11 @@ impl<const N: usize> Beam<N> {
         }))
     }
 
-    /// How far the element's nodes come over a passage, in both directions [m].
-    fn way(&self, passage: &Passage<'_>) -> f64 {
+    /// How far the element's nodes come over a step, in both directions [m].
+    fn way(&self, step: &StepStages<'_>) -> f64 {
         let length = self.length();
         let mut way = 0.0_f64;
-        for (at, lasting) in passage.stages.iter().zip(passage.lasting) {
+        for (at, lasting) in step.stages.iter().zip(step.lasting) {
             for &node in &self.nodes {
                 let twist = &at.nodes[node].twist;
                 way = way.max(lasting.abs() * weigh(twist, length).dot(twist).sqrt());

@@ -30,7 +30,7 @@ type Block = [f64; SIDE_BY_SIDE];
 
 /// Numbers that are guessed together.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Guess {
+pub(crate) struct Predictor {
     /// Squared weight of each number's error, zero beyond the last number of a stage.
     weights: Vec<Block>,
     /// What was missed at the last steps, each at its place in turn.
@@ -45,6 +45,8 @@ pub(crate) struct Guess {
     /// c, by steps ago, and by place.
     coefficients: [f64; MOST],
     shares: [f64; MOST],
+    /// Lengths of the last two steps, in lengths of the next.
+    lengths: [f64; 2],
     /// Whether these coefficients have served a step: they serve two.
     is_used: bool,
     /// Steps that are looked back: a few numbers tell few coefficients.
@@ -53,7 +55,7 @@ pub(crate) struct Guess {
     processor: Processor,
 }
 
-impl Guess {
+impl Predictor {
     /// Nothing in memory, for stages of numbers whose errors have these weights.
     pub(crate) fn new(stages: usize, weights: &[f64]) -> Self {
         let blocks = weights.len().div_ceil(SIDE_BY_SIDE);
@@ -68,6 +70,7 @@ impl Guess {
             vector: [0.0; MOST],
             coefficients: [0.0; MOST],
             shares: [0.0; MOST],
+            lengths: [1.0; 2],
             is_used: true,
             most: MOST.min(2 + 2 * stages * weights.len()),
             processor: Processor::default(),
@@ -80,6 +83,49 @@ impl Guess {
         (self.products, self.matrix) = ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST]);
         (self.vector, self.coefficients, self.shares) = ([0.0; MOST], [0.0; MOST], [0.0; MOST]);
         self.is_used = true;
+    }
+
+    /// Goes over to steps that are `ratio` times as long, which miss `ratio` to the power of `order` times as much.
+    /// Coefficients belong to steps of one size: of what was missed the last two are kept, and continued in a straight line.
+    ///
+    /// Legend: h_n size of the next step, J_n what step n misses over the power of its size, found about a quarter after its
+    /// start.
+    ///
+    /// ```text
+    /// J_n ≈ J_{n-1} + ρ (J_{n-1} - J_{n-2}),   ρ = (h_n + 3 h_{n-1})/(h_{n-1} + 3 h_{n-2})
+    /// ```
+    pub(crate) fn rescale(&mut self, ratio: f64, order: i32) {
+        self.lengths.iter_mut().for_each(|length| *length /= ratio);
+        let was_credible = self.shares.iter().any(|share| *share != 0.0) || self.coefficients == [0.0; MOST];
+        let [last, before] = [self.place(0), self.place(1)];
+        let factor = ratio.powi(order);
+        for missed in &mut self.missed {
+            let kept = [missed[last], missed[before]].map(|block| block.map(|value| factor * value));
+            *missed = [[0.0; SIDE_BY_SIDE]; MOST];
+            [missed[last], missed[before]] = kept;
+        }
+        let products = self.products;
+        (self.products, self.matrix, self.vector) = ([[0.0; MOST]; MOST], [[0.0; MOST]; MOST], [0.0; MOST]);
+        for i in 0..2 {
+            for j in 0..2 {
+                self.products[i][j] = factor * factor * products[i][j];
+            }
+        }
+        let [one, two] = self.lengths;
+        // Before the second step there is one length only.
+        let further = if self.products[1][1] > 0.0 { (1.0 + 3.0 * one) / (one + 3.0 * two) } else { 0.0 };
+        (self.coefficients, self.shares) = ([0.0; MOST], [0.0; MOST]);
+        (self.coefficients[0], self.coefficients[1]) = (1.0 + further, -further);
+        if was_credible {
+            (self.shares[last], self.shares[before]) = (1.0 + further, -further);
+        }
+        self.is_used = true;
+    }
+
+    /// What was missed at the last step, of one of `stages` stages.
+    pub(crate) fn last_missed(&self, stage: usize, stages: usize) -> impl Iterator<Item = f64> {
+        let (blocks, last) = (self.missed.len() / stages, self.place(0));
+        self.missed[stage * blocks..][..blocks].iter().flat_map(move |missed| missed[last])
     }
 
     /// Takes over what another one has learned.
@@ -139,7 +185,7 @@ fn numbers(of: &[f64], block: usize) -> Block {
 }
 
 struct Improve<'a> {
-    memory: &'a Guess,
+    memory: &'a Predictor,
     guess: &'a mut [Vec<f64>],
 }
 
@@ -169,7 +215,7 @@ impl pulp::WithSimd for Improve<'_> {
 /// Takes note of one stage, whose first block is `first`; gives the products of what was missed now with what was
 /// missed before, by place, and with itself.
 struct Note<'a> {
-    memory: &'a mut Guess,
+    memory: &'a mut Predictor,
     first: usize,
     found: &'a [f64],
     guessed: &'a [f64],
@@ -206,7 +252,7 @@ impl pulp::WithSimd for Note<'_> {
 
 /// Finds the coefficients for the next step.
 struct Learn<'a> {
-    memory: &'a mut Guess,
+    memory: &'a mut Predictor,
     products: [f64; MOST + 1],
 }
 
@@ -216,6 +262,7 @@ impl pulp::WithSimd for Learn<'_> {
     #[inline(always)]
     fn with_simd<V: pulp::Simd>(self, _: V) {
         let Learn { memory, products } = self;
+        memory.lengths = [1.0, memory.lengths[0]];
         // The oldest was looked back at for the last time.
         let toward: [f64; MOST] = std::array::from_fn(|ago| products[memory.place(ago)]);
         for i in 0..MOST {
@@ -272,7 +319,7 @@ mod tests {
     use super::*;
 
     fn guessed(of: impl Fn(usize) -> f64, steps: usize) -> f64 {
-        let mut guess = Guess::new(1, &[1.0]);
+        let mut guess = Predictor::new(1, &[1.0]);
         for step in 0..steps {
             guess.learn(&[vec![of(step)]], |_| &[0.0]);
         }
@@ -298,7 +345,7 @@ mod tests {
                         .map(|stage| (0..count).map(|k| of(stage * count + k, step)).collect())
                         .collect()
                 };
-                let mut guess = Guess::new(stages, &vec![1.0; count]);
+                let mut guess = Predictor::new(stages, &vec![1.0; count]);
                 for step in 0..6 {
                     guess.learn(&values(step), |_| &[0.0; 19][..count]);
                 }
@@ -317,7 +364,7 @@ mod tests {
         assert!((guessed(alternating, 20) - 1.0).abs() < 1e-9);
         // Two frequencies that two numbers have different shares of.
         let of = |step: f64| vec![(0.9 * step).cos() + (2.2 * step).sin(), (0.9 * step + 0.3).cos()];
-        let mut guess = Guess::new(1, &[1.0, 3.0]);
+        let mut guess = Predictor::new(1, &[1.0, 3.0]);
         for step in 0..40 {
             guess.learn(&[of(f64::from(step))], |_| &[0.0, 0.0]);
         }
@@ -325,6 +372,30 @@ mod tests {
         guess.improve(&mut next);
         for (next, value) in next[0].iter().zip(of(40.0)) {
             assert!((next - value).abs() < 1e-6, "{next} {value}");
+        }
+    }
+
+    #[test]
+    fn what_is_missed_goes_over_to_steps_of_other_sizes() {
+        // Two stages that miss h³ (10 + t + h/4) and eight times that.
+        let miss = |time: f64, size: f64| size.powi(3) * (10.0 + time + 0.25 * size);
+        let mut guess = Predictor::new(2, &[1.0; 9]);
+        let (mut time, mut size) = (0.0, 1.0);
+        for next in [1.0, 1.0, 0.5, 0.3, 1.5, 1.0] {
+            let found = miss(time, size);
+            guess.learn(&[vec![found; 9], vec![8.0 * found; 9]], |_| &[0.0; 9]);
+            let missed: Vec<f64> = guess.last_missed(1, 2).take(9).collect();
+            assert!(missed.iter().all(|value| (value - 8.0 * found).abs() < 1e-12 * found), "{missed:?}");
+            time += size;
+            guess.rescale(next / size, 3);
+            size = next;
+            if time > 1.5 {
+                let mut values = [vec![0.0; 9], vec![0.0; 9]];
+                guess.improve(&mut values);
+                let expected = miss(time, size);
+                assert!(values[0].iter().all(|value| (value - expected).abs() < 1e-12 * expected));
+                assert!((values[1][8] - 8.0 * expected).abs() < 1e-11 * expected, "{values:?} {expected}");
+            }
         }
     }
 
@@ -339,7 +410,7 @@ mod tests {
     #[test]
     fn nothing_is_known_at_the_start() {
         assert_eq!(guessed(|_| 1.0, 0), 0.0);
-        let mut guess = Guess::new(1, &[1.0]);
+        let mut guess = Predictor::new(1, &[1.0]);
         for _ in 0..5 {
             guess.learn(&[vec![1.0]], |_| &[0.0]);
         }

@@ -1,18 +1,18 @@
-//! A joint over a passage: violations integrated from their rates, and forces that do no work.
+//! A joint over a step: violations integrated from their rates, and forces that do no work.
 //!
 //! ```text
 //! c_i = γ_i c_start + Σ_j d_ij B̃_j V_j,      γ_i = Σ_j d_ij / Σ_j D_j,      forces at stage i: B̃_iᵀ μ_i
 //! ```
 //!
 //! c_i = 0 at both stages means B̃_j V_j = -c_start/h at each: no power, and no violation at the end. See
-//! `elements::passage` for B̃.
+//! `elements::step_stages` for B̃.
 
 use nalgebra::SVector;
 
 use super::attached::{AttachedJoint, Increments, LocalGradient};
 use super::derivatives::{LOCAL, OWN, TIP};
 use super::{Equations, MOST_EQUATIONS, Quantity};
-use crate::elements::passage::{Passage, STAGES, above_round_off, weigh};
+use crate::elements::step_stages::{STAGES, StepStages, above_round_off, weigh};
 
 /// Round-off of a change of violation, in units of what its terms cancel from.
 pub(crate) const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
@@ -26,11 +26,11 @@ pub(crate) struct Visit {
 }
 
 impl AttachedJoint {
-    /// Gradients and integrated violations at the stages of `passage`. `increments` are those of the stages and
+    /// Gradients and integrated violations at the stages of `step`. `increments` are those of the stages and
     /// of the end, `before` is the violation at the start.
     pub(crate) fn visits(
         &self,
-        passage: &Passage<'_>,
+        step: &StepStages<'_>,
         increments: &[Increments<'_>; STAGES + 1],
         before: &Equations,
     ) -> [Visit; STAGES] {
@@ -42,19 +42,19 @@ impl AttachedJoint {
         for j in 0..STAGES {
             let configuration = self.configuration(&increments[j]);
             rows[j] = self.gradient_at(&configuration);
-            let speeds = self.speeds(passage.stages[j]);
+            let speeds = self.speeds(step.stages[j]);
             rates[j] = rows[j] * speeds;
             let terms = rows[j].abs() * speeds.abs();
-            way = way.max(passage.lasting[j].abs() * terms.max());
+            way = way.max(step.lasting[j].abs() * terms.max());
             let variation = self.variation(&configuration.0);
             let relative = variation * speeds;
-            let weighted = weigh(&relative, passage.length);
+            let weighted = weigh(&relative, step.length);
             weights[j] = variation.tr_mul(&weighted);
             squares[j] = relative.dot(&weighted);
             for (k, coordinate) in self.joint().coordinates().iter().enumerate() {
                 let unit = match coordinate.quantity {
                     Quantity::Length | Quantity::State => 1.0,
-                    Quantity::Angle => passage.length,
+                    Quantity::Angle => step.length,
                 };
                 weights[j][OWN + k] = unit * unit * speeds[OWN + k];
                 squares[j] += weights[j][OWN + k] * speeds[OWN + k];
@@ -62,21 +62,21 @@ impl AttachedJoint {
         }
         let (relative, own) = self.configuration(&increments[STAGES]);
         let change = self.joint().violation_change(&relative, &own);
-        let missed = SVector::<f64, MOST_EQUATIONS>::from_column_slice(&change) - passage.whole(rates);
-        let (mut inverse, mut shares) = passage.shares(squares);
+        let missed = SVector::<f64, MOST_EQUATIONS>::from_column_slice(&change) - step.whole(rates);
+        let (mut inverse, mut shares) = step.shares(squares);
         if self.is_rigid() {
             // No relative motion is left: the rates are round-off, and so is what they miss.
             inverse = 0.0;
         }
-        let whole: f64 = passage.lasting.iter().sum();
+        let whole: f64 = step.lasting.iter().sum();
         if inverse == 0.0 {
             shares = [1.0 / whole; STAGES];
         }
         // What is below round-off counts in the violations but would be noise in the forces.
         let known = missed.map(|value| value * above_round_off(value.abs(), ROUND_OFF * way));
         let before = SVector::<f64, MOST_EQUATIONS>::from_column_slice(before);
-        let violations = passage
-            .at_stages(SVector::zeros(), [0, 1].map(|j| rates[j] + shares[j] * missed + before / whole));
+        let violations =
+            step.at_stages(SVector::zeros(), [0, 1].map(|j| rates[j] + shares[j] * missed + before / whole));
         [0, 1].map(|j| Visit {
             rows: rows[j] + inverse * known * weights[j].transpose(),
             violation: violations[j],

@@ -16,12 +16,12 @@ use lissom_motion::Vector6;
 
 use crate::system::{Kinematics, MotionChange};
 
-/// Stages of a passage.
+/// Stages of a step.
 pub const STAGES: usize = 2;
 
 /// From the start of a step through two stages to its end.
 #[derive(Clone, Copy, Debug)]
-pub struct Passage<'a> {
+pub struct StepStages<'a> {
     /// Where it begins.
     pub start: &'a Kinematics,
     /// Places, velocities and accelerations at the stages.
@@ -40,7 +40,7 @@ pub struct Passage<'a> {
     pub length: f64,
 }
 
-impl Passage<'_> {
+impl StepStages<'_> {
     /// What is reached at the stages from `start` with the rates there.
     pub(crate) fn at_stages<T>(&self, start: T, rates: [T; STAGES]) -> [T; STAGES]
     where
@@ -49,7 +49,7 @@ impl Passage<'_> {
         self.durations.map(|[first, second]| start + rates[0] * first + rates[1] * second)
     }
 
-    /// Change over the whole passage with the rates at the stages.
+    /// Change over the whole step with the rates at the stages.
     pub(crate) fn whole<T>(&self, rates: [T; STAGES]) -> T
     where
         T: Copy + Add<Output = T> + Mul<f64, Output = T>,

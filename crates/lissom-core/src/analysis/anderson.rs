@@ -27,7 +27,7 @@ const CREDIBLE: f64 = 0.7;
 
 /// The last corrections, of all stages.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) struct Secants {
+pub(crate) struct Anderson {
     /// Weights of the coordinates.
     sizes: Vec<f64>,
     /// Δ, weighted, by stage and coordinate.
@@ -52,7 +52,7 @@ pub(crate) struct Secants {
     processor: Processor,
 }
 
-impl Secants {
+impl Anderson {
     /// None yet, for `stages` stages of `size` rows, of which the first are coordinates of these `sizes`.
     pub(crate) fn new(stages: usize, size: usize, sizes: &[f64]) -> Self {
         let (rows, coordinates) = (stages * size, stages * sizes.len());
@@ -226,7 +226,7 @@ impl Secants {
 }
 
 struct Improve<'a> {
-    secants: &'a mut Secants,
+    secants: &'a mut Anderson,
     corrections: &'a mut [Vec<f64>],
 }
 
@@ -255,7 +255,7 @@ mod tests {
                 .map(|row| x[row] + (0..2).map(|k| shares[k] * direction(k, row)).sum::<f64>())
                 .collect()
         };
-        let mut secants = Secants::new(1, count + 1, &vec![1.0; count]);
+        let mut secants = Anderson::new(1, count + 1, &vec![1.0; count]);
         (0..6)
             .map(|step| {
                 let wanted: Vec<f64> = (0..count).map(|row| ((row + step) as f64).cos()).collect();
@@ -292,7 +292,7 @@ mod tests {
 
     #[test]
     fn an_exact_tangent_is_left_alone() {
-        let mut secants = Secants::new(1, 2, &[1.0, 1.0]);
+        let mut secants = Anderson::new(1, 2, &[1.0, 1.0]);
         for (first, second) in [(1.0, 2.0), (0.0, 0.0), (3.0, 1.0)] {
             let mut stages = [vec![first, second]];
             secants.improve(&mut stages);
