@@ -28,7 +28,7 @@ class Dynamics(Analysis):
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/1000; a number > 0, or nothing.
+        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/10000; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
         without: mechanisms left out of the search for a step's solution, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         output_every: steps from record to record, default 1; a whole number from 1 to 1000000000, or nothing.
@@ -79,13 +79,14 @@ class Statics(Analysis):
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/1000; a number > 0, or nothing.
+        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/10000; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
         without: mechanisms left out of the search for a step's solution, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         output_every: steps from record to record, default 1; a whole number from 1 to 1000000000, or nothing.
         frames_per_second: of the motion that `lissom view` shows, per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
         end: last time, default 1 [s]; a number, or nothing.
-        steps: load steps, default 10; a whole number from 1 to 1000000, or nothing.
+        steps: number of load steps; without it they are chosen by contraction and error; a whole number from 1 to 1000000, or nothing.
+        relative_tolerance: part of its work that a load step of chosen size may leave unexplained, default 0.01; a number > 0, or nothing.
         ramp: whether gravity and loads that are constant grow from nothing over the load steps, default true; `true` or `false`, or nothing.
     """
 
@@ -104,6 +105,7 @@ class Statics(Analysis):
     frames_per_second: Number | None = None
     end: Number | None = None
     steps: Count | None = None
+    relative_tolerance: Number | None = None
     ramp: bool | None = None
 
 
@@ -118,12 +120,13 @@ class Path(Analysis):
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/1000; a number > 0, or nothing.
+        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/10000; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
         without: mechanisms left out of the search for a step's solution, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         end: load factor at which the path ends, default 1; a number, or nothing.
         step: first step of the load factor, default a fiftieth of `end`; a number > 0, or nothing.
         steps: most steps, default 1000; a whole number from 1 to 1000000, or nothing.
+        branch: bifurcation at which the path goes over to its branch, counted from 1; negative for the other sense of the branch; default 0, none; a number from -1000.0000 to 1000, or nothing.
     """
 
     _form: ClassVar[str] = "path"
@@ -140,6 +143,7 @@ class Path(Analysis):
     end: Number | None = None
     step: Number | None = None
     steps: Count | None = None
+    branch: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -153,7 +157,7 @@ class Buckling(Analysis):
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/1000; a number > 0, or nothing.
+        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/10000; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
         without: mechanisms left out of the search for a step's solution, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         count: number of load factors, default 5; a whole number from 1 to 10000, or nothing.
@@ -184,7 +188,7 @@ class Modes(Analysis):
         augmented: with the augmented Lagrangian term, default true; `true` or `false`, or nothing.
         penalty: factor of the augmented term, default 1e-3; a number ≥ 0, or nothing.
         solver: linear solver; `"sparse"`, `"skyline"`, `"pivoting"`, `"dense"`, or nothing.
-        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/1000; a number > 0, or nothing.
+        tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/10000; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
         without: mechanisms left out of the search for a step's solution, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
         count: number of modes, default 20; a whole number from 1 to 100000, or nothing.

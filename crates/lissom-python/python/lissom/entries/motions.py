@@ -18,6 +18,7 @@ class Initial(Entry):
         angular_velocity: global axes [rad/s]; three numbers, or nothing.
         about: a point of the rigid motion; default the origin [m]; a place, or nothing.
         equilibrium: start from static equilibrium under the loads of the first instant, default false; `true` or `false`, or nothing.
+        steady_rotation: start from the places at which the model keeps turning with its velocities, default false; `true` or `false`, or nothing.
         motions: rigid motions of some parts, by names of their own; `PartMotion`, or nothing.
     """
 
@@ -27,6 +28,7 @@ class Initial(Entry):
     angular_velocity: Vector | None = None
     about: Place | None = None
     equilibrium: bool | None = None
+    steady_rotation: bool | None = None
     motions: dict[str, PartMotion] | None = None
 
 

@@ -38,8 +38,10 @@ entry! {
     new()
     /// Last time, default 1 \[s\].
     end: f64 = "end";
-    /// Load steps, default 10.
+    /// Number of load steps; without it they are chosen by contraction and error.
     steps: usize = "steps";
+    /// Part of its work that a load step of chosen size may leave unexplained, default 0.01.
+    relative_tolerance: f64 = "relative_tolerance";
     /// Whether gravity and loads that are constant grow from nothing over the load steps, default true.
     ramp: bool = "ramp";
 }
@@ -56,6 +58,8 @@ entry! {
     step: f64 = "step";
     /// Most steps, default 1000.
     steps: usize = "steps";
+    /// Bifurcation at which the path goes over to its branch, counted from 1; negative for the other sense of the branch; default 0, none.
+    branch: f64 = "branch";
 }
 
 entry! {
@@ -96,7 +100,7 @@ keys! {
     penalty: f64 = "penalty";
     /// Linear solver.
     solver: words::Solver = "solver";
-    /// Of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/1000.
+    /// Of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/10000.
     tolerance: f64 = "tolerance";
     /// Of Newton's iteration, default 40.
     max_iterations: usize = "max_iterations";
