@@ -16,7 +16,7 @@ use crate::system::{Kinematics, System};
 const REPEATS: f64 = 1e-9;
 /// A pivot that was below is independent above this part.
 const INDEPENDENT: f64 = 1e-7;
-/// A pivot below this part of its largest value is looked at after every step: the sine of 13 degrees, squared.
+/// A pivot below this part of its largest value may vanish before the next look: the sine of 13 degrees, squared.
 const NEAR: f64 = 0.05;
 /// A pivot of this part of its largest value is singular: a thousandth of a radian beside it.
 const SINGULAR: f64 = 1e-6;
@@ -24,7 +24,7 @@ const SINGULAR: f64 = 1e-6;
 const MISSED: f64 = 2e-3;
 /// A minimum is told from zero where it is this part of the smallest value found.
 const VANISHES: f64 = 0.1;
-/// Motion between two looks, where none of the pivots is small [rad].
+/// Motion between two looks over the root of the smallest pivot [rad].
 const BETWEEN_LOOKS: f64 = 0.25;
 /// Loops of more equations are not watched: looking at them would take longer than a step.
 const MOST_EQUATIONS: usize = 100;
@@ -84,8 +84,9 @@ impl SingularPositions {
         let mut told = None;
         for (found, known) in self.loops.iter().zip(&mut self.known) {
             known.moved += way;
-            let is_near = known.looks.last().is_some_and(|&(_, _, size)| size < NEAR);
-            if known.moved < BETWEEN_LOOKS && !is_near {
+            // A pivot is the square of the way to where it vanishes: looks come closer as that does.
+            let nearest = known.looks.last().map_or(1.0, |&(_, _, size)| size.clamp(0.0, 1.0).sqrt());
+            if known.moved < BETWEEN_LOOKS * nearest {
                 continue;
             }
             known.moved = 0.0;
@@ -176,11 +177,13 @@ fn pivots(gradient: &DMatrix<f64>) -> Pivots {
             (k + 1..count).for_each(|i| square[(i, k)] = 0.0);
             continue;
         }
-        for i in k + 1..count {
-            let factor = square[(i, k)] / pivot;
-            for j in k + 1..=i {
-                let upper = square[(j, k)];
-                square[(i, j)] -= factor * upper;
+        // Column by column, as the numbers lie.
+        let (known, rest) = square.as_mut_slice().split_at_mut((k + 1) * count);
+        let factors = &known[k * count + k + 1..];
+        for (j, column) in rest.chunks_exact_mut(count).enumerate() {
+            let upper = factors[j] / pivot;
+            for (entry, factor) in column[k + 1 + j..].iter_mut().zip(&factors[j..]) {
+                *entry -= factor * upper;
             }
         }
         (k + 1..count).for_each(|i| square[(i, k)] /= pivot);

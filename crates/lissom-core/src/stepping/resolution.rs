@@ -18,8 +18,9 @@ use super::error_estimate::SMALLEST_REFERENCE;
 use crate::analysis::{Simulation, warn};
 use crate::judge::Warning;
 
-/// Steps from one pair that is looked at to the next: the two estimates cost about a hundredth of so many steps.
-const STRIDE: u32 = 16;
+/// Steps from one pair that is looked at to the next: with the two estimates of sixteen steps a chain of ten rigid bodies took
+/// four per cent more instructions.
+const STRIDE: u32 = 64;
 /// Steps before the first pair.
 const FIRST: u32 = 4;
 /// Errors of two steps in a row that differ by more than this factor belong to an instant, not to the motion.
