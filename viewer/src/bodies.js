@@ -15,6 +15,16 @@ export const rod = (from, to, radius, material) => {
   return mesh;
 };
 
+/** Triangles with edges between them. */
+const surface = ({ points, triangles }) => {
+  const geometry = new THREE.BufferGeometry();
+  geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(points.flat()), 3));
+  geometry.setIndex(new THREE.BufferAttribute(new Uint32Array(triangles.flat()), 1));
+  const flat = geometry.toNonIndexed();
+  flat.computeVertexNormals();
+  return flat;
+};
+
 /** Something that moves with a node. */
 export class Carried {
   constructor(node, kinematics) {
@@ -34,6 +44,11 @@ export class BodyMesh extends Carried {
     super(body.node, kinematics);
     this.name = body.name;
     this.material = new THREE.MeshStandardMaterial({ color: colour, roughness: 0.6, metalness: 0.05 });
+    if (body.surface) {
+      this.group.add(new THREE.Mesh(surface(body.surface), this.material));
+      this.group.traverse((child) => (child.userData.part = body.name));
+      return;
+    }
     const { center, sides, quaternion } = body.shape;
     const reach = Math.max(...anchors.map((at) => Math.hypot(...at.map((x, k) => x - center[k]))), 0);
     // Inertias far bulkier than what the body reaches, as of models in a plane, must not hide all else.

@@ -72,6 +72,8 @@ pub(crate) enum Shape {
     Mass,
     /// Three numbers, a 3 x 3 matrix, or a table of a solid.
     Inertia,
+    /// A table of a solid.
+    Solid,
     /// A table of friction in a joint.
     Friction,
     /// Six numbers, or a 6 x 6 matrix.

@@ -34,6 +34,7 @@ mod schema;
 pub mod sections;
 mod solid;
 mod suggest;
+mod surface;
 pub mod sweep;
 pub mod table;
 mod table_values;

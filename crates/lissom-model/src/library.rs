@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::files;
+use crate::surface::Surface;
 
 /// Why there is no text.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -20,19 +21,23 @@ pub struct Missing {
 /// A text, or why there is none.
 type Found = Result<Arc<str>, Missing>;
 
+/// A surface, or why there is none; no surface where no files are looked for, because it is drawn only.
+type FoundSurface = Result<Option<Arc<Surface>>, Missing>;
+
 /// Texts by their paths relative to the folder of the model.
 #[derive(Debug, Default)]
 pub struct Library {
     /// Where they are looked for; none where all are known.
     folder: Option<PathBuf>,
     found: Mutex<BTreeMap<String, Found>>,
+    surfaces: Mutex<BTreeMap<String, FoundSurface>>,
 }
 
 impl Library {
     /// Texts in the folder in which the file `model` lies.
     pub fn beside(model: &Path) -> Self {
         let folder = model.parent().map(Path::to_owned).unwrap_or_default();
-        Self { folder: Some(folder), found: Mutex::default() }
+        Self { folder: Some(folder), ..Self::default() }
     }
 
     /// Texts in the folder in which the file `model` lies, of which some were read before, by their paths.
@@ -43,7 +48,7 @@ impl Library {
     /// Texts that were read before, by their paths; no file is looked for.
     pub fn of_texts(texts: impl IntoIterator<Item = (String, String)>) -> Self {
         let found = texts.into_iter().map(|(path, text)| (path, Ok(Arc::from(text)))).collect();
-        Self { folder: None, found: Mutex::new(found) }
+        Self { found: Mutex::new(found), ..Self::default() }
     }
 
     /// The text at `path`, which `joined` has made.
@@ -67,6 +72,25 @@ impl Library {
         text
     }
 
+    /// The surface in the STL file at `path`, which `joined` has made.
+    pub(crate) fn surface(&self, path: &str) -> FoundSurface {
+        let Some(folder) = &self.folder else { return Ok(None) };
+        let mut found = self.surfaces.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(known) = found.get(path) {
+            return known.clone();
+        }
+        let help = "export the part as STL, in metres";
+        let surface = std::fs::read(folder.join(path))
+            .map_err(|error| format!("`{path}` cannot be read: {error}"))
+            .and_then(|bytes| {
+                Surface::of_stl(&bytes).map_err(|error| format!("`{path}` cannot be drawn: {error}"))
+            })
+            .map(|surface| Some(Arc::new(surface)))
+            .map_err(|message| Missing { message, help: Some(help.to_owned()) });
+        found.insert(path.to_owned(), surface.clone());
+        surface
+    }
+
     /// All texts that were read so far, by their paths.
     pub fn texts(&self) -> BTreeMap<String, String> {
         let found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
@@ -78,7 +102,8 @@ impl Library {
     pub fn files(&self) -> Vec<PathBuf> {
         let found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
         let folder = self.folder.clone().unwrap_or_default();
-        found.keys().map(|path| folder.join(path)).collect()
+        let surfaces = self.surfaces.lock().unwrap_or_else(PoisonError::into_inner);
+        found.keys().chain(surfaces.keys()).map(|path| folder.join(path)).collect()
     }
 }
 

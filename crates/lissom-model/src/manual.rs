@@ -208,6 +208,7 @@ pub(crate) fn words(shape: &Shape) -> String {
         Shape::Axes => "two vectors",
         Shape::Mass => "a number > 0, or `{ density }`",
         Shape::Inertia => "three numbers, a 3 x 3 matrix, or `{ box | cylinder | tube | sphere }`",
+        Shape::Solid => "`{ box | cylinder | tube | sphere }`",
         Shape::Friction => "`{ coulomb, static, stribeck, viscous, deflection, damping }`",
         Shape::Stiffness => "six numbers or a 6 x 6 matrix",
         Shape::SectionMass => "six numbers, a 6 x 6 matrix, or a table",

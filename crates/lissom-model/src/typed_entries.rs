@@ -71,7 +71,18 @@ fn imports(text: &str) -> String {
         ("entry", &["entry", "keys", "nested"]),
         (
             "values",
-            &["Inertia", "Mass", "Matrix", "Node", "Part", "Place", "Quantity", "SectionMass", "Shear"],
+            &[
+                "Inertia",
+                "Mass",
+                "Matrix",
+                "Node",
+                "Part",
+                "Place",
+                "Quantity",
+                "SectionMass",
+                "Shear",
+                "Solid",
+            ],
         ),
         ("expression", &["Expression", "Function"]),
     ];
@@ -213,6 +224,7 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
         Shape::Axes => "[[f64; 3]; 2]",
         Shape::Mass => "Mass",
         Shape::Inertia => "Inertia",
+        Shape::Solid => "Solid",
         Shape::Friction => "Friction",
         Shape::Stiffness => "Matrix",
         Shape::SectionMass => "SectionMass",

@@ -1,15 +1,19 @@
 //! Rigid bodies and point masses of a model file.
 
+use std::sync::Arc;
+
 use lissom_motion::{Matrix3, Rotation, Vector3};
 
 use super::decode::each;
 use super::{Body, Plane, PointMass};
 use crate::context::Context;
 use crate::keys::Shape;
+use crate::library::joined;
 use crate::line::are_parallel;
 use crate::reader::Reader;
-use crate::report::Located;
+use crate::report::{Located, Problem};
 use crate::solid::Solid;
+use crate::surface::Surface;
 use crate::text::{Node, Value};
 
 pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
@@ -18,6 +22,7 @@ pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
         let (position, axes) = (position(reader), axes(reader));
         let (velocity, angular_velocity) = (reader.vector("velocity"), reader.vector("angular_velocity"));
         let center_of_mass = reader.vector("center_of_mass").map_or(Vector3::zeros(), |center| center.value);
+        let surface = surface(reader, &center_of_mass);
         let (mass, inertia) = mass_and_inertia?;
         Some(Body {
             name: Located::new(name.to_owned(), reader.name),
@@ -26,6 +31,7 @@ pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
             position: position?,
             axes: axes?,
             center_of_mass,
+            surface: surface?,
             velocity,
             angular_velocity,
         })
@@ -36,7 +42,7 @@ pub(super) fn bodies(context: &Context<'_>) -> Vec<Body> {
 fn mass_and_inertia(reader: &Reader<'_, '_>) -> Option<(f64, Matrix3)> {
     let context = reader.context;
     let solid = match reader.node("inertia") {
-        Some(node @ Node { value: Value::Table(_), .. }) => Some(solid(reader, node)?),
+        Some(node @ Node { value: Value::Table(_), .. }) => Some(solid(reader, node, "inertia")?),
         _ => None,
     };
     let mass = match reader.node("mass") {
@@ -60,10 +66,38 @@ fn mass_and_inertia(reader: &Reader<'_, '_>) -> Option<(f64, Matrix3)> {
     Some((mass?, inertia?))
 }
 
-/// The solid of a table with one of their names.
-fn solid(reader: &Reader<'_, '_>, node: &Node) -> Option<Solid> {
+/// What is drawn, if it is given; the outer none tells of a mistake.
+#[expect(clippy::option_option, reason = "a mistake, or nothing given")]
+fn surface(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Option<Arc<Surface>>> {
     let context = reader.context;
-    let what = reader.words("inertia");
+    match (reader.node("shape"), reader.node("mesh")) {
+        (None, None) => Some(None),
+        (Some(node), None) => {
+            let solid = solid(reader, node, "shape")?;
+            Some(Some(Arc::new(Surface::of_solid(&solid, center))))
+        }
+        (None, Some(node)) => {
+            let name = reader.text("mesh")?.value;
+            let path = joined(context.sources.file(node.span), name);
+            let told = match context.library.surface(&path) {
+                Ok(surface) => return Some(surface),
+                Err(told) => told,
+            };
+            let problem = Problem::error(node.span, format!("{}: {}", reader.words("mesh"), told.message));
+            context.tell(problem.label("named here").maybe_help(told.help));
+            None
+        }
+        (Some(_), Some(node)) => {
+            let message = format!("{} has both `shape` and `mesh`", reader.what);
+            context.fail(node.span, message, "leave one out")
+        }
+    }
+}
+
+/// The solid of a table, the value of `key`, with one of their names.
+fn solid(reader: &Reader<'_, '_>, node: &Node, key: &str) -> Option<Solid> {
+    let context = reader.context;
+    let what = reader.words(key);
     let own = Reader::open(context, node, (what.clone(), node.span), Shape::solid_keys())?;
     let given: Vec<&str> =
         ["box", "cylinder", "tube", "sphere"].into_iter().filter(|key| own.has(key)).collect();

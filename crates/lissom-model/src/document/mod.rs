@@ -20,6 +20,7 @@ mod signals;
 pub(crate) mod tables;
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use lissom_core::registry::Parameters;
 use lissom_motion::{Matrix3, Vector3};
@@ -28,6 +29,7 @@ use crate::expression::{Expression, Formula};
 use crate::line::Line;
 use crate::report::{Located, Problem, Report, Sources, Span};
 use crate::sections::{Isotropic, SectionProperties, Shape};
+use crate::surface::Surface;
 
 pub(crate) use bodies::body_axes;
 
@@ -254,6 +256,8 @@ pub struct Body {
     pub axes: Matrix3,
     /// Centre of mass in body axes [m].
     pub center_of_mass: Vector3,
+    /// What is drawn, where it is given.
+    pub surface: Option<Arc<Surface>>,
     /// Velocity of the reference point at the start, global axes [m/s]; `None` leaves it to the initial motion.
     pub velocity: Option<Located<Vector3>>,
     /// Angular velocity at the start, body axes [rad/s]; `None` leaves it to the initial motion.

@@ -264,6 +264,18 @@ fn body() -> Vec<Key> {
         optional("rotation", Shape::Vector, "rad", "rotation vector of the reference frame"),
         optional("axes", Shape::Axes, "", "instead of rotation: first and second body axis"),
         optional("center_of_mass", Shape::Vector, "m", "in body axes, from the reference point"),
+        optional(
+            "shape",
+            Shape::Solid,
+            "",
+            "drawn about the centre of mass, instead of what has its inertia",
+        ),
+        optional(
+            "mesh",
+            Shape::Text,
+            "",
+            "instead of `shape`: an STL file in metres and body axes; relative to the file that names it",
+        ),
         optional("velocity", Shape::GlobalVector, "m/s", "of the reference point at the start, global axes"),
         optional("angular_velocity", Shape::Vector, "rad/s", "at the start, body axes"),
     ]

@@ -25,6 +25,8 @@ pub use shapes::{InertiaBox, Outline};
 pub use solids::{Form, Solid, Tone};
 pub use symbols::{Rod, Symbol};
 
+pub use crate::surface::Surface;
+
 /// Version of what is written.
 const VERSION: usize = 2;
 

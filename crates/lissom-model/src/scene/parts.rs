@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::Places;
 use super::shapes::{InertiaBox, Outline};
 use crate::document::Document;
+use crate::surface::Surface;
 
 /// A rigid body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -21,6 +22,9 @@ pub struct Body {
     pub inertia: [[f64; 3]; 3],
     /// The box that has this mass and inertia.
     pub shape: InertiaBox,
+    /// What is drawn instead, where the model gives it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub surface: Option<Surface>,
 }
 
 /// A point mass.
@@ -81,6 +85,7 @@ pub(super) fn bodies(document: &Document, places: &Places<'_>) -> Vec<Body> {
             mass: body.mass,
             inertia: [row(0), row(1), row(2)],
             shape: InertiaBox::of(body.mass, &symmetric(&body.inertia), &body.center_of_mass),
+            surface: body.surface.as_deref().cloned(),
         })
     };
     document.bodies.iter().filter_map(drawn).collect()

@@ -215,6 +215,33 @@ impl From<Inertia> for Written {
     }
 }
 
+/// A solid about the centre of mass, in body axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Solid {
+    /// A box with these sides along the body axes [m].
+    Box([f64; 3]),
+    /// A cylinder about the z axis: radius and length [m].
+    Cylinder([f64; 2]),
+    /// A tube about the z axis: outer radius, inner radius and length [m].
+    Tube([f64; 3]),
+    /// A sphere of this radius [m].
+    Sphere(f64),
+}
+
+impl From<Solid> for Written {
+    fn from(solid: Solid) -> Self {
+        let mut fields = Fields::default();
+        match solid {
+            Solid::Box(sides) => fields.set("box", sides),
+            Solid::Cylinder(sizes) => fields.set("cylinder", sizes),
+            Solid::Tube(sizes) => fields.set("tube", sizes),
+            Solid::Sphere(radius) => fields.set("sphere", radius),
+        }
+        fields.into()
+    }
+}
+
 /// A 6 x 6 matrix, or its diagonal.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Matrix {

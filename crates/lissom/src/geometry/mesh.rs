@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-use lissom_model::scene::{Form, Solid};
+use lissom_model::scene::{Form, Solid, Surface};
 use lissom_motion::{Motion as Pose, Rotation, Vector3};
 
 /// Sides of what is round.
@@ -34,6 +34,14 @@ impl Mesh {
         let last = points.len() as u32 - around;
         faces.push((last..last + around).collect());
         Self { points, faces }
+    }
+
+    /// Triangles.
+    pub(super) fn of_surface(surface: &Surface) -> Self {
+        Self {
+            points: surface.points.iter().map(|point| Vector3::from(point.map(f64::from))).collect(),
+            faces: surface.triangles.iter().map(|triangle| triangle.to_vec()).collect(),
+        }
     }
 
     /// A body of revolution about the second axis from (radius, height) pairs with ascending heights.

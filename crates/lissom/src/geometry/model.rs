@@ -197,8 +197,11 @@ impl Geometry {
         }
     }
 
-    /// The box of a body, with arms to where something is attached.
+    /// The surface of a body where it has one; otherwise its box, with arms to where something is attached.
     fn body(&self, body: &Body, anchors: &[Vector3]) -> Mesh {
+        if let Some(surface) = &body.surface {
+            return Mesh::of_surface(surface);
+        }
         let center = Vector3::from(body.shape.center);
         let reach = anchors.iter().map(|at| (at - center).norm()).fold(0.0, f64::max);
         // Inertias far bulkier than what the body reaches, as of models in a plane, must not hide all else.

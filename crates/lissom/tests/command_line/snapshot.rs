@@ -55,6 +55,54 @@ fn moving_pictures_hold_so_many_frames_of_one_size() {
 }
 
 #[test]
+fn bodies_are_drawn_by_the_shapes_and_meshes_that_the_model_gives() {
+    let folder = Folder::new("snapshot-shapes");
+    let model = |drawn: &str| {
+        format!(
+            "lissom = 1\n[bodies.part]\nmass = 1\ninertia = [1, 1, 1]\ncenter_of_mass = [0, 0, 1]\n{drawn}\n\
+             [analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.1\n"
+        )
+    };
+    let scene = |drawn: &str| {
+        fs::write(folder.path().join("part.toml"), model(drawn)).unwrap();
+        let run = lissom(&["run", "part.toml", "-q"], folder.path());
+        assert_eq!(run.code, 0, "{}", run.errors);
+        ResultFolder::recorded(&folder.path().join("out/part")).unwrap()
+    };
+    let extent = |drawn: &str| {
+        let run = scene(drawn);
+        let geometry = Geometry::new(&run.scene, &run.motion, true);
+        let piece = geometry.pieces.iter().find(|piece| piece.role == Role::Body).unwrap();
+        let (mut low, mut high) = (Vector3::repeat(f64::INFINITY), Vector3::repeat(f64::NEG_INFINITY));
+        for point in &piece.mesh.points {
+            (low, high) = (low.inf(point), high.sup(point));
+        }
+        [low, high].map(|corner| [0, 1, 2].map(|k| (1e4 * corner[k]).round() / 1e4))
+    };
+    let box_ = "shape = { box = [0.2, 0.4, 0.6] }";
+    assert_eq!(extent(box_), [[-0.1, -0.2, 0.7], [0.1, 0.2, 1.3]], "about the centre of mass");
+    assert_eq!(extent("shape = { cylinder = [0.1, 2], axis = \"x\" }")[1], [1.0, 0.1, 1.1]);
+    let facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 0.5 0 0 vertex 0 0.25 0 endloop endfacet";
+    fs::write(folder.path().join("part.stl"), format!("solid part {facet} endsolid")).unwrap();
+    assert_eq!(extent("mesh = \"part.stl\""), [[0.0; 3], [0.5, 0.25, 0.0]], "in body axes");
+    let page = lissom(&["view", "out/part", "--html", "page.html", "-q"], folder.path());
+    assert_eq!(page.code, 0, "{}", page.errors);
+    assert!(fs::read_to_string(folder.path().join("page.html")).unwrap().contains("\"triangles\":[[0,1,2]]"));
+    fs::write(folder.path().join("empty.stl"), "solid nothing facet endsolid").unwrap();
+    for (drawn, message) in [
+        ("mesh = \"missing.stl\"", "`missing.stl` cannot be read"),
+        ("mesh = \"empty.stl\"", "holds no triangles"),
+        ("mesh = \"part.toml\"", "it is no STL file"),
+        ("mesh = \"part.stl\"\nshape = { sphere = 1 }", "both `shape` and `mesh`"),
+        ("shape = { box = [1, 0, 1] }", "is no solid"),
+    ] {
+        fs::write(folder.path().join("wrong.toml"), model(drawn)).unwrap();
+        let wrong = lissom(&["check", "wrong.toml"], folder.path());
+        assert!(wrong.code == 2 && wrong.errors.contains(message), "{drawn}: {}", wrong.errors);
+    }
+}
+
+#[test]
 fn what_is_drawn_lies_where_the_table_says() {
     let folder = Folder::new("snapshot-places");
     let model = example("pendulum");

@@ -58,6 +58,8 @@ class Body(Entry):
         rotation: rotation vector of the reference frame [rad]; three numbers, or nothing.
         axes: instead of rotation: first and second body axis; two vectors, or nothing.
         center_of_mass: in body axes, from the reference point [m]; three numbers, or nothing.
+        shape: drawn about the centre of mass, instead of what has its inertia; `{ box | cylinder | tube | sphere }`, or nothing.
+        mesh: instead of `shape`: an STL file in metres and body axes; relative to the file that names it; a text, or nothing.
         velocity: of the reference point at the start, global axes [m/s]; three numbers, or nothing.
         angular_velocity: at the start, body axes [rad/s]; three numbers, or nothing.
     """
@@ -71,6 +73,8 @@ class Body(Entry):
     rotation: Vector | None = None
     axes: list[Vector] | None = None
     center_of_mass: Vector | None = None
+    shape: Table | None = None
+    mesh: str | None = None
     velocity: Vector | None = None
     angular_velocity: Vector | None = None
 

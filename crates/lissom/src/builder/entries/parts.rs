@@ -5,7 +5,7 @@ use super::words;
 use crate::builder::entry::entry;
 use crate::builder::expression::{Expression, Function};
 use crate::builder::ids::SectionId;
-use crate::builder::values::{Inertia, Mass, Place};
+use crate::builder::values::{Inertia, Mass, Place, Solid};
 
 entry! {
     /// A flexible beam.
@@ -56,6 +56,10 @@ entry! {
     axes: [[f64; 3]; 2] = "axes";
     /// In body axes, from the reference point \[m\].
     center_of_mass: [f64; 3] = "center_of_mass";
+    /// Drawn about the centre of mass, instead of what has its inertia.
+    shape: Solid = "shape";
+    /// Instead of `shape`: an STL file in metres and body axes; relative to the file that names it.
+    mesh: String = "mesh";
     /// Of the reference point at the start, global axes \[m/s\].
     velocity: [f64; 3] = "velocity";
     /// At the start, body axes \[rad/s\].

@@ -1,0 +1,229 @@
+//! Surfaces of bodies as they are drawn: triangles, from solids or from STL files.
+
+use std::collections::HashMap;
+
+use lissom_motion::Vector3;
+use serde::{Deserialize, Serialize};
+
+use crate::solid::Solid;
+
+/// Sides of what is round.
+const ROUND: usize = 32;
+/// Most triangles of a file.
+const MOST: usize = 500_000;
+
+/// A surface of triangles in body axes. Seen from outside their points run counterclockwise.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Surface {
+    /// Places [m].
+    pub points: Vec<[f32; 3]>,
+    /// Points of each triangle.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// A file that is no surface.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub(crate) enum SurfaceError {
+    /// It is no STL file.
+    #[error("it is no STL file: it neither holds as many triangles as it says, nor `facet` and `vertex`")]
+    Foreign,
+    /// It has none.
+    #[error("it holds no triangles")]
+    Empty,
+    /// There are too many.
+    #[error("it holds {0} triangles, and {MOST} can be drawn")]
+    TooMany(usize),
+    /// A number is none.
+    #[error("a corner of triangle {0} is not made of finite numbers")]
+    NotFinite(usize),
+}
+
+impl Surface {
+    /// That of a solid about its centre.
+    pub(crate) fn of_solid(solid: &Solid, center: &Vector3) -> Self {
+        match *solid {
+            Solid::Box(sides) => {
+                let [a, b, c] = sides.map(|side| 0.5 * side);
+                let ring = [(a, b), (-a, b), (-a, -b), (a, -b)];
+                let at = |z: f64| ring.map(|(x, y)| Vector3::new(x, y, z)).to_vec();
+                Self::of_rings(&[at(-c), at(c)], center, true)
+            }
+            Solid::Tube { outer, inner, length, axis } => {
+                let place = |radius: f64, height: f64, side: usize| {
+                    let (sine, cosine) = (std::f64::consts::TAU * side as f64 / ROUND as f64).sin_cos();
+                    let mut place = Vector3::zeros();
+                    place[(axis + 1) % 3] = radius * cosine;
+                    place[(axis + 2) % 3] = radius * sine;
+                    place[axis] = height;
+                    place
+                };
+                let ring = |radius: f64, height: f64| -> Vec<Vector3> {
+                    (0..ROUND).map(|side| place(radius, height, side)).collect()
+                };
+                let half = 0.5 * length;
+                let outside = [ring(outer, -half), ring(outer, half)];
+                if inner > 0.0 {
+                    let [low, high] = outside;
+                    Self::of_rings(
+                        &[low.clone(), high, ring(inner, half), ring(inner, -half), low],
+                        center,
+                        false,
+                    )
+                } else {
+                    Self::of_rings(&outside, center, true)
+                }
+            }
+            Solid::Sphere(radius) => {
+                let ring = |row: usize| -> Vec<Vector3> {
+                    let (sine, cosine) = (std::f64::consts::PI * row as f64 / (ROUND / 2) as f64).sin_cos();
+                    let of = |side: usize| {
+                        let (s, c) = (std::f64::consts::TAU * side as f64 / ROUND as f64).sin_cos();
+                        radius * Vector3::new(sine * c, sine * s, -cosine)
+                    };
+                    (0..ROUND).map(of).collect()
+                };
+                let rings: Vec<Vec<Vector3>> = (0..=ROUND / 2).map(ring).collect();
+                Self::of_rings(&rings, center, true)
+            }
+        }
+    }
+
+    /// Rings of equally many points, each joined to the next, counterclockwise about the way from the first to the last; with
+    /// lids at both ends or without.
+    fn of_rings(rings: &[Vec<Vector3>], center: &Vector3, has_lids: bool) -> Self {
+        let around = rings.first().map_or(0, Vec::len) as u32;
+        let points = rings.iter().flatten().map(|point| (point + center).cast::<f32>().into()).collect();
+        let mut triangles = Vec::new();
+        for ring in 0..rings.len().saturating_sub(1) as u32 {
+            for side in 0..around {
+                let [a, b] = [ring * around + side, ring * around + (side + 1) % around];
+                triangles.push([a, b, b + around]);
+                triangles.push([a, b + around, a + around]);
+            }
+        }
+        if has_lids {
+            let last = (rings.len() as u32 - 1) * around;
+            for side in 1..around - 1 {
+                triangles.push([0, side + 1, side]);
+                triangles.push([last, last + side, last + side + 1]);
+            }
+        }
+        Self { points, triangles }
+    }
+
+    /// Reads an STL file, of numbers or of words. Corners at one place become one point.
+    pub(crate) fn of_stl(bytes: &[u8]) -> Result<Self, SurfaceError> {
+        let corners = match numbers(bytes) {
+            Some(corners) => corners,
+            None => words(bytes)?,
+        };
+        if corners.is_empty() {
+            return Err(SurfaceError::Empty);
+        }
+        if corners.len() > MOST {
+            return Err(SurfaceError::TooMany(corners.len()));
+        }
+        let mut surface = Self::default();
+        let mut known: HashMap<[u32; 3], u32> = HashMap::new();
+        for (index, triangle) in corners.iter().enumerate() {
+            if !triangle.iter().flatten().all(|number| number.is_finite()) {
+                return Err(SurfaceError::NotFinite(index + 1));
+            }
+            let points = triangle.map(|place| {
+                *known.entry(place.map(f32::to_bits)).or_insert_with(|| {
+                    surface.points.push(place);
+                    surface.points.len() as u32 - 1
+                })
+            });
+            surface.triangles.push(points);
+        }
+        Ok(surface)
+    }
+}
+
+/// A heading of 80 bytes, the number of triangles, and for each its normal, its corners and two bytes more; none if the length
+/// tells otherwise.
+fn numbers(bytes: &[u8]) -> Option<Vec<[[f32; 3]; 3]>> {
+    let count = u32::from_le_bytes(*bytes.get(80..84)?.first_chunk()?) as usize;
+    if bytes.len() != 84 + 50 * count {
+        return None;
+    }
+    let triangle = |record: &[u8]| {
+        let (words, _) = record[12..48].as_chunks::<4>();
+        std::array::from_fn(|corner| std::array::from_fn(|k| f32::from_le_bytes(words[3 * corner + k])))
+    };
+    Some(bytes[84..].chunks_exact(50).map(triangle).collect())
+}
+
+/// Words, of which those behind `vertex` are places.
+fn words(bytes: &[u8]) -> Result<Vec<[[f32; 3]; 3]>, SurfaceError> {
+    let text = std::str::from_utf8(bytes).map_err(|_| SurfaceError::Foreign)?;
+    if !text.trim_start().starts_with("solid") || !text.contains("facet") {
+        return Err(SurfaceError::Foreign);
+    }
+    let mut places: Vec<[f32; 3]> = Vec::new();
+    let mut words = text.split_ascii_whitespace();
+    while let Some(word) = words.next() {
+        if word == "vertex" {
+            let mut number = || words.next().and_then(|word| word.parse().ok()).ok_or(SurfaceError::Foreign);
+            places.push([number()?, number()?, number()?]);
+        }
+    }
+    let (triangles, rest) = places.as_chunks::<3>();
+    if rest.is_empty() { Ok(triangles.to_vec()) } else { Err(SurfaceError::Foreign) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By the divergence theorem: positive where triangles are seen from outside.
+    fn volume(surface: &Surface) -> f64 {
+        let place = |index: u32| Vector3::from(surface.points[index as usize].map(f64::from));
+        surface.triangles.iter().map(|t| place(t[0]).dot(&place(t[1]).cross(&place(t[2]))) / 6.0).sum()
+    }
+
+    #[test]
+    fn surfaces_of_solids_enclose_their_volume() {
+        for (solid, slack) in [
+            (Solid::Box([0.1, 0.2, 0.3]), 1e-6),
+            (Solid::Tube { outer: 0.1, inner: 0.0, length: 0.4, axis: 0 }, 0.01),
+            (Solid::Tube { outer: 0.1, inner: 0.06, length: 0.4, axis: 2 }, 0.01),
+            (Solid::Sphere(0.2), 0.02),
+        ] {
+            let surface = Surface::of_solid(&solid, &Vector3::new(0.3, -0.1, 0.2));
+            let ratio = volume(&surface) / solid.volume();
+            assert!((ratio - 1.0).abs() < slack, "{solid:?}: {ratio}");
+        }
+    }
+
+    #[test]
+    fn both_forms_of_stl_are_read() {
+        let corners: [[f32; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        let faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let (mut text, mut binary) = ("solid part\n".to_owned(), vec![0_u8; 80]);
+        binary.extend(4_u32.to_le_bytes());
+        for face in faces {
+            text.push_str("facet normal 0 0 0\nouter loop\n");
+            binary.extend([0; 12]);
+            for corner in face.map(|index: usize| corners[index]) {
+                text.extend([format!("vertex {} {} {:e}\n", corner[0], corner[1], corner[2])]);
+                binary.extend(corner.iter().flat_map(|number| number.to_le_bytes()));
+            }
+            text.push_str("endloop\nendfacet\n");
+            binary.extend([0; 2]);
+        }
+        text.push_str("endsolid part\n");
+        let surface = Surface::of_stl(text.as_bytes()).unwrap();
+        assert_eq!((surface.points.len(), surface.triangles.len()), (4, 4));
+        assert!((volume(&surface) - 1.0 / 6.0).abs() < 1e-12);
+        assert_eq!(Surface::of_stl(&binary).unwrap(), surface);
+        assert_eq!(Surface::of_stl(&binary[..200]), Err(SurfaceError::Foreign));
+        assert_eq!(Surface::of_stl(b"solid\nfacet\nendsolid"), Err(SurfaceError::Empty));
+        assert_eq!(Surface::of_stl(b"solid\nfacet vertex 1 2 x"), Err(SurfaceError::Foreign));
+        assert_eq!(
+            Surface::of_stl(b"solid\nfacet vertex 1 2 nan vertex 0 0 0 vertex 1 0 0"),
+            Err(SurfaceError::NotFinite(1))
+        );
+    }
+}
