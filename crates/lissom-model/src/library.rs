@@ -72,18 +72,21 @@ impl Library {
         text
     }
 
-    /// The surface in the STL file at `path`, which `joined` has made.
+    /// The surface in the STL or glTF file at `path`, which `joined` has made.
     pub(crate) fn surface(&self, path: &str) -> FoundSurface {
         let Some(folder) = &self.folder else { return Ok(None) };
         let mut found = self.surfaces.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(known) = found.get(path) {
             return known.clone();
         }
-        let help = "export the part as STL, in metres";
+        let help = "export the part as STL or glTF, in metres";
+        let beside =
+            |name: &str| std::fs::read(folder.join(joined(path, name))).map_err(|error| error.to_string());
         let surface = std::fs::read(folder.join(path))
             .map_err(|error| format!("`{path}` cannot be read: {error}"))
             .and_then(|bytes| {
-                Surface::of_stl(&bytes).map_err(|error| format!("`{path}` cannot be drawn: {error}"))
+                Surface::of_file(&bytes, &beside)
+                    .map_err(|error| format!("`{path}` cannot be drawn: {error}"))
             })
             .map(|surface| Some(Arc::new(surface)))
             .map_err(|message| Missing { message, help: Some(help.to_owned()) });

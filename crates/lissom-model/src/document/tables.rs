@@ -274,7 +274,7 @@ fn body() -> Vec<Key> {
             "mesh",
             Shape::Text,
             "",
-            "instead of `shape`: an STL file in metres and body axes; relative to the file that names it",
+            "instead of `shape`: an STL or glTF file in metres and body axes; relative to the file that names it",
         ),
         optional("velocity", Shape::GlobalVector, "m/s", "of the reference point at the start, global axes"),
         optional("angular_velocity", Shape::Vector, "rad/s", "at the start, body axes"),

@@ -88,11 +88,19 @@ fn bodies_are_drawn_by_the_shapes_and_meshes_that_the_model_gives() {
     let page = lissom(&["view", "out/part", "--html", "page.html", "-q"], folder.path());
     assert_eq!(page.code, 0, "{}", page.errors);
     assert!(fs::read_to_string(folder.path().join("page.html")).unwrap().contains("\"triangles\":[[0,1,2]]"));
+    // What `lissom export` writes can be a part of another model.
+    let export = lissom(&["export", "out/part", "--format", "gltf"], folder.path());
+    assert_eq!(export.code, 0, "{}", export.errors);
+    fs::rename(folder.path().join("out/part/motion.glb"), folder.path().join("part.glb")).unwrap();
+    assert_eq!(extent("mesh = \"part.glb\""), [[0.0, 0.0, -0.25], [0.5, 0.0, 0.0]], "its y is upward");
+    let apart = r#"{"asset":{"version":"2.0"},"buffers":[{"uri":"part.bin","byteLength":4}]}"#;
+    fs::write(folder.path().join("part.gltf"), apart).unwrap();
     fs::write(folder.path().join("empty.stl"), "solid nothing facet endsolid").unwrap();
     for (drawn, message) in [
         ("mesh = \"missing.stl\"", "`missing.stl` cannot be read"),
         ("mesh = \"empty.stl\"", "holds no triangles"),
-        ("mesh = \"part.toml\"", "it is no STL file"),
+        ("mesh = \"part.toml\"", "it is neither a glTF file nor an STL file"),
+        ("mesh = \"part.gltf\"", "its buffer `part.bin` cannot be read"),
         ("mesh = \"part.stl\"\nshape = { sphere = 1 }", "both `shape` and `mesh`"),
         ("shape = { box = [1, 0, 1] }", "is no solid"),
     ] {

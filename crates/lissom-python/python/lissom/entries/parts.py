@@ -59,7 +59,7 @@ class Body(Entry):
         axes: instead of rotation: first and second body axis; two vectors, or nothing.
         center_of_mass: in body axes, from the reference point [m]; three numbers, or nothing.
         shape: drawn about the centre of mass, instead of what has its inertia; `{ box | cylinder | tube | sphere }`, or nothing.
-        mesh: instead of `shape`: an STL file in metres and body axes; relative to the file that names it; a text, or nothing.
+        mesh: instead of `shape`: an STL or glTF file in metres and body axes; relative to the file that names it; a text, or nothing.
         velocity: of the reference point at the start, global axes [m/s]; three numbers, or nothing.
         angular_velocity: at the start, body axes [rad/s]; three numbers, or nothing.
     """

@@ -58,7 +58,7 @@ entry! {
     center_of_mass: [f64; 3] = "center_of_mass";
     /// Drawn about the centre of mass, instead of what has its inertia.
     shape: Solid = "shape";
-    /// Instead of `shape`: an STL file in metres and body axes; relative to the file that names it.
+    /// Instead of `shape`: an STL or glTF file in metres and body axes; relative to the file that names it.
     mesh: String = "mesh";
     /// Of the reference point at the start, global axes \[m/s\].
     velocity: [f64; 3] = "velocity";

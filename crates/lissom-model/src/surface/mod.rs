@@ -1,4 +1,7 @@
-//! Surfaces of bodies as they are drawn: triangles, from solids or from STL files.
+//! Surfaces of bodies as they are drawn: triangles, from solids or from files (`stl`, `gltf`).
+
+mod gltf;
+mod stl;
 
 use std::collections::HashMap;
 
@@ -6,6 +9,9 @@ use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
 
 use crate::solid::Solid;
+
+/// The corners of a triangle.
+type Triangle = [[f32; 3]; 3];
 
 /// Sides of what is round.
 const ROUND: usize = 32;
@@ -24,9 +30,14 @@ pub struct Surface {
 /// A file that is no surface.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub(crate) enum SurfaceError {
-    /// It is no STL file.
-    #[error("it is no STL file: it neither holds as many triangles as it says, nor `facet` and `vertex`")]
+    /// It is of no format that is known.
+    #[error(
+        "it is neither a glTF file nor an STL file, with as many triangles as it says or of `facet` and `vertex`"
+    )]
     Foreign,
+    /// It is a glTF file that cannot be drawn.
+    #[error("as a glTF file, {0}")]
+    Gltf(String),
     /// It has none.
     #[error("it holds no triangles")]
     Empty,
@@ -111,12 +122,14 @@ impl Surface {
         Self { points, triangles }
     }
 
-    /// Reads an STL file, of numbers or of words. Corners at one place become one point.
-    pub(crate) fn of_stl(bytes: &[u8]) -> Result<Self, SurfaceError> {
-        let corners = match numbers(bytes) {
-            Some(corners) => corners,
-            None => words(bytes)?,
-        };
+    /// Reads an STL or a glTF file, which is told by how it begins; `beside` reads the buffers that a glTF file names. Corners
+    /// at one place become one point.
+    pub(crate) fn of_file(
+        bytes: &[u8],
+        beside: &dyn Fn(&str) -> Result<Vec<u8>, String>,
+    ) -> Result<Self, SurfaceError> {
+        let is_gltf = bytes.starts_with(gltf::MAGIC) || bytes.trim_ascii_start().starts_with(b"{");
+        let corners = if is_gltf { gltf::triangles(bytes, beside)? } else { stl::triangles(bytes)? };
         if corners.is_empty() {
             return Err(SurfaceError::Empty);
         }
@@ -139,38 +152,6 @@ impl Surface {
         }
         Ok(surface)
     }
-}
-
-/// A heading of 80 bytes, the number of triangles, and for each its normal, its corners and two bytes more; none if the length
-/// tells otherwise.
-fn numbers(bytes: &[u8]) -> Option<Vec<[[f32; 3]; 3]>> {
-    let count = u32::from_le_bytes(*bytes.get(80..84)?.first_chunk()?) as usize;
-    if bytes.len() != 84 + 50 * count {
-        return None;
-    }
-    let triangle = |record: &[u8]| {
-        let (words, _) = record[12..48].as_chunks::<4>();
-        std::array::from_fn(|corner| std::array::from_fn(|k| f32::from_le_bytes(words[3 * corner + k])))
-    };
-    Some(bytes[84..].chunks_exact(50).map(triangle).collect())
-}
-
-/// Words, of which those behind `vertex` are places.
-fn words(bytes: &[u8]) -> Result<Vec<[[f32; 3]; 3]>, SurfaceError> {
-    let text = std::str::from_utf8(bytes).map_err(|_| SurfaceError::Foreign)?;
-    if !text.trim_start().starts_with("solid") || !text.contains("facet") {
-        return Err(SurfaceError::Foreign);
-    }
-    let mut places: Vec<[f32; 3]> = Vec::new();
-    let mut words = text.split_ascii_whitespace();
-    while let Some(word) = words.next() {
-        if word == "vertex" {
-            let mut number = || words.next().and_then(|word| word.parse().ok()).ok_or(SurfaceError::Foreign);
-            places.push([number()?, number()?, number()?]);
-        }
-    }
-    let (triangles, rest) = places.as_chunks::<3>();
-    if rest.is_empty() { Ok(triangles.to_vec()) } else { Err(SurfaceError::Foreign) }
 }
 
 #[cfg(test)]
@@ -197,6 +178,10 @@ mod tests {
         }
     }
 
+    fn of_stl(bytes: &[u8]) -> Result<Surface, SurfaceError> {
+        Surface::of_file(bytes, &|_| Err("STL files name no others".to_owned()))
+    }
+
     #[test]
     fn both_forms_of_stl_are_read() {
         let corners: [[f32; 3]; 4] = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
@@ -214,15 +199,15 @@ mod tests {
             binary.extend([0; 2]);
         }
         text.push_str("endsolid part\n");
-        let surface = Surface::of_stl(text.as_bytes()).unwrap();
+        let surface = of_stl(text.as_bytes()).unwrap();
         assert_eq!((surface.points.len(), surface.triangles.len()), (4, 4));
         assert!((volume(&surface) - 1.0 / 6.0).abs() < 1e-12);
-        assert_eq!(Surface::of_stl(&binary).unwrap(), surface);
-        assert_eq!(Surface::of_stl(&binary[..200]), Err(SurfaceError::Foreign));
-        assert_eq!(Surface::of_stl(b"solid\nfacet\nendsolid"), Err(SurfaceError::Empty));
-        assert_eq!(Surface::of_stl(b"solid\nfacet vertex 1 2 x"), Err(SurfaceError::Foreign));
+        assert_eq!(of_stl(&binary).unwrap(), surface);
+        assert_eq!(of_stl(&binary[..200]), Err(SurfaceError::Foreign));
+        assert_eq!(of_stl(b"solid\nfacet\nendsolid"), Err(SurfaceError::Empty));
+        assert_eq!(of_stl(b"solid\nfacet vertex 1 2 x"), Err(SurfaceError::Foreign));
         assert_eq!(
-            Surface::of_stl(b"solid\nfacet vertex 1 2 nan vertex 0 0 0 vertex 1 0 0"),
+            of_stl(b"solid\nfacet vertex 1 2 nan vertex 0 0 0 vertex 1 0 0"),
             Err(SurfaceError::NotFinite(1))
         );
     }
