@@ -146,6 +146,9 @@ fn grid(document: &Document) -> String {
         AnalysisKind::Statics { steps: None, relative_tolerance } => {
             format!("load steps to a tolerance of {}", short(*relative_tolerance))
         }
+        AnalysisKind::Path { end, .. } if document.analysis.vary.is_some() => {
+            format!("path to {}", short(*end))
+        }
         AnalysisKind::Path { end, .. } => format!("path to load factor {}", short(*end)),
         AnalysisKind::Buckling { count } => format!("{count} load factors of buckling"),
         AnalysisKind::Modes { count, .. } => format!("{count} modes"),

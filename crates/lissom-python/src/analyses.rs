@@ -216,7 +216,7 @@ pub(crate) fn path<'py>(model: &NativeModel, py: Python<'py>) -> PyResult<(Parts
     let own = model.clone();
     let (mut session, document) = interruptible(py, move || {
         let document = own.document()?;
-        let session = PathSession::new(&document).map_err(|error| match error {
+        let session = PathSession::new(&own.model, &own.overrides).map_err(|error| match error {
             PathSessionError::Model(report) => of_report(&report),
             other => refused(matches!(other, PathSessionError::NotAPath(_)), &other),
         })?;

@@ -1,10 +1,16 @@
-//! Equilibrium paths of a model: the systems with and without loads, the table of equilibria, the critical points.
+//! Equilibrium paths of a model: its systems along the path, the table of equilibria, the critical points.
+
+mod number;
 
 use std::io;
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use lissom_core::analysis::path::{BranchChoice, CriticalPoint, EquilibriumPath, PathError, PathSettings};
+use lissom_core::analysis::path::{
+    BranchChoice, CriticalPoint, EquilibriumPath, Family, PathError, PathSettings,
+};
+use lissom_core::system::{State, System};
 use lissom_model::channels::Channel;
 use lissom_model::document::{AnalysisKind, OutputKind};
 use lissom_model::lower::{Lowered, lower};
@@ -12,8 +18,15 @@ use lissom_model::output::{Column, Record, Summary, Writer};
 use lissom_model::{Document, Report};
 use serde_json::{Value, json};
 
-use crate::model::Override;
+use crate::model::{Model, Override};
 use crate::session::columns;
+use number::Varied;
+pub use number::varied_number;
+
+/// First step of a path as part of its way, where it is not given.
+const FIRST_OF_PATH: f64 = 0.02;
+/// Most steps to the loads of a model whose number is varied.
+const MOST_STEPS_TO_LOADS: usize = 1000;
 
 /// A path that has no start.
 #[derive(Debug, thiserror::Error)]
@@ -28,6 +41,27 @@ pub enum PathSessionError {
     /// There is no equilibrium to start from, or no load.
     #[error(transparent)]
     Start(#[from] PathError),
+    /// The loads are larger than a critical load before the number is varied.
+    #[error(
+        "`{path}` is varied from the equilibrium under the loads of the model, but they pass a critical point at load factor \
+         {load_factor:.6e} already: begin with smaller loads, or vary a parameter of the load itself"
+    )]
+    AlreadyCritical {
+        /// Path to the number.
+        path: String,
+        /// Load factor of the first critical point.
+        load_factor: f64,
+    },
+    /// The loads were not reached before the number is varied.
+    #[error(
+        "`{path}` is varied from the equilibrium under the loads of the model, which is not found: {error}"
+    )]
+    NotLoaded {
+        /// Path to the number.
+        path: String,
+        /// Why.
+        error: PathError,
+    },
 }
 
 /// Why a path ended early.
@@ -37,6 +71,9 @@ pub enum PathRunError {
     /// The path cannot be followed any farther.
     #[error(transparent)]
     Path(#[from] PathError),
+    /// The model is wrong with a number at which there is an equilibrium.
+    #[error(transparent)]
+    Model(#[from] Report),
     /// A writer did not take the results.
     #[error("the results cannot be written: {0}")]
     Write(#[from] io::Error),
@@ -70,7 +107,9 @@ pub struct PathReport {
     pub end: PathEnd,
     /// Limit points and bifurcations, in their order along the path.
     pub critical: Vec<CriticalPoint>,
-    /// Last load factor.
+    /// What changes along the path: `load factor`, or the path to a number of the model file.
+    pub name: String,
+    /// Last load factor, or value of the number.
     pub load_factor: f64,
     /// Length of the path [-].
     pub arc: f64,
@@ -87,6 +126,10 @@ pub struct PathReport {
 /// A model on its way along an equilibrium path.
 pub struct PathSession {
     path: EquilibriumPath,
+    /// What changes along the path, unless it is the load factor.
+    varied: Option<Varied>,
+    /// The system of the last equilibrium, with its channels.
+    system: Arc<System>,
     channels: Vec<Channel>,
     columns: Vec<Column>,
     unknowns: [usize; 2],
@@ -94,16 +137,19 @@ pub struct PathSession {
 }
 
 impl PathSession {
-    /// At load factor zero.
+    /// At load factor zero, or where the number that is varied has the value of the model file.
     ///
     /// # Errors
-    /// If the model is wrong, has no load or no equilibrium without one.
-    pub fn new(document: &Document) -> Result<Self, PathSessionError> {
+    /// If the model is wrong, has no load or no equilibrium without one, or the number changes nothing.
+    pub fn new(model: &Model, overrides: &[Override]) -> Result<Self, PathSessionError> {
         let began = Instant::now();
+        let document = model.document(overrides)?;
         let AnalysisKind::Path { first, end, most_steps, branch } = document.analysis.kind else {
             return Err(PathSessionError::NotAPath(document.analysis.kind.name()));
         };
-        let Lowered { system, state, settings, channels, .. } = lower(document)?;
+        let Lowered { system, state, settings, channels, .. } = lower(&document)?;
+        let varied = Varied::of(model, overrides, &document, &state)?;
+        let from = varied.as_ref().map_or(0.0, |varied| varied.from);
         let mut without = document.clone();
         without.gravity.fill(0.0);
         without.loads.clear();
@@ -111,7 +157,7 @@ impl PathSession {
         let layout = system.layout();
         let unknowns = [layout.coordinate_count(), layout.multiplier_rows().len()];
         let settings = PathSettings {
-            first: first.copysign(end),
+            first: first.unwrap_or(FIRST_OF_PATH * (end - from).abs()).copysign(end - from),
             end,
             most_steps,
             branch: BranchChoice { number: branch.unsigned_abs() as usize, is_reversed: branch < 0 },
@@ -119,16 +165,27 @@ impl PathSession {
             limits: settings.limits,
             solver: settings.solver,
         };
-        let path = EquilibriumPath::new(unloaded, system, state, settings)?;
-        let mut all = vec![
-            Column::new("load_factor", "", "load factor", ""),
-            Column::new("unstable", "", "unstable directions", ""),
-        ];
+        let own = Arc::clone(&system);
+        let (path, column) = match &varied {
+            None => {
+                let column = Column::new("load_factor", "", "load factor", "");
+                (EquilibriumPath::new(unloaded, system, state, settings)?, column)
+            }
+            Some(varied) => {
+                let state = under_loads(varied, [unloaded, system], state, &settings)?;
+                let along: (String, Box<dyn Family>) = (varied.path.clone(), Box::new(varied.clone()));
+                (
+                    EquilibriumPath::along(along, from, state, settings)?,
+                    Column::new(&varied.path, "", "value", ""),
+                )
+            }
+        };
+        let mut all = vec![column, Column::new("unstable", "", "unstable directions", "")];
         all.extend(columns(&channels));
-        Ok(Self { path, channels, columns: all, unknowns, began })
+        Ok(Self { path, varied, system: own, channels, columns: all, unknowns, began })
     }
 
-    /// What is recorded: the load factor, the number of unstable directions, then the outputs.
+    /// What is recorded: the load factor or the number that is varied, the number of unstable directions, then the outputs.
     pub fn columns(&self) -> &[Column] {
         &self.columns
     }
@@ -144,9 +201,9 @@ impl PathSession {
         out.extend([factor, self.path.unstable() as f64]);
         for channel in &self.channels {
             let first = out.len();
-            channel.evaluate(self.path.system(), self.path.state(), out);
+            channel.evaluate(&self.system, self.path.state(), out);
             // The potential of gravity grows with the load factor.
-            if channel.kind == OutputKind::Energy {
+            if channel.kind == OutputKind::Energy && self.varied.is_none() {
                 let mut without = Vec::new();
                 channel.evaluate(self.path.unloaded(), self.path.state(), &mut without);
                 for (value, without) in out[first..].iter_mut().zip(without) {
@@ -166,6 +223,7 @@ impl PathSession {
         let mut report = PathReport {
             end: PathEnd::Reached,
             critical: Vec::new(),
+            name: self.path.name().to_owned(),
             load_factor: 0.0,
             arc: 0.0,
             records: 0,
@@ -223,6 +281,11 @@ impl PathSession {
             report.steps[1] += step.rejected;
             report.iterations += step.iterations;
             report.critical.extend(step.critical);
+            if let Some(varied) = &self.varied {
+                // Outputs may depend on the number, too.
+                Lowered { system: self.system, channels: self.channels, .. } =
+                    varied.at(self.path.load_factor())?;
+            }
         }
     }
 
@@ -233,7 +296,9 @@ impl PathSession {
         if let PathEnd::Failed(error) = &report.end {
             tell("error", json!(error.to_string()));
         }
-        tell("load_factor", json!(report.load_factor));
+        let value = if self.varied.is_some() { "value" } else { "load_factor" };
+        tell("varied", json!(report.name));
+        tell(value, json!(report.load_factor));
         tell("arc", json!(report.arc));
         tell("records", json!(report.records));
         tell("steps", json!(report.steps[0]));
@@ -244,7 +309,7 @@ impl PathSession {
         let point = |point: &CriticalPoint| {
             json!({
                 "kind": point.kind.name(),
-                "load_factor": point.load_factor,
+                value: point.load_factor,
                 "arc": point.arc,
                 "unstable_before": point.unstable[0],
                 "unstable_after": point.unstable[1],
@@ -257,6 +322,40 @@ impl PathSession {
         tell("wall_seconds", json!(report.wall.as_secs_f64()));
         summary
     }
+}
+
+/// The equilibrium under the loads of a model whose number has its first value: loads grow from nothing, so that it is the one
+/// that the loaded model comes to.
+fn under_loads(
+    varied: &Varied,
+    [unloaded, loaded]: [Arc<System>; 2],
+    state: State,
+    settings: &PathSettings,
+) -> Result<State, PathSessionError> {
+    let settings = PathSettings {
+        first: 0.25,
+        end: 1.0,
+        most_steps: MOST_STEPS_TO_LOADS,
+        branch: BranchChoice::default(),
+        ..*settings
+    };
+    let mut path = match EquilibriumPath::new(unloaded, loaded, state.clone(), settings) {
+        Ok(path) => path,
+        // Stresses may be those of springs alone.
+        Err(PathError::NoLoad) => return Ok(state),
+        Err(error) => return Err(error.into()),
+    };
+    while !path.is_finished() {
+        let path_of = || varied.path.clone();
+        let step = path.advance().map_err(|error| PathSessionError::NotLoaded { path: path_of(), error })?;
+        if let Some(point) = step.critical.first() {
+            return Err(PathSessionError::AlreadyCritical {
+                path: path_of(),
+                load_factor: point.load_factor,
+            });
+        }
+    }
+    Ok(path.state().clone())
 }
 
 /// What is known before the first step.

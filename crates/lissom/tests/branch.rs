@@ -7,9 +7,8 @@ use lissom_core::analysis::path::CriticalKind;
 fn follow(text: &str, overrides: &[(&str, &str)]) -> (Record, PathReport) {
     let overrides: Vec<(String, String)> =
         overrides.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
-    let document =
-        Model::from_text("model.toml", text).document(&overrides).unwrap_or_else(|error| panic!("{error}"));
-    PathSession::new(&document).unwrap_or_else(|error| panic!("{error}")).record()
+    let model = Model::from_text("model.toml", text);
+    PathSession::new(&model, &overrides).unwrap_or_else(|error| panic!("{error}")).record()
 }
 
 fn near(found: f64, exact: f64, tolerance: f64) {

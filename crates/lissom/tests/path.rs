@@ -7,9 +7,8 @@ use lissom_core::analysis::path::CriticalKind;
 fn follow(text: &str, overrides: &[(&str, &str)]) -> (Record, PathReport) {
     let overrides: Vec<(String, String)> =
         overrides.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
-    let document =
-        Model::from_text("model.toml", text).document(&overrides).unwrap_or_else(|error| panic!("{error}"));
-    PathSession::new(&document).unwrap_or_else(|error| panic!("{error}")).record()
+    let model = Model::from_text("model.toml", text);
+    PathSession::new(&model, &overrides).unwrap_or_else(|error| panic!("{error}")).record()
 }
 
 fn near(found: f64, exact: f64, tolerance: f64) {
@@ -230,8 +229,7 @@ fn gravity_counts_as_a_load() {
 #[test]
 fn a_path_that_cannot_be_is_refused() {
     let start = |text: &str| {
-        let document = Model::from_text("model.toml", text).document(&[]).unwrap();
-        PathSession::new(&document).map(|_| ()).unwrap_err().to_string()
+        PathSession::new(&Model::from_text("model.toml", text), &[]).map(|_| ()).unwrap_err().to_string()
     };
     let idle = truss(0.3, 1.0).replace("vector = [0, -1, 0]", "vector = [0, -1, 0]\nscale = \"t\"");
     assert!(start(&idle).contains("load factor changes nothing"));

@@ -28,11 +28,11 @@ pub enum AnalysisKind {
         /// Part of its work that a load step of chosen size may leave unexplained.
         relative_tolerance: f64,
     },
-    /// Equilibria under loads times a load factor.
+    /// Equilibria under loads times a load factor, or along a number of the model file (`Analysis::vary`).
     Path {
-        /// First step of the load factor, greater than zero.
-        first: f64,
-        /// Load factor at which the path ends, not zero.
+        /// First step of the load factor or the number, greater than zero; none for a part of the way.
+        first: Option<f64>,
+        /// Load factor at which the path ends, not zero; or the last value of the number.
         end: f64,
         /// Most steps.
         most_steps: usize,
@@ -73,8 +73,7 @@ pub const DEFAULT_MODE_COUNT: usize = 20;
 /// Load factors of buckling that are sought where no number is given.
 pub const DEFAULT_BUCKLING_COUNT: usize = 5;
 
-/// First step of a path as part of its end, and most steps, where they are not given.
-const FIRST_OF_PATH: f64 = 0.02;
+/// Most steps of a path where they are not given.
 const MOST_STEPS_OF_PATH: usize = 1000;
 
 /// Part of its work that a load step of chosen size may leave unexplained where nothing says otherwise.
@@ -150,6 +149,8 @@ pub struct Analysis {
     pub frames_per_second: Option<f64>,
     /// Whether a motion with much more energy than anything put in fails.
     pub energy_check: bool,
+    /// Path in the model file to the number along which a path of equilibria goes; none for the load factor.
+    pub vary: Option<Located<String>>,
     /// Whether constant loads of statics grow from nothing over the load steps.
     pub ramp: bool,
     /// The word `analysis`.
@@ -235,6 +236,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
             None
         },
         energy_check: !dynamics || reader.flag("energy_check").is_none_or(|flag| flag.value),
+        vary: if word == "path" { reader.text("vary").map(|path| path.map(str::to_owned)) } else { None },
         ramp: word == "statics" && reader.flag("ramp").is_none_or(|flag| flag.value),
         span: name,
         start: start.as_ref()?.value,
@@ -252,16 +254,23 @@ fn without(reader: &Reader<'_, '_>) -> Without {
 }
 
 fn path(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {
+    let varies = reader.has("vary");
+    if varies && !reader.has("end") {
+        return reader.context.fail(
+            reader.name,
+            "the path along a number lacks `end`".to_owned(),
+            "give the value of the number at which the path ends",
+        );
+    }
     let end = if reader.has("end") { reader.number("end")? } else { Located::new(1.0, reader.name) };
-    if end.value == 0.0 {
+    if end.value == 0.0 && !varies {
         return reader.context.fail(
             end.span,
             "the path ends at load factor 0, where it starts".to_owned(),
             "choose an `end` that is not zero",
         );
     }
-    let first =
-        if reader.has("step") { reader.number("step")?.value } else { FIRST_OF_PATH * end.value.abs() };
+    let first = if reader.has("step") { Some(reader.number("step")?.value) } else { None };
     let most_steps = reader.count("steps").map_or(MOST_STEPS_OF_PATH, |steps| steps.value);
     let branch = match reader.node("branch") {
         None => 0.0,

@@ -571,9 +571,10 @@ fn analyses_without_records(mut common: Vec<Key>) -> Vec<Variant> {
     common.retain(|key| !matches!(key.name, "output_every" | "frames_per_second"));
     let mut path = common.clone();
     path.extend([
-        optional("end", Shape::Number, "", "load factor at which the path ends, default 1"),
-        optional("step", Shape::Positive, "", "first step of the load factor, default a fiftieth of `end`"),
+        optional("end", Shape::Number, "", "load factor at which the path ends, default 1; with `vary` the value at which it ends, which must be given"),
+        optional("step", Shape::Positive, "", "first step of the load factor or of the number, default a fiftieth of the way to `end`"),
         optional("steps", Shape::Count(1, 1_000_000), "", "most steps, default 1000"),
+        optional("vary", Shape::Text, "", "number of the model file along which the path goes, as `parameters.height`, from the value that it has there; default: the load factor"),
         optional("branch", Shape::Between(-1000.0, 1000.0), "", "bifurcation at which the path goes over to its branch, counted from 1; negative for the other sense of the branch; default 0, none"),
     ]);
     let mut buckling = common.clone();
@@ -593,7 +594,7 @@ fn analyses_without_records(mut common: Vec<Key>) -> Vec<Variant> {
     vec![
         Variant {
             word: "path",
-            summary: "Equilibria under loads times a load factor, through limit points, by arc length.",
+            summary: "Equilibria under loads times a load factor, or along a number of the model, through limit points, by arc length.",
             keys: path,
         },
         Variant {

@@ -197,6 +197,8 @@ class Response(_Found):
 class Path(Result):
     """An equilibrium path: `path["load_factor"]`, `path["unstable"]` and the outputs, over the length of the path.
 
+    Where the analysis varies a number, the column is called after it, and critical points have `value` for `load_factor`.
+
     The length along the path [-] stands where results of a run have the time.
     """
 

@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use clap::Args;
+use lissom::path::varied_number;
 use lissom::{Document, Model, Report, Session};
 use lissom_core::analysis::mobility::{Mobility, Redundant, mobility};
 use lissom_core::judge::Warning;
@@ -40,6 +41,7 @@ impl Check {
         show_warnings(&document);
         check_run(&document)?;
         let lowered = lower(&document)?;
+        varied_number(&model, &self.model.set, &document)?;
         let freedom = mobility(&lowered.system, &lowered.state);
         terminal::print(&told(model.name(), &document, &lowered, &freedom));
         for redundant in &freedom.redundant {
@@ -74,6 +76,9 @@ impl Check {
             Ok(lowered) => lowered,
             Err(report) => return Ok(wrong(&report)),
         };
+        if let Err(report) = varied_number(&model, &self.model.set, &document) {
+            return Ok(wrong(&report));
+        }
         let freedom = mobility(&lowered.system, &lowered.state);
         let redundant = |redundant: &Redundant| json!({ "joint": redundant.joint, "equation": redundant.equation, "among": redundant.among, "direction": redundant.direction });
         let layout = lowered.system.layout();
@@ -192,6 +197,9 @@ fn analysis(document: &Document, lowered: &Lowered) -> String {
         return format!("{count} load factors of buckling");
     }
     if let AnalysisKind::Path { end, .. } = document.analysis.kind {
+        if let Some(vary) = &document.analysis.vary {
+            return format!("equilibrium path along {} to {end}", vary.value);
+        }
         return format!("equilibrium path to load factor {end}");
     }
     let (plan, settings) = (&lowered.plan, &lowered.settings);

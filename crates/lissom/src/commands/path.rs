@@ -30,7 +30,7 @@ pub(super) fn run(
     }
     let unwritable = |error: FolderError| Failure::folder(Exit::Failed, &error);
     let mut summary = of_request(model.name(), overrides, document);
-    let started = match PathSession::new(document) {
+    let started = match PathSession::new(model, overrides) {
         Err(PathSessionError::Model(report)) => return Err(report.into()),
         other => other,
     };
@@ -81,7 +81,8 @@ fn told(heading: &str, report: &PathReport, folder: &Path) -> String {
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "  path to load factor {:.6e}, {:.3} long, in {} steps ({} tried again), {} iterations, {:.3} s",
+        "  path to {} {:.6e}, {:.3} long, in {} steps ({} tried again), {} iterations, {:.3} s",
+        report.name,
         report.load_factor,
         report.arc,
         report.steps[0],
@@ -93,8 +94,9 @@ fn told(heading: &str, report: &PathReport, folder: &Path) -> String {
         let [before, after] = point.unstable;
         let _ = writeln!(
             text,
-            "  {:<12} load factor {:.9e}, unstable directions {before} → {after}{}",
+            "  {:<12} {} {:.9e}, unstable directions {before} → {after}{}",
             point.kind.name(),
+            report.name,
             point.load_factor,
             if point.is_located { "" } else { ", not located well" }
         );

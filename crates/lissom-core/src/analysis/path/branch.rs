@@ -133,6 +133,7 @@ impl EquilibriumPath {
         }
         let load_factor = self.load_factor;
         Err(PathError::NoBranchThere {
+            name: self.name().to_owned(),
             load_factor,
             reason: last.map_or("all lead back to the path".to_owned(), |error| error.to_string()),
         })

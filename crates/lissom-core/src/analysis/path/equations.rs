@@ -1,6 +1,8 @@
 //! The equations of a step along an equilibrium path as Newton's method sees them: equilibrium, constraints, and one equation
 //! for the load factor. The bordered matrix is solved with the factors of the stiffness and two right-hand sides.
 
+use std::sync::Arc;
+
 use lissom_motion::{Motion, Vector6};
 use lissom_solver::{FactorError, FactorReport, LinearSolver};
 
@@ -8,6 +10,7 @@ use super::super::StepError;
 use super::super::compliance::Compliance;
 use super::super::step_error::pivot_hint;
 use super::super::workspace::sizes;
+use super::systems::PathSystems;
 use super::{PathSettings, Solution, Tangent};
 use crate::equilibration::Equilibration;
 use crate::joints::attached::Increments;
@@ -64,7 +67,10 @@ pub(super) struct PathWork {
     response: Vec<f64>,
     load: Vec<f64>,
     residual: Vec<f64>,
-    unloaded: Vec<f64>,
+    /// That of another system.
+    other: Vec<f64>,
+    /// Violations at the start of the step, of the system at hand.
+    violations: Vec<f64>,
     last: Change,
     before: Change,
     correction: f64,
@@ -77,7 +83,8 @@ pub(super) struct PathWork {
 }
 
 impl PathWork {
-    pub(super) fn new(unloaded: &System, loaded: &System, state: &State, settings: &PathSettings) -> Self {
+    pub(super) fn new(systems: &PathSystems, state: &State, settings: &PathSettings) -> Self {
+        let (unloaded, loaded) = (systems.unloaded(), systems.any());
         let layout = loaded.layout();
         let (size, count) = (layout.size(), layout.coordinate_count());
         let entries = loaded.structure().pattern.entries();
@@ -105,7 +112,8 @@ impl PathWork {
             response: zeros.clone(),
             load: zeros.clone(),
             residual: zeros.clone(),
-            unloaded: zeros,
+            other: zeros,
+            violations: state.violations.clone(),
             last: nothing.clone(),
             before: nothing,
             correction: 0.0,
@@ -158,7 +166,7 @@ impl PathWork {
 
 /// One step from `start`.
 pub(super) struct PathEquations<'a> {
-    pub(super) systems: [&'a System; 2],
+    pub(super) systems: &'a mut PathSystems,
     pub(super) settings: &'a PathSettings,
     pub(super) start: &'a State,
     pub(super) start_factor: f64,
@@ -195,7 +203,7 @@ impl PathEquations<'_> {
     }
 
     fn apply(&mut self, change: &Change, share: f64) {
-        let layout = self.systems[1].layout();
+        let layout = self.systems.any().layout();
         let work = &mut *self.work;
         for (node, rows) in layout.node_rows.iter().enumerate() {
             let mut psi = Vector6::zeros();
@@ -237,43 +245,92 @@ impl PathEquations<'_> {
                 joints: None,
             },
             multipliers: &work.multipliers,
-            violations: &self.start.violations,
+            violations: &work.violations,
             augmentation: work.scaled.augmentation(),
         }
     }
 
-    /// The residual, and its derivative by the load factor.
-    fn evaluate(&mut self) {
-        let mut unloaded = std::mem::take(&mut self.work.unloaded);
+    /// The residual. Under loads also its derivative by their factor. False if there is no system for the value at hand.
+    fn evaluate(&mut self) -> bool {
+        let value = self.work.load_factor;
+        let system = match &mut *self.systems {
+            PathSystems::Loads([_, loaded]) => {
+                self.work.violations.copy_from_slice(&self.start.violations);
+                Arc::clone(loaded)
+            }
+            PathSystems::Number(number) => {
+                let Some(system) = number.at(value) else { return false };
+                system.violations(&self.start.kinematics, &mut self.work.violations);
+                system
+            }
+        };
         let mut residual = std::mem::take(&mut self.work.residual);
-        let point = self.point(false);
-        self.systems[0].residual(&point, &mut unloaded);
-        self.systems[1].residual(&point, &mut residual);
-        let work = &mut *self.work;
-        for ((load, residual), unloaded) in work.load.iter_mut().zip(&mut residual).zip(&unloaded) {
-            *load = *residual - unloaded;
-            *residual = unloaded + work.load_factor * *load;
+        system.residual(&self.point(false), &mut residual);
+        if let PathSystems::Loads([unloaded, _]) = &*self.systems {
+            let mut other = std::mem::take(&mut self.work.other);
+            unloaded.residual(&self.point(false), &mut other);
+            let work = &mut *self.work;
+            for ((load, residual), unloaded) in work.load.iter_mut().zip(&mut residual).zip(&other) {
+                *load = *residual - unloaded;
+                *residual = unloaded + value * *load;
+            }
+            work.other = other;
         }
-        (work.unloaded, work.residual) = (unloaded, residual);
+        self.work.residual = residual;
+        true
+    }
+
+    /// The derivative of the residual by a number on which the system depends, by differences. False if there are no systems
+    /// beside the one at hand.
+    fn differentiate(&mut self) -> bool {
+        let PathSystems::Number(number) = &mut *self.systems else { return true };
+        let Some([below, above]) = number.around(self.work.load_factor) else { return false };
+        let own = self.work.violations.clone();
+        let mut other = std::mem::take(&mut self.work.other);
+        let mut load = std::mem::take(&mut self.work.load);
+        for ((_, system), out) in [&below, &above].into_iter().zip([&mut other, &mut load]) {
+            system.violations(&self.start.kinematics, &mut self.work.violations);
+            system.residual(&self.point(false), out);
+        }
+        for (load, other) in load.iter_mut().zip(&other) {
+            *load = (*load - other) / (above.0 - below.0);
+        }
+        (self.work.other, self.work.load, self.work.violations) = (other, load, own);
+        true
     }
 
     /// Linearises at the iterate and factors; then solves for the response to the load.
     fn factor(&mut self, stressed_at_start: bool) -> Result<(), FactorError> {
-        self.evaluate();
+        if !(self.evaluate() && self.differentiate()) {
+            return Err(FactorError::NotFinite { unknown: 0 });
+        }
         let mut values = std::mem::take(&mut self.work.values);
         let mut other = std::mem::take(&mut self.work.other_values);
         let mut scratch = std::mem::take(&mut self.work.scratch);
         let blend = self.work.scaled.blend(Weights { rate: 0.0, curvature: 0.0 });
+        let system = match &mut *self.systems {
+            PathSystems::Loads([_, loaded]) => Some(Arc::clone(loaded)),
+            PathSystems::Number(number) => number.at(self.work.load_factor),
+        };
+        let Some(system) = system else { return Err(FactorError::NotFinite { unknown: 0 }) };
         let point = self.point(stressed_at_start);
-        for (system, values) in self.systems.iter().zip([&mut other, &mut values]) {
+        let mut hand = |system: &System, values: &mut [f64]| {
             let mut receiver = Receiver::Real(Sum { blend, values, stiffness: &mut [] });
             system.hand_derivatives(&point, Chart::Body, &mut scratch, &mut receiver);
-        }
-        let system = self.systems[1];
+        };
+        hand(&system, &mut values);
+        let has_loads = if let PathSystems::Loads([unloaded, _]) = &*self.systems {
+            hand(unloaded, &mut other);
+            true
+        } else {
+            false
+        };
         let count = system.layout().coordinate_count();
         let work = &mut *self.work;
-        for (value, unloaded) in values.iter_mut().zip(&other) {
-            *value = unloaded + work.load_factor * (*value - unloaded);
+        if has_loads {
+            for (value, unloaded) in values.iter_mut().zip(&other) {
+                *value = unloaded + work.load_factor * (*value - unloaded);
+            }
         }
         (work.values, work.other_values, work.scratch) = (values, other, scratch);
         let pattern = &system.structure().pattern;
@@ -304,7 +361,7 @@ impl PathEquations<'_> {
     /// Solves with the factored tangent, for a residual in SI.
     fn solve(&mut self, right: &mut [f64]) {
         let work = &mut *self.work;
-        work.scaled.scale_residual(self.systems[1].layout(), right);
+        work.scaled.scale_residual(self.systems.any().layout(), right);
         work.equilibration.scale(right);
         work.solver.solve(right);
         work.equilibration.scale(right);
@@ -313,7 +370,7 @@ impl PathEquations<'_> {
     /// The state reached, and the direction of the path there.
     pub(super) fn finish(&mut self, iterations: usize) -> Result<Solution, StepError> {
         self.factor(false).map_err(|error| self.describe(&Failure::Factor(error)))?;
-        let count = self.systems[1].layout().coordinate_count();
+        let count = self.systems.any().layout().coordinate_count();
         let multiplier_count = self.work.multipliers.len();
         let mut probe = vec![0.0; count + multiplier_count];
         probe[..count].copy_from_slice(&self.work.probe);
@@ -349,14 +406,15 @@ impl PathEquations<'_> {
         }
         state.multipliers.copy_from_slice(&work.multipliers);
         let mut violations = vec![0.0; multiplier_count];
-        self.systems[1].stage_violations(&self.point(false), &mut violations);
+        // The system of this value was used last: it was linearised here.
+        self.systems.any().stage_violations(&self.point(false), &mut violations);
         state.violations = violations;
         Ok(Solution { state, load_factor: self.work.load_factor, tangent, iterations })
     }
 
     /// The direction of length 1 in which the stiffness factored last is softest, by inverse iteration.
     pub(super) fn softest_direction(&mut self) -> Vec<f64> {
-        let count = self.systems[1].layout().coordinate_count();
+        let count = self.systems.any().layout().coordinate_count();
         let mut direction = vec![0.0; count + self.work.multipliers.len()];
         for ((value, probe), size) in direction.iter_mut().zip(&self.work.probe).zip(&self.work.sizes) {
             *value = probe * size;
@@ -372,9 +430,17 @@ impl PathEquations<'_> {
         direction
     }
 
+    /// Nothing was applied: the last correction is the one before.
+    fn note_nothing(&mut self) {
+        let work = &mut *self.work;
+        std::mem::swap(&mut work.before, &mut work.last);
+        work.last.rows.fill(0.0);
+        work.last.load = 0.0;
+    }
+
     /// A failure with names.
     pub(super) fn describe(&self, failure: &Failure) -> StepError {
-        let layout = self.systems[1].layout();
+        let layout = self.systems.any().layout();
         let time = self.start.kinematics.time;
         let work = &*self.work;
         let scaled = |row: usize| (work.sizes[row] * work.last.rows[row]).abs();
@@ -404,10 +470,13 @@ impl PathEquations<'_> {
 
 impl Equations for PathEquations<'_> {
     fn correct(&mut self) -> Correction {
-        self.evaluate();
+        if !self.evaluate() {
+            self.note_nothing();
+            return Correction { size: f64::NAN, reference: 0.0 };
+        }
         let mut rows = std::mem::take(&mut self.work.before.rows);
         rows.copy_from_slice(&self.work.residual);
-        let count = self.systems[1].layout().coordinate_count();
+        let count = self.systems.any().layout().coordinate_count();
         let work = &mut *self.work;
         if let Some(compliance) = &work.compliance {
             let factor = work.scaled.multiplier_factor() * work.scaled.scale();
@@ -437,6 +506,7 @@ impl Equations for PathEquations<'_> {
         let mut change = Change { rows, load };
         if !(size.is_finite() && load.is_finite()) {
             work.before.rows = change.rows;
+            self.note_nothing();
             return Correction { size: f64::NAN, reference: 0.0 };
         }
         if size > LARGEST_CORRECTION {

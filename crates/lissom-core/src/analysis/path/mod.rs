@@ -2,12 +2,14 @@
 //! [Riks 1979; Crisfield 1981].
 //!
 //! The residual at load factor Λ is (1 - Λ) r₀ + Λ r₁, with r₀ that of the system without gravity and loads and r₁ that of the
-//! whole one: no load knows of the factor. Distances along the path are root mean squares of rotations and of displacements over
+//! whole one: no load knows of the factor. Along a number of the model the residual is that of the system for its value, and the
+//! derivative by it a difference; what else is said of Λ is true of the number. Distances along the path are root mean squares of rotations and of displacements over
 //! the model's length; multipliers have no part in them.
 
 mod branch;
 mod critical;
 mod equations;
+mod systems;
 
 use std::sync::Arc;
 
@@ -22,6 +24,8 @@ pub use branch::BranchChoice;
 use branch::Departure;
 pub use critical::{CriticalKind, CriticalPoint};
 use equations::{Condition, PathEquations, PathWork};
+pub use systems::Family;
+use systems::{PathSystems, are_alike};
 
 /// Newton's tolerance is at most this: positions of limit points follow from differences along the path.
 const TOLERANCE: f64 = 1e-10;
@@ -32,9 +36,9 @@ const FARTHER: f64 = 1.1;
 /// What a path is told besides its systems and its start.
 #[derive(Clone, Copy)]
 pub struct PathSettings {
-    /// First step of the load factor; its sign is the direction in which the path begins.
+    /// First step of the load factor, or of the number; its sign is the direction in which the path begins.
     pub first: f64,
-    /// Load factor at which the path ends.
+    /// Load factor, or value, at which the path ends.
     pub end: f64,
     /// Most steps.
     pub most_steps: usize,
@@ -65,14 +69,60 @@ pub enum PathError {
         "no load and no gravity acts at the time `start`, so that a load factor changes nothing; give loads a size there"
     )]
     NoLoad,
+    /// The number changes nothing.
+    #[error(
+        "a small change of `{name}` moves nothing in the equilibrium at {value}, where the path begins: there is no path along it"
+    )]
+    NoEffect {
+        /// What is varied.
+        name: String,
+        /// Its value at the start.
+        value: f64,
+    },
+    /// There is no model for the value at which a path begins.
+    #[error("`{name}` cannot be {value}, where the path begins: {problem}")]
+    NoSystem {
+        /// What is varied.
+        name: String,
+        /// Its value.
+        value: f64,
+        /// Why.
+        problem: String,
+    },
+    /// The number cannot go farther.
+    #[error(
+        "the path ends at {name} {value:.6e}, {arc:.3e} along it: the model has no meaning beyond ({problem})"
+    )]
+    Beyond {
+        /// What is varied.
+        name: String,
+        /// Its value at the last equilibrium.
+        value: f64,
+        /// Length of the path up to there.
+        arc: f64,
+        /// What is wrong with the model beyond.
+        problem: String,
+    },
+    /// There is no equilibrium where a path along a number begins.
+    #[error("no equilibrium at {name} {value} at the start of the path: {error}")]
+    StartAlong {
+        /// What is varied.
+        name: String,
+        /// Its value.
+        value: f64,
+        /// Why none was found.
+        error: StepError,
+    },
     /// There is no equilibrium without loads.
     #[error("no equilibrium without loads at the start of the path: {0}")]
     Start(StepError),
     /// A step was not found however short.
     #[error(
-        "the path ends at load factor {load_factor:.6e}, {arc:.3e} along it: no equilibrium is found nearby ({error})"
+        "the path ends at {name} {load_factor:.6e}, {arc:.3e} along it: no equilibrium is found nearby ({error})"
     )]
     Lost {
+        /// What changes along the path.
+        name: String,
         /// Load factor of the last equilibrium.
         load_factor: f64,
         /// Length of the path up to there.
@@ -82,10 +132,12 @@ pub enum PathError {
     },
     /// There are fewer bifurcations than that at which the path was to be left.
     #[error(
-        "after {steps} steps the load factor is {load_factor:.6e}, and the path has met {met} bifurcation(s), not the {wanted} \
+        "after {steps} steps the {name} is {load_factor:.6e}, and the path has met {met} bifurcation(s), not the {wanted} \
          that `branch` asks for: give more `steps`, a smaller first `step`, or another `branch`"
     )]
     NoBifurcation {
+        /// What changes along the path.
+        name: String,
         /// Steps taken.
         steps: usize,
         /// Load factor reached.
@@ -96,8 +148,10 @@ pub enum PathError {
         wanted: usize,
     },
     /// No other path was found at a bifurcation.
-    #[error("no branch is found at the bifurcation at load factor {load_factor:.6e}: {reason}")]
+    #[error("no branch is found at the bifurcation at {name} {load_factor:.6e}: {reason}")]
     NoBranchThere {
+        /// What changes along the path.
+        name: String,
         /// Load factor of the bifurcation.
         load_factor: f64,
         /// What the attempts came to.
@@ -105,10 +159,12 @@ pub enum PathError {
     },
     /// The number of steps is used up.
     #[error(
-        "after {steps} steps the load factor is {load_factor:.6e} and has not come to {end}: give more `steps`, or an `end` \
+        "after {steps} steps the {name} is {load_factor:.6e} and has not come to {end}: give more `steps`, or an `end` \
          that the path reaches"
     )]
     TooManySteps {
+        /// What changes along the path.
+        name: String,
         /// Steps taken.
         steps: usize,
         /// Load factor reached.
@@ -146,7 +202,7 @@ pub struct PathStep {
 
 /// An equilibrium path as far as it has been followed.
 pub struct EquilibriumPath {
-    systems: [Arc<System>; 2],
+    systems: PathSystems,
     settings: PathSettings,
     state: State,
     load_factor: f64,
@@ -160,6 +216,14 @@ pub struct EquilibriumPath {
     /// The bifurcation at which it stands, where it is to be left there.
     departure: Option<Departure>,
     is_finished: bool,
+}
+
+/// Why a path has no start.
+enum NoStart {
+    /// No equilibrium was found.
+    Failed(StepError),
+    /// What changes along the path moves nothing.
+    Nothing,
 }
 
 /// A solution: state and load factor with the path's direction there.
@@ -179,32 +243,62 @@ impl EquilibriumPath {
         unloaded: Arc<System>,
         loaded: Arc<System>,
         state: State,
-        mut settings: PathSettings,
+        settings: PathSettings,
     ) -> Result<Self, PathError> {
         if unloaded.has_feedback() || loaded.has_feedback() {
             return Err(PathError::Feedback);
         }
-        let layouts = [&unloaded, &loaded].map(|system| system.layout());
-        if layouts[0].coordinate_count() != layouts[1].coordinate_count()
-            || layouts[0].size() != layouts[1].size()
-            || unloaded.pattern() != loaded.pattern()
-        {
+        if !are_alike(&unloaded, &loaded) {
             return Err(PathError::NotAlike);
         }
+        Self::of_systems(PathSystems::Loads([unloaded, loaded]), 0.0, state, settings).map_err(|failed| {
+            match failed {
+                NoStart::Failed(error) => PathError::Start(error),
+                NoStart::Nothing => PathError::NoLoad,
+            }
+        })
+    }
+
+    /// The start of a path along a number called `name`, of which `family` has the systems: equilibrium near `state` where it
+    /// has the value `from`.
+    ///
+    /// # Errors
+    /// If there is no such equilibrium, or the number changes nothing.
+    pub fn along(
+        (name, family): (String, Box<dyn Family>),
+        from: f64,
+        state: State,
+        settings: PathSettings,
+    ) -> Result<Self, PathError> {
+        let systems = PathSystems::of_number(name.clone(), family, [from, settings.end])?;
+        if systems.any().has_feedback() {
+            return Err(PathError::Feedback);
+        }
+        Self::of_systems(systems, from, state, settings).map_err(|failed| match failed {
+            NoStart::Failed(error) => PathError::StartAlong { name, value: from, error },
+            NoStart::Nothing => PathError::NoEffect { name, value: from },
+        })
+    }
+
+    fn of_systems(
+        systems: PathSystems,
+        from: f64,
+        mut state: State,
+        mut settings: PathSettings,
+    ) -> Result<Self, NoStart> {
         settings.limits.tolerance = settings.limits.tolerance.min(TOLERANCE);
-        let mut state = state;
         at_rest(&mut state.kinematics);
         state.multipliers.fill(0.0);
         let mut violations = vec![0.0; state.multipliers.len()];
-        loaded.violations(&state.kinematics, &mut violations);
+        systems.any().violations(&state.kinematics, &mut violations);
         state.violations = violations;
-        let work = PathWork::new(&unloaded, &loaded, &state, &settings);
+        let work = PathWork::new(&systems, &state, &settings);
         let empty = Tangent { direction: Vec::new(), load_rate: 1.0, turn: 0.0, unstable: 0, signature: 0.0 };
         let mut path = Self {
-            systems: [unloaded, loaded],
+            systems,
             settings,
             state,
-            load_factor: 0.0,
+            load_factor: from,
             arc: 0.0,
             tangent: empty,
             control: ArcControl::new(1.0),
@@ -215,11 +309,11 @@ impl EquilibriumPath {
             is_finished: false,
         };
         let start = path.state.clone();
-        let found = path.solve(&start, 0.0, None, Condition::Load(0.0)).map_err(PathError::Start)?;
+        let found = path.solve(&start, from, None, Condition::Load(from)).map_err(NoStart::Failed)?;
         path.take(found, 0.0);
         let rate = path.tangent.load_rate.abs();
         if !rate.is_finite() || path.work.load_is_zero() {
-            return Err(PathError::NoLoad);
+            return Err(NoStart::Nothing);
         }
         if (path.tangent.load_rate > 0.0) != (path.settings.first > 0.0) {
             path.tangent.reverse();
@@ -228,14 +322,19 @@ impl EquilibriumPath {
         Ok(path)
     }
 
-    /// The system with its loads.
+    /// The system with its loads; along a number, that of a value near the last equilibrium's.
     pub fn system(&self) -> &System {
-        &self.systems[1]
+        self.systems.any()
     }
 
-    /// The system without gravity and loads.
+    /// What changes along it, in words.
+    pub fn name(&self) -> &str {
+        self.systems.name()
+    }
+
+    /// The system without gravity and loads; along a number, as [`system`](Self::system).
     pub fn unloaded(&self) -> &System {
-        &self.systems[0]
+        self.systems.unloaded()
     }
 
     /// The last equilibrium.
@@ -243,7 +342,7 @@ impl EquilibriumPath {
         &self.state
     }
 
-    /// Its load factor.
+    /// Its load factor, or the value of the number.
     pub fn load_factor(&self) -> f64 {
         self.load_factor
     }
@@ -280,11 +379,12 @@ impl EquilibriumPath {
         }
         if self.steps >= self.settings.most_steps {
             let (steps, load_factor, end) = (self.steps, self.load_factor, self.settings.end);
-            let (met, wanted) = (self.bifurcations, self.settings.branch.number);
+            let (met, wanted, name) =
+                (self.bifurcations, self.settings.branch.number, self.name().to_owned());
             if met < wanted {
-                return Err(PathError::NoBifurcation { steps, load_factor, met, wanted });
+                return Err(PathError::NoBifurcation { name, steps, load_factor, met, wanted });
             }
-            return Err(PathError::TooManySteps { steps, load_factor, end });
+            return Err(PathError::TooManySteps { name, steps, load_factor, end });
         }
         if let Some(departure) = self.departure.take() {
             self.depart(&departure, &mut report)?;
@@ -299,7 +399,11 @@ impl EquilibriumPath {
             };
             report.rejected += 1;
             if !self.control.reject(size) {
-                let (load_factor, arc) = (self.load_factor, self.arc);
+                let (load_factor, arc, name) = (self.load_factor, self.arc, self.name().to_owned());
+                if let Some(problem) = self.systems.problem() {
+                    let problem = problem.to_owned();
+                    return Err(PathError::Beyond { name, value: load_factor, arc, problem });
+                }
                 let bent = StepError::NotConverged {
                     time: self.state.kinematics.time,
                     iterations: 0,
@@ -307,7 +411,7 @@ impl EquilibriumPath {
                     worst: "the path turns at once".to_owned(),
                     hint: "take a smaller `step`",
                 };
-                return Err(PathError::Lost { load_factor, arc, error: error.unwrap_or(bent) });
+                return Err(PathError::Lost { name, load_factor, arc, error: error.unwrap_or(bent) });
             }
         }
     }
@@ -369,7 +473,7 @@ impl EquilibriumPath {
     fn solve_for_mode(&mut self, start: &State, distance: f64) -> Result<(Solution, Vec<f64>), StepError> {
         let found = self.solve_along(start, Condition::Arc(distance))?;
         let mut equations = PathEquations {
-            systems: [&self.systems[0], &self.systems[1]],
+            systems: &mut self.systems,
             settings: &self.settings,
             start,
             start_factor: self.load_factor,
@@ -388,7 +492,7 @@ impl EquilibriumPath {
         condition: Condition,
     ) -> Result<Solution, StepError> {
         let mut equations = PathEquations {
-            systems: [&self.systems[0], &self.systems[1]],
+            systems: &mut self.systems,
             settings: &self.settings,
             start,
             start_factor: load_factor,

@@ -111,7 +111,7 @@ class Statics(Analysis):
 
 @dataclass(kw_only=True, slots=True)
 class Path(Analysis):
-    """Equilibria under loads times a load factor, through limit points, by arc length.
+    """Equilibria under loads times a load factor, or along a number of the model, through limit points, by arc length.
 
     Args:
         start: first time, default 0 [s]; a number, or nothing.
@@ -123,9 +123,10 @@ class Path(Analysis):
         tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/10000; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
         without: mechanisms left out of the search for a step's solution, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
-        end: load factor at which the path ends, default 1; a number, or nothing.
-        step: first step of the load factor, default a fiftieth of `end`; a number > 0, or nothing.
+        end: load factor at which the path ends, default 1; with `vary` the value at which it ends, which must be given; a number, or nothing.
+        step: first step of the load factor or of the number, default a fiftieth of the way to `end`; a number > 0, or nothing.
         steps: most steps, default 1000; a whole number from 1 to 1000000, or nothing.
+        vary: number of the model file along which the path goes, as `parameters.height`, from the value that it has there; default: the load factor; a text, or nothing.
         branch: bifurcation at which the path goes over to its branch, counted from 1; negative for the other sense of the branch; default 0, none; a number from -1000.0000 to 1000, or nothing.
     """
 
@@ -143,6 +144,7 @@ class Path(Analysis):
     end: Number | None = None
     step: Number | None = None
     steps: Count | None = None
+    vary: str | None = None
     branch: Number | None = None
 
 

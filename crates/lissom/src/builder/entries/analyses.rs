@@ -47,17 +47,19 @@ entry! {
 }
 
 entry! {
-    /// Equilibria under loads times a load factor, through limit points, by arc length.
+    /// Equilibria under loads times a load factor, or along a number of the model, through limit points, by arc length.
     Path => AnalysisId, "path";
     ["kind" = "path"]
     /// With what must be given.
     new()
-    /// Load factor at which the path ends, default 1.
+    /// Load factor at which the path ends, default 1; with `vary` the value at which it ends, which must be given.
     end: f64 = "end";
-    /// First step of the load factor, default a fiftieth of `end`.
+    /// First step of the load factor or of the number, default a fiftieth of the way to `end`.
     step: f64 = "step";
     /// Most steps, default 1000.
     steps: usize = "steps";
+    /// Number of the model file along which the path goes, as `parameters.height`, from the value that it has there; default: the load factor.
+    vary: String = "vary";
     /// Bifurcation at which the path goes over to its branch, counted from 1; negative for the other sense of the branch; default 0, none.
     branch: f64 = "branch";
 }

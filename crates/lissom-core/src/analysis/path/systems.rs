@@ -1,0 +1,148 @@
+//! What changes along a path: the factor of all loads, between the systems without and with them, or a number on which the
+//! system depends.
+
+use std::sync::Arc;
+
+use super::PathError;
+use crate::system::System;
+
+/// Systems that differ by one number alone, as a stiffness or a length.
+pub trait Family: Send {
+    /// The system where the number has this `value`.
+    ///
+    /// # Errors
+    /// In words, if the number cannot have it.
+    fn system(&mut self, value: f64) -> Result<Arc<System>, String>;
+}
+
+/// Derivatives by the number are differences over twice this part of its size: they err by its square, and by round-off over it.
+const APART: f64 = 1e-5;
+/// The size of a number is at least this part of the way it goes.
+const LEAST_SIZE: f64 = 1e-2;
+/// So many systems are kept.
+const KEPT: usize = 4;
+
+/// The systems of a path.
+pub(super) enum PathSystems {
+    /// Without and with the loads.
+    Loads([Arc<System>; 2]),
+    /// One for each value of a number.
+    Number(NumberSystems),
+}
+
+/// Systems by the value of a number.
+pub(super) struct NumberSystems {
+    name: String,
+    family: Box<dyn Family>,
+    /// Where the path begins and ends.
+    way: [f64; 2],
+    /// By value, the latest last.
+    kept: Vec<(f64, Arc<System>)>,
+    /// That of the last value asked for that there is one for: all have its unknowns.
+    last: Arc<System>,
+    /// Why there was no system for the last value asked for.
+    problem: Option<String>,
+}
+
+impl PathSystems {
+    /// A path along a number called `name`, from `way[0]` to `way[1]`.
+    pub(super) fn of_number(
+        name: String,
+        mut family: Box<dyn Family>,
+        way: [f64; 2],
+    ) -> Result<Self, PathError> {
+        let last = match family.system(way[0]) {
+            Ok(system) => system,
+            Err(problem) => return Err(PathError::NoSystem { name, value: way[0], problem }),
+        };
+        let kept = vec![(way[0], Arc::clone(&last))];
+        Ok(Self::Number(NumberSystems { name, family, way, kept, last, problem: None }))
+    }
+
+    /// What changes, in words.
+    pub(super) fn name(&self) -> &str {
+        match self {
+            Self::Loads(_) => "load factor",
+            Self::Number(number) => &number.name,
+        }
+    }
+
+    /// A system with the unknowns of the path: with its loads, or for the last value that there is one for.
+    pub(super) fn any(&self) -> &Arc<System> {
+        match self {
+            Self::Loads([_, loaded]) => loaded,
+            Self::Number(number) => &number.last,
+        }
+    }
+
+    /// The system without loads; along a number there is none apart.
+    pub(super) fn unloaded(&self) -> &Arc<System> {
+        match self {
+            Self::Loads([unloaded, _]) => unloaded,
+            Self::Number(number) => &number.last,
+        }
+    }
+
+    /// Why the last value asked for has no system.
+    pub(super) fn problem(&self) -> Option<&str> {
+        match self {
+            Self::Loads(_) => None,
+            Self::Number(number) => number.problem.as_deref(),
+        }
+    }
+}
+
+impl NumberSystems {
+    /// The system for a value; none if the number cannot have it.
+    pub(super) fn at(&mut self, value: f64) -> Option<Arc<System>> {
+        if let Some((_, system)) = self.kept.iter().find(|(known, _)| *known == value) {
+            self.problem = None;
+            self.last = Arc::clone(system);
+            return Some(Arc::clone(system));
+        }
+        let found = if value.is_finite() {
+            self.family.system(value)
+        } else {
+            Err("it is not a finite number".to_owned())
+        };
+        let system = match found {
+            Ok(system) if are_alike(&system, &self.last) => system,
+            Ok(_) => {
+                self.problem = Some("the model has other unknowns there".to_owned());
+                return None;
+            }
+            Err(problem) => {
+                self.problem = Some(problem);
+                return None;
+            }
+        };
+        self.problem = None;
+        self.last = Arc::clone(&system);
+        self.kept.push((value, Arc::clone(&system)));
+        if self.kept.len() > KEPT {
+            self.kept.remove(0);
+        }
+        Some(system)
+    }
+
+    /// Systems on both sides of a value with their values; on one side it is the value itself where the number cannot have
+    /// another one there.
+    pub(super) fn around(&mut self, value: f64) -> Option<[(f64, Arc<System>); 2]> {
+        let [from, to] = self.way;
+        let apart = APART * value.abs().max(LEAST_SIZE * (to - from).abs());
+        let mut side = |neighbour: f64| match self.at(neighbour) {
+            Some(system) => Some((neighbour, system)),
+            None => self.at(value).map(|system| (value, system)),
+        };
+        let [below, above] = [side(value - apart)?, side(value + apart)?];
+        (above.0 > below.0).then_some([below, above])
+    }
+}
+
+/// Whether two systems have the same unknowns.
+pub(super) fn are_alike(a: &System, b: &System) -> bool {
+    let layouts = [a, b].map(System::layout);
+    layouts[0].coordinate_count() == layouts[1].coordinate_count()
+        && layouts[0].size() == layouts[1].size()
+        && a.pattern() == b.pattern()
+}

@@ -1,0 +1,114 @@
+//! Models along a path that varies a number of the model file.
+
+use std::sync::Arc;
+
+use lissom_core::analysis::path::Family;
+use lissom_core::system::{Kinematics, LOCKED, State, System};
+use lissom_model::lower::registry::registry;
+use lissom_model::lower::{Lowered, lower};
+use lissom_model::numbers::number_at;
+use lissom_model::{Document, ModelText, Problem, Report};
+
+use crate::model::{Model, Override};
+
+/// Places that differ by less, over the size of the model, and angles [rad], are the same.
+const SAME: f64 = 1e-9;
+
+/// A model with a number that is varied.
+#[derive(Clone)]
+pub(super) struct Varied {
+    text: Arc<ModelText>,
+    /// Path to the number in the model file.
+    pub(super) path: String,
+    /// Its value in the file.
+    pub(super) from: f64,
+    /// Places of the model as it is written.
+    start: Arc<Kinematics>,
+}
+
+impl Varied {
+    /// The number that an analysis of kind `path` varies; none if it varies the load factor.
+    pub(super) fn of(
+        model: &Model,
+        overrides: &[Override],
+        document: &Document,
+        start: &State,
+    ) -> Result<Option<Self>, Report> {
+        let Some((path, from)) = varied_number(model, overrides, document)? else { return Ok(None) };
+        let text = Arc::new(model.model_text(overrides)?);
+        Ok(Some(Self { text, path, from, start: Arc::new(start.kinematics.clone()) }))
+    }
+
+    /// The model where the number has this value.
+    pub(super) fn at(&self, value: f64) -> Result<Lowered, Report> {
+        let document = self.text.document(&registry(), &[(self.path.clone(), format!("{value:?}"))])?;
+        lower(&document)
+    }
+}
+
+impl Family for Varied {
+    fn system(&mut self, value: f64) -> Result<Arc<System>, String> {
+        let lowered = self.at(value).map_err(|report| {
+            let first = report.problems().next().map(|problem| problem.message.clone());
+            first.unwrap_or_else(|| report.to_string())
+        })?;
+        match moved_where_locked(&lowered, &self.start) {
+            None => Ok(lowered.system),
+            Some(node) => Err(format!(
+                "it moves {node} where nothing can move it along the path: give its place by a joint, or vary another number"
+            )),
+        }
+    }
+}
+
+/// Path and value of the number that an analysis varies; none for the load factor.
+///
+/// # Errors
+/// If there is no such number, it is none of the model, or it has its last value already.
+pub fn varied_number(
+    model: &Model,
+    overrides: &[Override],
+    document: &Document,
+) -> Result<Option<(String, f64)>, Report> {
+    let Some(vary) = &document.analysis.vary else { return Ok(None) };
+    let path = vary.value.trim();
+    let wrong = |message: String, help: &str| {
+        Err(document.report(vec![Problem::error(vary.span, message).help(help.to_owned())]))
+    };
+    if path.split('.').next().is_some_and(|table| table.trim() == "analysis") {
+        return wrong(
+            format!("`{path}` is of the analysis, not of the model"),
+            "vary a number of the model, as `parameters.height`; without `vary` the load factor is varied",
+        );
+    }
+    let from = match number_at(model.text(), overrides, &document.parameters, path) {
+        Ok(from) => from,
+        Err(words) => return wrong(words, "name a number of the model file, as `parameters.height`"),
+    };
+    if let lissom_model::document::AnalysisKind::Path { end, .. } = document.analysis.kind
+        && end == from
+    {
+        return wrong(
+            format!("`{path}` is {from} already, where the path ends"),
+            "choose another `end`, or another value to begin with",
+        );
+    }
+    Ok(Some((path.to_owned(), from)))
+}
+
+/// A node that stands elsewhere in a direction in which it has no freedom.
+fn moved_where_locked(lowered: &Lowered, start: &Kinematics) -> Option<String> {
+    let layout = lowered.system.layout();
+    let own = &lowered.state.kinematics.nodes;
+    let size = own.iter().map(|node| node.frame.position.amax()).fold(f64::MIN_POSITIVE, f64::max);
+    for (node, rows) in (0..layout.node_count()).map(|node| (node, layout.rows_of_node(node))) {
+        let change = own[node].frame.relative_to(&start.nodes[node].frame).logarithm();
+        for (k, _) in rows.iter().enumerate().filter(|&(_, &row)| row == LOCKED) {
+            let unit = if k < 3 { size } else { 1.0 };
+            if change[k].abs() > SAME * unit {
+                return Some(layout.node_name(node).to_owned());
+            }
+        }
+    }
+    None
+}

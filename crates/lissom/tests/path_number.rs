@@ -1,0 +1,188 @@
+//! Equilibrium paths along a number of the model against closed forms.
+
+use lissom::path::{PathEnd, PathReport, PathSession, PathSessionError};
+use lissom::{Model, Record};
+use lissom_core::analysis::path::CriticalKind;
+
+fn start(text: &str, overrides: &[(&str, &str)]) -> Result<PathSession, String> {
+    let overrides: Vec<(String, String)> =
+        overrides.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
+    PathSession::new(&Model::from_text("model.toml", text), &overrides).map_err(|error| match error {
+        PathSessionError::Model(report) => report.render(false),
+        other => other.to_string(),
+    })
+}
+
+fn follow(text: &str, overrides: &[(&str, &str)]) -> (Record, PathReport) {
+    start(text, overrides).unwrap_or_else(|error| panic!("{error}")).record()
+}
+
+fn near(found: f64, exact: f64, tolerance: f64) {
+    let missed = (found - exact).abs();
+    assert!(missed <= tolerance * exact.abs(), "{found} for {exact}: {:e}", found / exact - 1.0);
+}
+
+/// Two springs lean on each other under a load. They are as long as they are drawn, so that their height is a geometry.
+const TRUSS: &str = r#"
+lissom = 1
+[parameters]
+height = 0.3
+stiffness = 1000.0
+force = 0.0
+[point_masses.top]
+mass = 1.0
+position = [0, "height", 0]
+plane = "xy"
+[springs.left]
+kind = "point"
+base = "ground"
+at_base = [-1, 0, 0]
+tip = "top"
+stiffness = "stiffness"
+[springs.right]
+kind = "point"
+base = "ground"
+at_base = [1, 0, 0]
+tip = "top"
+stiffness = "stiffness"
+[loads.down]
+kind = "force"
+on = "top"
+vector = [0, "-force", 0]
+[outputs.top]
+kind = "position"
+of = "top"
+[analysis]
+kind = "path"
+vary = "parameters.force"
+end = 60
+"#;
+
+#[test]
+fn a_force_is_a_number_like_the_load_factor() {
+    let (record, report) = follow(TRUSS, &[]);
+    assert!(matches!(report.end, PathEnd::Reached), "{:?}", report.end);
+    assert_eq!(report.name, "parameters.force");
+    let forces = record.column("parameters.force", "").unwrap();
+    let heights = record.column("top", "y").unwrap();
+    let free = 1.09_f64.sqrt();
+    for (&force, &y) in forces.iter().zip(heights) {
+        let exact = 2000.0 * (free / (1.0 + y * y).sqrt() - 1.0) * y;
+        assert!((force - exact).abs() < 1e-8, "{force} at {y}, not {exact}");
+    }
+    near(*forces.last().unwrap(), 60.0, 1e-12);
+    let length = free.cbrt();
+    let limit = 2000.0 * (free / length - 1.0) * (length * length - 1.0).sqrt();
+    assert_eq!(report.critical.len(), 2, "{:?}", report.critical);
+    for (point, sign) in report.critical.iter().zip([1.0, -1.0]) {
+        assert_eq!(point.kind, CriticalKind::Limit);
+        near(point.load_factor, sign * limit, 1e-8);
+        assert!(point.is_located);
+    }
+}
+
+#[test]
+fn a_geometry_has_a_limit_point() {
+    // Where it is low it does not carry the load: ℓ₀² = 1 + h² = (1 + (F/2k)^(2/3))³.
+    let set = [
+        ("parameters.height", "0.5"),
+        ("parameters.force", "20"),
+        ("analysis.vary", "parameters.height"),
+        ("analysis.end", "0.05"),
+        ("analysis.steps", "60"),
+    ];
+    let (record, report) = follow(TRUSS, &set);
+    let PathEnd::Failed(error) = &report.end else { panic!("{:?}", report.end) };
+    assert!(error.to_string().contains("parameters.height"), "{error}");
+    let limit = ((1.0 + (20.0_f64 / 2000.0).powf(2.0 / 3.0)).powi(3) - 1.0).sqrt();
+    let point = &report.critical[0];
+    assert_eq!((point.kind, point.unstable), (CriticalKind::Limit, [0, 1]));
+    near(point.load_factor, limit, 1e-8);
+    let heights = record.column("parameters.height", "").unwrap();
+    let places = record.column("top", "y").unwrap();
+    near(heights[0], 0.5, 1e-15);
+    for (&height, &y) in heights.iter().zip(places) {
+        let load = 2000.0 * ((1.0 + height * height).sqrt() / (1.0 + y * y).sqrt() - 1.0) * y;
+        near(load, 20.0, 1e-7);
+    }
+}
+
+/// A column under a load of its own.
+const COLUMN: &str = r#"
+lissom = 1
+[parameters]
+length = 1.0
+load = 1.0
+[sections.bar]
+shape = "general"
+stiffness = [1e7, 1e7, 1e7, 1e4, 100, 300]
+mass = [1, 1, 1, 1, 1, 1]
+[beams.bar]
+section = "bar"
+from = [0, 0, 0]
+to = ["length", 0, 0]
+up = [0, 0, 1]
+elements = 4
+[joints.root]
+kind = "clamp"
+base = "ground"
+tip = "bar.start"
+[loads.push]
+kind = "force"
+on = "bar.end"
+vector = ["-load", 0, 0]
+[analysis]
+kind = "path"
+end = 400
+step = 50
+"#;
+
+#[test]
+fn a_column_that_grows_buckles_at_the_length_that_its_load_says() {
+    let (_, by_load) = follow(COLUMN, &[]);
+    let critical = &by_load.critical[0];
+    assert_eq!(critical.kind, CriticalKind::Bifurcation);
+    let load = format!("{:?}", critical.load_factor);
+    let set = [
+        ("parameters.load", load.as_str()),
+        ("parameters.length", "0.9"),
+        ("analysis.vary", "parameters.length"),
+        ("analysis.end", "1.06"),
+        ("analysis.step", "0.05"),
+    ];
+    let (record, report) = follow(COLUMN, &set);
+    assert!(matches!(report.end, PathEnd::Reached), "{:?}", report.end);
+    let lengths = record.column("parameters.length", "").unwrap();
+    near(*lengths.last().unwrap(), 1.06, 1e-12);
+    assert_eq!(report.critical.len(), 1, "{:?}", report.critical);
+    assert_eq!((report.critical[0].kind, report.critical[0].unstable), (CriticalKind::Bifurcation, [0, 1]));
+    near(report.critical[0].load_factor, 1.0, 1e-7);
+    // Beyond it the loads alone buckle it: what is varied begins nowhere.
+    let [load, _, vary, end, step] = set;
+    let error = start(COLUMN, &[load, ("parameters.length", "1.2"), vary, end, step]).err().unwrap();
+    assert!(error.contains("critical point at load factor"), "{error}");
+}
+
+#[test]
+fn numbers_that_cannot_be_varied_are_refused() {
+    let refuse = |set: &[(&str, &str)]| start(TRUSS, set).err().unwrap_or_default();
+    let words = refuse(&[("analysis.vary", "parameters.heigt")]);
+    assert!(words.contains("says nothing at `parameters.heigt`"), "{words}");
+    let words = refuse(&[("analysis.vary", "analysis.steps")]);
+    assert!(words.contains("of the analysis"), "{words}");
+    let words = refuse(&[("analysis.end", "0")]);
+    assert!(words.contains("already"), "{words}");
+    let words = refuse(&[("analysis.vary", "point_masses.top.mass"), ("parameters.force", "5")]);
+    assert!(words.contains("moves nothing"), "{words}");
+    // A stiffness has no negative value.
+    let set = [
+        ("parameters.force", "-10"),
+        ("springs.left.stiffness", "1000.0"),
+        ("analysis.vary", "springs.left.stiffness"),
+        ("analysis.end", "-100"),
+    ];
+    let (record, report) = follow(TRUSS, &set);
+    let PathEnd::Failed(error) = &report.end else { panic!("{:?}", report.end) };
+    assert!(error.to_string().contains("no meaning beyond"), "{error}");
+    assert!(record.times.len() > 5);
+}
