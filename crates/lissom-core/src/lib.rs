@@ -6,6 +6,7 @@
 pub mod analysis;
 pub mod elements;
 pub(crate) mod equilibration;
+pub mod interrupt;
 pub mod joints;
 pub mod judge;
 mod lanes;

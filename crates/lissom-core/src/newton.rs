@@ -5,6 +5,7 @@
 use lissom_solver::FactorError;
 use serde::{Deserialize, Serialize};
 
+use crate::interrupt;
 use crate::mechanisms::{Mechanism, Without};
 
 /// What Newton's method sees of a problem.
@@ -140,6 +141,8 @@ pub enum Failure {
     },
     /// The tangent has no factorisation without pivoting.
     Factor(FactorError),
+    /// It was told to stop.
+    Interrupted,
 }
 
 /// What a new tangent costs, in iterations.
@@ -191,6 +194,10 @@ pub fn solve<E: Equations>(
     let mut halvings = 0;
     let mut stalls = if equations.is_wanted_exactly() { MOST_STALLS } else { 0 };
     while outcome.iterations < limits.max_iterations {
+        if interrupt::is_asked() {
+            memory.forget_tangent();
+            return Err(Failure::Interrupted);
+        }
         if !memory.has_tangent {
             equations.renew_tangent().map_err(Failure::Factor)?;
             memory.has_tangent = true;

@@ -2,10 +2,13 @@
 
 use std::ops::ControlFlow;
 use std::panic::resume_unwind;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use lissom::core::interrupt;
 use pyo3::prelude::*;
 
 /// How often Python is asked.
@@ -15,22 +18,26 @@ const EVERY: Duration = Duration::from_millis(50);
 const STACK: usize = 8 << 20;
 
 /// Does work that asks nothing on its way, with the interpreter lock released. It is done in another thread, so that this one can
-/// look for Ctrl-C, which raises at once; the work then comes to its end unseen, and what it finds is dropped.
+/// look for Ctrl-C, which raises at once. The work is then asked to end, which it does within a moment.
 pub(crate) fn interruptible<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce() -> PyResult<T> + Send + 'static,
 ) -> PyResult<T> {
     py.detach(|| {
         let (sender, receiver) = mpsc::channel();
+        let given_up = Arc::new(AtomicBool::new(false));
+        let asked_of_work = Arc::clone(&given_up);
         // Where nobody waits any more, there is nobody to tell.
         let begun = thread::Builder::new().name("lissom".to_owned()).stack_size(STACK).spawn(move || {
-            let _ = sender.send(work());
+            let _ = sender.send(interrupt::within(asked_of_work, work));
         });
         let worker = begun?;
         loop {
             match receiver.recv_timeout(EVERY) {
                 Ok(outcome) => return outcome,
-                Err(RecvTimeoutError::Timeout) => asked()?,
+                Err(RecvTimeoutError::Timeout) => {
+                    asked().inspect_err(|_| given_up.store(true, Ordering::Relaxed))?;
+                }
                 Err(RecvTimeoutError::Disconnected) => break,
             }
         }

@@ -52,6 +52,13 @@ try:
     print("ended", flush=True)
 except KeyboardInterrupt:
     print("interrupted", flush=True)
+for _ in range(300):
+    before = time.process_time()
+    time.sleep(0.2)
+    if time.process_time() - before < 0.05:
+        break
+else:
+    print("it goes on", flush=True)
 print(len(lissom.load({PENDULUM!r}, **{{"analysis.end": 0.1}}).run().time), flush=True)
 """
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
@@ -59,7 +66,8 @@ print(len(lissom.load({PENDULUM!r}, **{{"analysis.end": 0.1}}).run().time), flus
     time.sleep(0.3)
     child.send_signal(signal.SIGINT)
     began = time.monotonic()
-    output, errors = child.communicate(timeout=60)
-    assert output == "interrupted\n11\n" and child.returncode == 0, errors
-    # The interpreter is asked every 50 ms; the rest is the run after it.
-    assert time.monotonic() - began < 10
+    # The interpreter is asked every 50 ms.
+    assert child.stdout.readline() == "interrupted\n" and time.monotonic() - began < 10
+    # What was begun then ends unseen: no processor is busy with it any more.
+    output, errors = child.communicate(timeout=100)
+    assert output == "11\n" and child.returncode == 0, errors

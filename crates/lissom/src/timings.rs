@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use lissom_core::analysis::{Phase, Stopwatch};
+use lissom_core::interrupt;
 
 /// Steps that take longer than this on average are all watched.
 const LONG: Duration = Duration::from_micros(20);
@@ -159,7 +160,8 @@ impl Stopwatch for Timings {
     }
 
     fn is_cancelled(&self) -> bool {
-        self.cancelled.as_ref().is_some_and(|cancelled| cancelled.load(Ordering::Relaxed))
+        interrupt::is_asked()
+            || self.cancelled.as_ref().is_some_and(|cancelled| cancelled.load(Ordering::Relaxed))
     }
 }
 

@@ -591,5 +591,6 @@ fn describe(failure: &Failure, layout: &Layout, time: f64, settings: &Settings, 
         Failure::Factor(FactorError::NotFinite { unknown }) => {
             StepError::NotFinite { time, iterations: 0, worst: layout.name_of(*unknown) }
         }
+        Failure::Interrupted => StepError::Interrupted { time },
     }
 }

@@ -349,10 +349,10 @@ impl StepEquations<'_> {
     /// A failure that a pivoting solver could not help, as the vanished pivot that called for it.
     pub(crate) fn unforgiven(&self, failure: Failure) -> Failure {
         match self.work.fell_back {
-            Some((unknown, pivot)) => {
+            Some((unknown, pivot)) if failure != Failure::Interrupted => {
                 Failure::Factor(FactorError::ZeroPivot { unknown, pivot, largest: f64::NAN })
             }
-            None => failure,
+            _ => failure,
         }
     }
 

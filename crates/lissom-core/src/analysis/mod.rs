@@ -23,6 +23,7 @@ mod singular_positions;
 pub(crate) mod snapshot_parts;
 mod stability;
 mod step_error;
+mod whereabouts;
 mod workspace;
 
 pub use conditioning::{Condition, ConditionMethod};
@@ -33,3 +34,4 @@ pub use initial::InitialError;
 pub use mobility::{Mobility, Redundant};
 pub use phase::{Phase, Stopwatch, Unwatched};
 pub use step_error::StepError;
+pub use whereabouts::Whereabouts;

@@ -1,5 +1,7 @@
 //! What a step spends its time on, told to a stopwatch that somebody else holds: no clock is read here.
 
+use crate::interrupt;
+
 /// A part of the work of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
@@ -25,9 +27,10 @@ pub trait Stopwatch {
     /// A phase begins.
     fn begin(&mut self, phase: Phase);
 
-    /// Whether somebody wants the step to be given up; asked after every attempt that failed. Default: nobody does.
+    /// Whether somebody wants the step to be given up; asked after every attempt that failed. Default: whether this thread
+    /// is asked to.
     fn is_cancelled(&self) -> bool {
-        false
+        interrupt::is_asked()
     }
 }
 

@@ -15,8 +15,9 @@ use num_complex::Complex64;
 use super::krylov::{Krylov, Operator};
 use super::lanczos::{VIOLATED, round_off};
 use super::mode::{Completeness, Mode, ModeError, ModeOptions, Modes};
-use super::model::LinearModel;
+use super::model::{LinearError, LinearModel};
 use super::shifted::{ComplexShift, small_square};
+use crate::interrupt;
 use crate::joints::Quantity;
 
 const BLOCK: usize = 6;
@@ -208,6 +209,7 @@ fn search(
 ) -> Result<Vec<Estimate>, ModeError> {
     let mut since = 0;
     loop {
+        interrupt::check().map_err(LinearError::from)?;
         if !*is_exhausted && !krylov.step(operator) {
             *is_exhausted = krylov.start(operator, BLOCK, 2) == 0;
         }

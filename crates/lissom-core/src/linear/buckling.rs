@@ -13,6 +13,7 @@ use super::lanczos::{is_converged, ritz};
 use super::mode::Completeness;
 use super::model::{LinearError, LinearModel};
 use super::shifted::RealShift;
+use crate::interrupt;
 
 /// Vectors to start with.
 const BLOCK: usize = 6;
@@ -133,7 +134,7 @@ impl LinearModel<'_> {
         let mut krylov = Krylov::new(operator.size());
         let mut is_exhausted = krylov.start(&mut operator, BLOCK, 1) == 0;
         for restart in 0.. {
-            let modes = search(&mut krylov, &mut operator, count + BEYOND, &mut is_exhausted);
+            let modes = search(&mut krylov, &mut operator, count + BEYOND, &mut is_exhausted)?;
             let next = modes.get(count).map(|mode| mode.load_factor);
             let mut modes = modes;
             modes.truncate(count);
@@ -174,9 +175,10 @@ fn search(
     operator: &mut Inverse<'_, '_, '_>,
     wanted: usize,
     is_exhausted: &mut bool,
-) -> Vec<BucklingMode> {
+) -> Result<Vec<BucklingMode>, LinearError> {
     let mut since = 0;
     loop {
+        interrupt::check()?;
         if !*is_exhausted && !krylov.step(operator) {
             *is_exhausted = krylov.start(operator, BLOCK, 1) == 0;
         }
@@ -194,10 +196,9 @@ fn search(
         let are_enough = positive.len() >= wanted && positive[..wanted].iter().all(is_converged);
         if are_enough || *is_exhausted {
             positive.truncate(wanted);
-            return positive
-                .iter()
-                .map(|(value, weights, _)| mode(operator, &krylov.combine(weights), *value))
-                .collect();
+            let of =
+                |(value, weights, _): &(f64, Vec<f64>, f64)| mode(operator, &krylov.combine(weights), *value);
+            return Ok(positive.iter().map(of).collect());
         }
     }
 }

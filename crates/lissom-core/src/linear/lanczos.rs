@@ -12,6 +12,7 @@ use super::krylov::{Krylov, Operator, product};
 use super::mode::{Completeness, ModeOptions};
 use super::model::{LinearError, LinearModel};
 use super::shifted::RealShift;
+use crate::interrupt;
 
 /// Vectors to start with: eigenvalues of this multiplicity are found at once.
 const BLOCK: usize = 6;
@@ -216,6 +217,7 @@ fn search<'a>(
             let mut operator = inverse(model, &mut solver);
             let mut since = 0;
             loop {
+                interrupt::check()?;
                 let more = krylov.step(&mut operator);
                 if !more && krylov.start(&mut operator, BLOCK, 2) == 0 {
                     is_exhausted = true;

@@ -9,6 +9,7 @@ use num_complex::Complex64;
 use super::shifted::{ComplexShift, RealShift, small_square};
 use crate::analysis::InitialError;
 use crate::analysis::initial::Initial;
+use crate::interrupt::{self, Interrupted};
 use crate::joints::Quantity;
 use crate::joints::attached::Increments;
 use crate::scaling::Representative;
@@ -61,6 +62,9 @@ pub enum LinearError {
         /// What went wrong.
         error: InitialError,
     },
+    /// It was told to stop.
+    #[error(transparent)]
+    Interrupted(#[from] Interrupted),
 }
 
 /// Coefficients of the linearised equations, each on the values of the tangent's pattern.
@@ -86,6 +90,7 @@ impl<'a> LinearModel<'a> {
     /// # Errors
     /// If they do not exist.
     pub fn of(system: &'a System, state: &State, solver: &'a SolverKind) -> Result<Self, LinearError> {
+        interrupt::check()?;
         if system.signals().has_samples() {
             return Err(LinearError::Sampled);
         }

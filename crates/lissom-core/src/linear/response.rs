@@ -10,6 +10,7 @@ use num_complex::Complex64;
 
 use super::model::{LinearError, LinearModel};
 use super::shifted::ComplexShift;
+use crate::interrupt;
 
 /// What a solution leaves of the equations, relative to their terms, at most.
 const LEFT: f64 = 1e-9;
@@ -76,6 +77,7 @@ impl FrequencyResponse<'_, '_> {
     ) -> Result<Vec<Vec<Complex64>>, ResponseError> {
         let parts = self.model.parts();
         let failed = |error| ResponseError::Linear { s, error };
+        interrupt::check().map_err(|interrupted| failed(interrupted.into()))?;
         self.solver.factor(parts, s).map_err(|error| failed(self.model.stopped(&error)))?;
         for (k, value) in self.values.iter_mut().enumerate() {
             *value = s * (s * parts.mass[k] + parts.damping[k]) + parts.stiffness[k] + parts.constraint[k];

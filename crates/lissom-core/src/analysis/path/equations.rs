@@ -464,6 +464,7 @@ impl PathEquations<'_> {
             Failure::Factor(FactorError::NotFinite { unknown }) => {
                 StepError::NotFinite { time, iterations: 0, worst: layout.name_of(unknown) }
             }
+            Failure::Interrupted => StepError::Interrupted { time },
         }
     }
 }
