@@ -348,6 +348,31 @@ fn line_starts(text: &str) -> Vec<usize> {
     std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect()
 }
 
+/// The table of a TOML text that `place` is in, as `joints.hinge`; without the key itself, where that is a number of the table.
+fn table_at(text: &str, place: usize) -> Option<String> {
+    let is_header = |line: &&str| {
+        let inner = line.trim_start_matches('[').split(']').next().unwrap_or_default();
+        line.starts_with('[')
+            && !inner.is_empty()
+            && !inner.contains([',', '{', '='])
+            && inner.parse::<f64>().is_err()
+    };
+    let before = text.get(..place)?;
+    let end = text[place..].find('\n').map_or(text.len(), |length| place + length);
+    let start = before.rfind('\n').map_or(0, |at| at + 1);
+    let own = text[start..end].trim();
+    let header = text[..end].lines().map(str::trim_start).rfind(is_header);
+    let header = header.map(|line| line.trim_start_matches('[').split(']').next().unwrap_or_default().trim());
+    let key = own.split_once('=').map_or("", |(key, _)| key.trim());
+    let outer = if is_header(&own) { "" } else { key.rsplit_once('.').map_or("", |(outer, _)| outer) };
+    match (header, outer) {
+        (Some(header), "") => Some(header.to_owned()),
+        (Some(header), outer) => Some(format!("{header}.{outer}")),
+        (None, "") => Some(key.to_owned()).filter(|key| !key.is_empty()),
+        (None, outer) => Some(outer.to_owned()),
+    }
+}
+
 /// Problems that are shown on a terminal: nobody reads thousands, and the first ones are often the cause of the rest.
 const MOST_SHOWN: usize = 50;
 
@@ -392,8 +417,8 @@ impl Report {
         self.problems().any(|problem| problem.severity == Severity::Error)
     }
 
-    /// Every problem for programs: severity, message, help, and the file with line and column, counted from one, where it
-    /// is known.
+    /// Every problem for programs: severity, message, help, and where it is known the file with line and column, counted from
+    /// one, and the table of the model file, as `joints.hinge`.
     pub fn to_value(&self) -> serde_json::Value {
         let mut lines = BTreeMap::new();
         let of = |shown: &Shown| {
@@ -412,6 +437,7 @@ impl Report {
                 value["file"] = (*piece.name).into();
                 value["line"] = line.into();
                 value["column"] = column.into();
+                value["part"] = table_at(text, place).into();
             }
             value
         };
@@ -466,6 +492,19 @@ mod tests {
         assert!(text.contains("[--set:1:17]") && text.contains("analysis.step = 0"), "{text}");
         assert!(text.contains("here") && text.contains("help: try"), "{text}");
         assert_eq!(report.to_string(), "a.toml: 1 error");
+    }
+
+    #[test]
+    fn a_place_is_in_a_table() {
+        let text = "gravity = 1\n[joints.hinge]\naxis = [0, 0, 0]\n[springs]\ns.stiffness = 1\nt = 2\n";
+        let at = |words: &str| table_at(text, text.find(words).unwrap());
+        assert_eq!(at("1\n").as_deref(), Some("gravity"));
+        assert_eq!(at("hinge]").as_deref(), Some("joints.hinge"));
+        assert_eq!(at("[0, 0").as_deref(), Some("joints.hinge"));
+        assert_eq!(at("1\nt").as_deref(), Some("springs.s"));
+        assert_eq!(at("2").as_deref(), Some("springs"));
+        assert_eq!(table_at("points = [\n[1],\n[2, 3]]\n", 15).as_deref(), None);
+        assert_eq!(table_at("analysis.step = 0", 16).as_deref(), Some("analysis"));
     }
 
     #[test]

@@ -13,7 +13,7 @@ use lissom::response::{FrequencyError, ResponseRequest};
 use lissom::{Document, Record, Session};
 use pyo3::prelude::*;
 
-use crate::errors::{ModelError, SolutionError, of_report};
+use crate::errors::{SolutionError, of_report, question, refused, solution};
 use crate::model::NativeModel;
 use crate::results::{Parts, json, parts};
 use crate::watch::{Watch, interruptible};
@@ -28,13 +28,7 @@ fn files(texts: Vec<(&str, String)>, summary: &Summary, warnings: &[String]) -> 
 
 /// The state to linearise about.
 fn about(words: &str) -> PyResult<About> {
-    About::from_str(words).map_err(|reason| ModelError::new_err(format!("`about` is \"{words}\": {reason}")))
-}
-
-/// What is wrong with the question, or why it has no answer.
-fn refused(is_of_question: bool, error: &dyn std::fmt::Display) -> PyErr {
-    let words = error.to_string();
-    if is_of_question { ModelError::new_err(words) } else { SolutionError::new_err(words) }
+    About::from_str(words).map_err(|reason| question(format!("`about` is \"{words}\": {reason}")))
 }
 
 fn of_modes(error: &ModesError) -> PyErr {
@@ -114,7 +108,7 @@ pub(crate) fn buckling(model: &NativeModel, py: Python<'_>, count: Option<usize>
             lissom::buckling::buckling(&model.model, &model.overrides, count).map_err(
                 |error| match error {
                     BucklingRunError::Model(report) => of_report(&report),
-                    other => SolutionError::new_err(other.to_string()),
+                    other => solution(&other),
                 },
             )?;
         let summary = found.summary(model.model.name(), &model.overrides, &model.document()?);
@@ -126,7 +120,7 @@ pub(crate) fn buckling(model: &NativeModel, py: Python<'_>, count: Option<usize>
 /// What `lissom gradient` leaves.
 #[pyfunction]
 pub(crate) fn gradient(model: &NativeModel, py: Python<'_>, of: &str, by: Vec<String>) -> PyResult<Files> {
-    let target: Target = of.parse().map_err(|words: String| ModelError::new_err(words))?;
+    let target: Target = of.parse().map_err(|words: String| question(words))?;
     let of = of.to_owned();
     let model = model.clone();
     interruptible(py, move || {
@@ -212,7 +206,10 @@ pub(crate) fn linearize(
 
 /// Follows the path of a model with an analysis of kind `path`: the results, and why it ended early, if it did.
 #[pyfunction]
-pub(crate) fn path<'py>(model: &NativeModel, py: Python<'py>) -> PyResult<(Parts<'py>, Option<String>)> {
+pub(crate) fn path<'py>(
+    model: &NativeModel,
+    py: Python<'py>,
+) -> PyResult<(Parts<'py>, Option<Bound<'py, PyAny>>)> {
     let own = model.clone();
     let (mut session, document) = interruptible(py, move || {
         let document = own.document()?;
@@ -230,10 +227,10 @@ pub(crate) fn path<'py>(model: &NativeModel, py: Python<'py>) -> PyResult<(Parts
         let summary = session.summary(of_request(model.model.name(), &model.overrides, &document), &report);
         let failure = match &report.end {
             PathEnd::Reached => None,
-            PathEnd::Interrupted => Some("interrupted".to_owned()),
-            PathEnd::Failed(error) => Some(error.to_string()),
+            PathEnd::Interrupted => Some(SolutionError::new_err("interrupted")),
+            PathEnd::Failed(error) => Some(solution(error)),
         };
         Ok::<_, PyErr>((record, json(&summary), failure))
     })?;
-    Ok((parts(py, record, summary), failure))
+    Ok((parts(py, record, summary), failure.map(|error| error.into_value(py).into_bound(py).into_any())))
 }

@@ -12,7 +12,7 @@ use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
 use pyo3::prelude::*;
 
-use crate::errors::{self, SolutionError, of_report};
+use crate::errors::{self, SolutionError, of_report, solution};
 use crate::model::NativeModel;
 use crate::watch::{Watch, interruptible};
 
@@ -58,7 +58,7 @@ pub(crate) fn animation(
         let recorder = MotionRecorder::new(&lowered, document.analysis.frames_per_second, bytes.clone());
         let scene = Scene::of(&document, &lowered);
         let mut facts = summary::of_model(model.model.name(), &model.overrides, &document, &lowered);
-        let mut session = Session::start(lowered).map_err(|error| of_motion(&error))?;
+        let mut session = Session::start(lowered).map_err(|error| solution(&error))?;
         session.write_states_to(Box::new(recorder));
         let (mut record, mut watch) = (Record::default(), Watch::new(None));
         let report = session.run(&mut [&mut record], &mut |_| watch.ask(0.0, 0.0));

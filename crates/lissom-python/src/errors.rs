@@ -1,36 +1,102 @@
 //! The exceptions, with the texts of the command line.
 
+use std::fmt::Display;
+
 use lissom::sweep::{SweepError, SweepFolderError};
-use lissom::{FileError, FolderError, Report, SessionError};
+use lissom::{Diagnosis, FileError, FolderError, Located, Report, SessionError};
 use pyo3::create_exception;
 use pyo3::exceptions::{PyException, PyOSError, PyValueError};
 use pyo3::prelude::*;
+use pyo3::types::PyTuple;
 
-create_exception!(lissom, LissomError, PyException, "What all exceptions of this package are.");
+create_exception!(
+    lissom,
+    LissomError,
+    PyException,
+    "What all exceptions of this package are.\n\nThe text is that of the command line; `time` [s], `part` and `remedy` say parts of it, None where it does not tell."
+);
 create_exception!(
     lissom,
     ModelError,
     LissomError,
-    "A model or sweep is wrong. The text underlines every mistake where it stands, with a remedy."
+    "A model or sweep is wrong. The text underlines every mistake where it stands, with a remedy.\n\n`problems` has them as \
+     `lissom check --json` does: dictionaries of `severity`, `message`, `help` and, where it is known, `part`, `file`, `line`, \
+     `column`. `part` and `remedy` are those of the first."
 );
 create_exception!(
     lissom,
     SolutionError,
     LissomError,
-    "A model has no solution. The text says at which time and where, and what to try."
+    "A model has no solution. The text says at which time and where, and what to try.\n\n`result` holds what was computed before a \
+     run failed, a `lissom.Result`; None otherwise."
 );
 
-/// A wrong model.
+/// What every exception has, where it knows nothing: so that nobody need ask whether it is there.
+pub(crate) fn add_to(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = module.py();
+    let all = [
+        ("LissomError", py.get_type::<LissomError>()),
+        ("ModelError", py.get_type::<ModelError>()),
+        ("SolutionError", py.get_type::<SolutionError>()),
+    ];
+    for (name, class) in all {
+        for attribute in ["time", "part", "remedy"] {
+            class.setattr(attribute, py.None())?;
+        }
+        module.add(name, class)?;
+    }
+    py.get_type::<ModelError>().setattr("problems", PyTuple::empty(py))?;
+    py.get_type::<SolutionError>().setattr("result", py.None())
+}
+
+/// Puts what the text says into attributes.
+fn with(error: PyErr, diagnosis: &Diagnosis) -> PyErr {
+    let told = Python::attach(|py| {
+        let value = error.value(py);
+        value.setattr("time", diagnosis.time)?;
+        value.setattr("part", &diagnosis.part)?;
+        value.setattr("remedy", &diagnosis.remedy)
+    });
+    told.err().unwrap_or(error)
+}
+
+/// A question that makes no sense for a model.
+pub(crate) fn question(words: impl Into<String>) -> PyErr {
+    let diagnosis = Diagnosis::of_text(&words.into());
+    with(ModelError::new_err(diagnosis.text.clone()), &diagnosis)
+}
+
+/// A model without a solution.
+pub(crate) fn solution(error: &(impl Located + Display)) -> PyErr {
+    let diagnosis = Diagnosis::of(error);
+    with(SolutionError::new_err(diagnosis.text.clone()), &diagnosis)
+}
+
+/// A wrong question, or a model without a solution.
+pub(crate) fn refused(is_of_question: bool, error: &(impl Located + Display)) -> PyErr {
+    if is_of_question { question(error.to_string()) } else { solution(error) }
+}
+
+/// A wrong model. Its problems are those of `lissom check --json`.
 pub(crate) fn of_report(report: &Report) -> PyErr {
-    ModelError::new_err(format!("\n{}{report}", report.render(false)))
+    let error = ModelError::new_err(format!("\n{}{report}", report.render(false)));
+    let problems = report.to_value();
+    let told = Python::attach(|py| {
+        let value = error.value(py);
+        let read = py.import("json")?.getattr("loads")?.call1((problems.to_string(),))?;
+        value.setattr("problems", PyTuple::new(py, read.try_iter()?.collect::<PyResult<Vec<_>>>()?)?)?;
+        value.setattr("part", problems[0]["part"].as_str())?;
+        value.setattr("remedy", problems[0]["help"].as_str())
+    });
+    told.err().unwrap_or(error)
 }
 
 /// A session that cannot start.
 pub(crate) fn of_session(error: &SessionError) -> PyErr {
     match error {
         SessionError::Model(report) => of_report(report),
-        SessionError::NotInTime(_) => ModelError::new_err(error.to_string()),
-        other => SolutionError::new_err(other.to_string()),
+        SessionError::NotInTime(_) => question(error.to_string()),
+        other => solution(other),
     }
 }
 
@@ -52,7 +118,7 @@ pub(crate) fn of_folder(error: &FolderError) -> PyErr {
 pub(crate) fn of_sweep(error: &SweepError) -> PyErr {
     match error {
         SweepError::Model(report) => of_report(report),
-        other => ModelError::new_err(other.to_string()),
+        other => question(other.to_string()),
     }
 }
 

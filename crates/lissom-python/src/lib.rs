@@ -15,11 +15,8 @@ use pyo3::prelude::*;
 /// The compiled part of the package.
 #[pymodule]
 fn _lissom(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    let py = module.py();
     module.add("__version__", lissom::VERSION)?;
-    module.add("LissomError", py.get_type::<errors::LissomError>())?;
-    module.add("ModelError", py.get_type::<errors::ModelError>())?;
-    module.add("SolutionError", py.get_type::<errors::SolutionError>())?;
+    errors::add_to(module)?;
     module.add_class::<model::NativeModel>()?;
     module.add_class::<simulation::Simulation>()?;
     module.add_class::<sweep::NativeSweep>()?;

@@ -1,6 +1,7 @@
 //! A model: its text with overrides, checked when it is made.
 
 use std::collections::BTreeMap;
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::num::NonZero;
 use std::path::PathBuf;
 
@@ -12,7 +13,7 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::errors::{self, of_report, of_session};
+use crate::errors::{self, SolutionError, of_report, of_session, solution};
 use crate::results::{Parts, json, parts};
 use crate::simulation::Simulation;
 use crate::watch::{Watch, interruptible};
@@ -35,6 +36,13 @@ impl NativeModel {
     /// The checked document.
     pub(crate) fn document(&self) -> PyResult<Document> {
         self.model.document(&self.overrides).map_err(|report| of_report(&report))
+    }
+
+    /// A number that tells models apart by all they are made of: text, values put into it, included files.
+    pub(crate) fn fingerprint(&self) -> u64 {
+        let mut hasher = DefaultHasher::new();
+        (self.model.text(), &self.overrides, self.model.included(), lissom::VERSION).hash(&mut hasher);
+        hasher.finish()
     }
 
     /// Refuses a model whose analysis has no course in time.
@@ -144,16 +152,19 @@ impl NativeModel {
         py: Python<'py>,
         progress: Option<Py<PyAny>>,
         threads: Option<NonZero<usize>>,
-    ) -> PyResult<(Parts<'py>, Option<String>)> {
+    ) -> PyResult<(Parts<'py>, Option<Bound<'py, PyAny>>)> {
         // Assembly and the start may take long, too.
         let model = self.clone();
         let (session, mut summary) = interruptible(py, move || model.start(threads))?;
+        let raised = |error: PyErr| error.into_value(py).into_bound(py).into_any();
         let mut session = match session {
             Ok(session) => session,
-            Err(failure) => return Ok((parts(py, Record::default(), json(&summary)), Some(failure))),
+            Err(failure) => {
+                return Ok((parts(py, Record::default(), json(&summary)), Some(raised(failure))));
+            }
         };
         let (record, failure) = py.detach(|| solve(&mut session, &mut summary, progress.as_ref()))?;
-        Ok((parts(py, record, json(&summary)), failure))
+        Ok((parts(py, record, json(&summary)), failure.map(raised)))
     }
 
     /// A session at the start of the model.
@@ -170,7 +181,7 @@ impl NativeModel {
 
 impl NativeModel {
     /// A session at its start, or why there is none; and the facts that are known of it.
-    fn start(&self, threads: Option<NonZero<usize>>) -> PyResult<(Result<Session, String>, Summary)> {
+    fn start(&self, threads: Option<NonZero<usize>>) -> PyResult<(Result<Session, PyErr>, Summary)> {
         let document = self.document()?;
         let mut lowered = lower(&document).map_err(|report| of_report(&report))?;
         Self::in_time(&document)?;
@@ -180,7 +191,7 @@ impl NativeModel {
             Ok(session) => Ok((Ok(session), summary)),
             Err(error) => {
                 summary::of_failed_start(&mut summary, &error);
-                Ok((Err(error.to_string()), summary))
+                Ok((Err(solution(&error)), summary))
             }
         }
     }
@@ -191,7 +202,7 @@ fn solve(
     session: &mut Session,
     summary: &mut Summary,
     progress: Option<&Py<PyAny>>,
-) -> PyResult<(Record, Option<String>)> {
+) -> PyResult<(Record, Option<PyErr>)> {
     let mut record = Record::default();
     let mut watch = Watch::new(progress);
     let report = session
@@ -200,8 +211,8 @@ fn solve(
     summary::of_run(summary, session, &report);
     let failure = match &report.stopped {
         Stopped::End => None,
-        Stopped::Interrupted => Some("interrupted".to_owned()),
-        Stopped::Failed(error) => Some(error.to_string()),
+        Stopped::Interrupted => Some(SolutionError::new_err("interrupted")),
+        Stopped::Failed(error) => Some(solution(error)),
     };
     Ok((record, failure))
 }

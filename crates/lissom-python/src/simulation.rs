@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use lissom::core::analysis::InputError;
+use lissom::core::judge::Warning;
 use lissom::{Document, Session, SessionSnapshot};
 use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyValueError};
@@ -11,7 +12,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 
 use crate::analyses::linearize_here;
-use crate::errors::SolutionError;
+use crate::errors::solution;
 use crate::model::NativeModel;
 use crate::watch::Watch;
 
@@ -36,6 +37,8 @@ struct Inner {
     session: Session,
     values: Vec<f64>,
     are_current: bool,
+    /// How many of the session's warnings Python was told of.
+    told: usize,
 }
 
 impl Inner {
@@ -47,6 +50,33 @@ impl Inner {
         }
         &self.values
     }
+
+    /// Reasons to doubt the results that Python has not been told of.
+    fn news(&mut self) -> Vec<String> {
+        let count = self.session.warnings().count();
+        let news = if count > self.told {
+            self.session.warnings().skip(self.told).map(words).collect()
+        } else {
+            Vec::new()
+        };
+        self.told = count;
+        news
+    }
+}
+
+/// A warning as in `summary.json`.
+fn words(warning: &Warning) -> String {
+    format!("{}: {warning}", warning.code())
+}
+
+/// Warns of reasons to doubt the results.
+fn warn(py: Python<'_>, news: &[String]) -> PyResult<()> {
+    if news.is_empty() {
+        return Ok(());
+    }
+    let category = py.import("lissom")?.getattr("ModelWarning")?;
+    let warn = py.import("warnings")?.getattr("warn")?;
+    news.iter().try_for_each(|words| warn.call1((words, &category)).map(|_| ()))
 }
 
 /// A model on its way, made by `Model.simulation()`.
@@ -65,7 +95,7 @@ impl Simulation {
     pub(crate) fn new(session: Session, document: Document, model: Py<NativeModel>) -> Self {
         let names: Vec<String> = session.columns().iter().map(lissom::Column::name).collect();
         let indices = names.iter().enumerate().map(|(index, name)| (name.clone(), index)).collect();
-        let inner = Mutex::new(Inner { session, values: Vec::new(), are_current: false });
+        let inner = Mutex::new(Inner { session, values: Vec::new(), are_current: false, told: 0 });
         Self { inner, model, document, names, indices }
     }
 
@@ -81,7 +111,7 @@ impl Simulation {
     ///
     /// Raises `SolutionError` if the step has no solution, `ValueError` at the end of the model's analysis.
     fn step(&self, py: Python<'_>) -> PyResult<()> {
-        py.detach(|| {
+        let news = py.detach(|| {
             let mut inner = self.lock();
             if let Some(event) = inner.session.stopped_by() {
                 return Err(PyValueError::new_err(format!(
@@ -95,8 +125,10 @@ impl Simulation {
                 )));
             }
             inner.are_current = false;
-            inner.session.advance().map(|_| ()).map_err(|error| SolutionError::new_err(error.to_string()))
-        })
+            inner.session.advance().map_err(|error| solution(&error))?;
+            Ok(inner.news())
+        })?;
+        warn(py, &news)
     }
 
     /// Goes on to `time` [s], which is met exactly; beyond the end of the model's analysis, too. Stands still before it
@@ -118,10 +150,17 @@ impl Simulation {
             inner.are_current = false;
             let mut go_on = |_: &lissom::Progress| watch.ask(0.0, 0.0);
             let reached = inner.session.step_to_watched(time, &mut go_on);
-            reached.map(|_| ()).map_err(|error| SolutionError::new_err(error.to_string()))
+            reached.map(|_| ()).map_err(|error| solution(&error))?;
+            Ok(inner.news())
         });
         watch.finish()?;
-        outcome
+        warn(py, &outcome?)
+    }
+
+    /// Reasons to doubt the results up to now, as in `summary.json`. Each is also told by a `ModelWarning` when it comes up.
+    #[getter]
+    fn warnings(&self) -> Vec<String> {
+        self.lock().session.warnings().map(words).collect()
     }
 
     /// Present time [s].
@@ -183,7 +222,7 @@ impl Simulation {
                 InputError::Unknown { .. } | InputError::NotFinite { .. } => {
                     PyValueError::new_err(error.to_string())
                 }
-                other => SolutionError::new_err(other.to_string()),
+                other => solution(&other),
             })
         })
     }
@@ -211,12 +250,17 @@ impl Simulation {
         let model = self.model.get();
         let files =
             py.detach(|| linearize_here(&self.lock().session, model, &self.document, (&inputs, &outputs)))?;
+        warn(py, &files.2)?;
         py.import("lissom._linear")?.getattr("LinearModel")?.call_method1("_of", files)
     }
 
     /// Where the simulation stands, as bytes that can be kept, sent and pickled.
     fn snapshot<'py>(&self, py: Python<'py>) -> Bound<'py, PyBytes> {
-        let bytes = py.detach(|| self.lock().session.snapshot().to_bytes());
+        let bytes = py.detach(|| {
+            let mut bytes = self.model.get().fingerprint().to_le_bytes().to_vec();
+            bytes.extend(self.lock().session.snapshot().to_bytes());
+            bytes
+        });
         PyBytes::new(py, &bytes)
     }
 
@@ -227,7 +271,16 @@ impl Simulation {
         py.detach(|| {
             let refused =
                 |error: lissom::core::stepping::SnapshotError| PyValueError::new_err(error.to_string());
-            let read = SessionSnapshot::from_bytes(snapshot).map_err(refused)?;
+            let (of, bytes) = snapshot
+                .split_first_chunk()
+                .ok_or_else(|| PyValueError::new_err("the bytes are no snapshot: there are too few"))?;
+            let read = SessionSnapshot::from_bytes(bytes).map_err(refused)?;
+            if u64::from_le_bytes(*of) != self.model.get().fingerprint() {
+                return Err(PyValueError::new_err(
+                    "the snapshot belongs to another model: its text, or values put into it, are not those of this one; restore it \
+                     where it was taken (`step_to` goes beyond the end of an analysis)",
+                ));
+            }
             let mut inner = self.lock();
             inner.session.restore(&read).map_err(refused)?;
             inner.are_current = false;

@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import pickle
 import shutil
+import subprocess
 import warnings
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +15,8 @@ import pytest
 
 import lissom
 from conftest import PENDULUM, ROOT
+
+Program = Callable[..., "subprocess.CompletedProcess[str]"]
 
 TEXT = """
 lissom = 1
@@ -74,12 +79,58 @@ def test_mistakes_are_underlined() -> None:
     with pytest.raises(lissom.ModelError, match="point_masses"):
         lissom.loads(TEXT.replace("[point_masses.stone]", "[point_mases.stone]"))
     assert issubclass(lissom.ModelError, lissom.LissomError)
+    assert (caught.value.part, caught.value.remedy, caught.value.time) == ("analysis", "did you mean `end`?", None)
+    (problem,) = caught.value.problems
+    assert problem["severity"] == "error" and problem["message"] in str(caught.value) and problem["line"] == 1
     with pytest.raises(OSError, match="no such file"):
         lissom.load("nothing.toml")
     with pytest.raises(TypeError, match="not object"):
         lissom.loads(TEXT, **{"analysis.end": object()})
     with pytest.raises(lissom.ModelError, match="finite"):
         lissom.loads(TEXT, **{"analysis.end": float("nan")})
+
+
+def test_mistakes_are_those_of_the_command_line(program: Program, tmp_path: Path) -> None:
+    file = tmp_path / "wrong.toml"
+    file.write_text(TEXT.replace("mass = 2", "mass = -2").replace('of = "stone"', 'of = "stoney"'))
+    ended = program("check", file, "--json")
+    assert ended.returncode == 2
+    with pytest.raises(lissom.ModelError) as caught:
+        lissom.load(file)
+    assert list(caught.value.problems) == json.loads(ended.stdout)["problems"]
+    assert [problem["part"] for problem in caught.value.problems] == ["point_masses.stone", "outputs.stone"]
+    assert (caught.value.part, caught.value.remedy) == ("point_masses.stone", caught.value.problems[0]["help"])
+    again = pickle.loads(pickle.dumps(caught.value))
+    assert str(again) == str(caught.value) and again.problems == caught.value.problems
+
+
+def test_failures_say_what_the_summary_says(program: Program, tmp_path: Path) -> None:
+    wrong = {"analysis.max_iterations": 1}
+    ended = program("run", PENDULUM, "--set", "analysis.max_iterations=1", "--out", tmp_path, "--quiet")
+    assert ended.returncode == 3
+    summary = json.loads((tmp_path / "summary.json").read_text())
+    with pytest.raises(lissom.SolutionError) as caught:
+        lissom.load(PENDULUM, **wrong).run()
+    error = caught.value
+    assert str(error) == summary["error"] and str(error) in ended.stderr
+    assert {"time": error.time, "part": error.part, "remedy": error.remedy} == summary["failure"]
+    assert (error.time, error.part) == (0.01, "bob") and error.remedy == "try a smaller step, or a larger `max_iterations`"
+    assert len(error.result.time) == 1 and error.result.summary["failure"] == summary["failure"]
+    # The same of a simulation that is stepped, and of analyses along steps.
+    model = lissom.load(PENDULUM, **wrong)
+    for failing in (lambda: model.simulation().step(), lambda: model.gradient("bob.x", "point_masses.bob.mass")):
+        with pytest.raises(lissom.SolutionError) as other:
+            failing()
+        assert (other.value.time, other.value.part) == (0.01, "bob") and other.value.result is None
+    again = pickle.loads(pickle.dumps(error))
+    assert (again.time, again.part, again.remedy) == (error.time, error.part, error.remedy)
+
+
+def test_results_and_models_go_to_other_processes() -> None:
+    result = lissom.load(PENDULUM, **{"analysis.end": 0.1}).run()
+    again = pickle.loads(pickle.dumps(result))
+    assert again["bob.x"].tobytes() == result["bob.x"].tobytes() and again.summary == result.summary
+    assert again.animate().html == result.animate().html
 
 
 def test_a_good_model_is_read_without_a_warning() -> None:

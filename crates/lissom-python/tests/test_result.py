@@ -39,6 +39,19 @@ def test_results_are_those_of_the_command_line(name: str, program: Program, tmp_
         assert there.summary == json.load(file)
 
 
+def test_the_table_of_a_run_is_read_in_one_line(program: Program, tmp_path: Path) -> None:
+    import pandas
+
+    assert program("run", PENDULUM, "--out", tmp_path, "--quiet").returncode == 0
+    there = lissom.read(tmp_path)
+    frame = pandas.read_csv(tmp_path / "history.csv")
+    array = np.genfromtxt(tmp_path / "history.csv", delimiter=",", names=True, deletechars="")
+    assert list(frame.columns) == list(array.dtype.names or ()) == ["time", *there.names]
+    for name in there.names:
+        assert array[name].tobytes() == there[name].tobytes()
+        assert np.allclose(frame[name], there[name], rtol=1e-14, atol=0), "older versions of pandas round"
+
+
 def test_a_run_is_exported_as_parquet(program: Program, tmp_path: Path) -> None:
     import pandas
     import pyarrow.parquet
@@ -92,6 +105,17 @@ def test_progress_is_told() -> None:
     assert told and all(0 < done <= planned == 100000 for done, planned in told)
     with pytest.raises(ZeroDivisionError):
         model.run(progress=lambda done, planned: 1 / 0)
+    with pytest.raises(TypeError, match="True, False or a function"):
+        model.run(progress="yes")  # type: ignore[arg-type]
+    with pytest.raises(ValueError, match="`threads` is 0"):
+        model.run(threads=0)
+
+
+def test_a_line_on_the_terminal_tells_what_is_left(capsys: pytest.CaptureFixture[str]) -> None:
+    lissom.load(PENDULUM, **{"analysis.step": 5e-6}).run(progress=True)
+    told = capsys.readouterr().err.split("\r")
+    assert any("#" in line and line.rstrip().endswith("left") for line in told), told
+    assert told[-2].strip() == "" and told[-1] == "", "the line is gone in the end"
 
 
 def test_other_threads_go_on_while_a_model_runs() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import lissom
-from conftest import PENDULUM
+from conftest import PENDULUM, ROOT
 
 STONE = """
 lissom = 1
@@ -98,11 +98,16 @@ def test_foreign_snapshots_are_refused() -> None:
     sim = lissom.load(PENDULUM).simulation()
     sim.step()
     before = sim.values()
-    with pytest.raises(ValueError):
-        sim.restore(b"nothing")
+    for nothing in (b"", b"nothing", b"nothing at all", sim.snapshot()[:-1]):
+        with pytest.raises(ValueError):
+            sim.restore(nothing)
     other = lissom.loads(STONE).simulation()
     with pytest.raises(ValueError, match="another model"):
         sim.restore(other.snapshot())
+    # Not with other values either: accelerations, and what is learned between steps, would be those of the other.
+    heavier = lissom.load(PENDULUM, **{"point_masses.bob.mass": 3}).simulation()
+    with pytest.raises(ValueError, match="values put into it"):
+        sim.restore(heavier.snapshot())
     assert sim.time == 0.01 and np.array_equal(sim.values(), before)
 
 
@@ -111,6 +116,23 @@ def test_failures_name_the_time() -> None:
     with pytest.raises(lissom.SolutionError, match="max_iterations"):
         sim.step()
     assert sim.time == 0
+
+
+def test_reasons_to_doubt_are_told_while_stepping() -> None:
+    model = lissom.load(ROOT / "examples" / "four-bar.toml", **{"analysis.step": 0.05})
+    with pytest.warns(lissom.ModelWarning) as of_run:
+        told = model.run().summary["warnings"]
+    assert len(told) == 1 and [str(warning.message) for warning in of_run] == told
+    with pytest.warns(lissom.ModelWarning) as of_steps:
+        sim = model.simulation()
+        while not sim.is_finished:
+            sim.step()
+    # Told when it came up; the figures go on to grow.
+    code = told[0].split(":")[0]
+    assert sim.warnings == told and len(of_steps) == 1 and str(of_steps[0].message).startswith(f"{code}: from t = 3.4")
+    with pytest.warns(lissom.ModelWarning) as of_time:
+        model.simulation().step_to(sim.end)
+    assert len(of_time) == 1 and str(of_time[0].message).startswith(code)
 
 
 def test_inputs_are_set_from_outside() -> None:

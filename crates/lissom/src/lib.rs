@@ -117,6 +117,7 @@ pub mod builder;
 
 pub mod campbell;
 mod checkpoint;
+mod diagnosis;
 pub mod export;
 pub mod fmu;
 mod folder;
@@ -146,6 +147,7 @@ mod timings;
 pub mod view;
 
 pub use checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFile};
+pub use diagnosis::{Diagnosis, Located};
 pub use folder::{FolderError, ResultFolder};
 pub use folder_page::RecordedRun;
 pub use lissom_core as core;

@@ -18,6 +18,7 @@ use lissom_model::output::{Column, Record, Summary, Writer};
 use lissom_model::{Document, Report};
 use serde_json::{Value, json};
 
+use crate::diagnosis::Diagnosis;
 use crate::model::{Model, Override};
 use crate::session::columns;
 use number::Varied;
@@ -295,6 +296,7 @@ impl PathSession {
         tell("stopped", json!(report.end.name()));
         if let PathEnd::Failed(error) = &report.end {
             tell("error", json!(error.to_string()));
+            tell("failure", Diagnosis::of(error).to_value());
         }
         let value = if self.varied.is_some() { "value" } else { "load_factor" };
         tell("varied", json!(report.name));

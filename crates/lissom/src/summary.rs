@@ -1,5 +1,6 @@
 //! The facts of `summary.json`: what was asked for, and what it came to. Scripts read these names.
 
+use lissom_core::analysis::InitialError;
 use lissom_core::analysis::assembly::Gap;
 use lissom_core::elements::Energy;
 use lissom_core::scaling::Representative;
@@ -9,6 +10,7 @@ use lissom_model::output::Summary;
 use lissom_model::sweep::{Accumulator, STATISTICS};
 use serde_json::{Value, json};
 
+use crate::diagnosis::Diagnosis;
 use crate::model::{Model, Override};
 use crate::report::RunReport;
 use crate::session::{Session, columns};
@@ -136,6 +138,7 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
     tell("events", of_events(session));
     if let Some(error) = report.error() {
         tell("error", json!(error.to_string()));
+        tell("failure", Diagnosis::of(error).to_value());
     }
     tell("time", json!(report.time));
     tell("records", json!(report.records));
@@ -217,9 +220,10 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
 }
 
 /// Adds why a run could not start.
-pub fn of_failed_start(summary: &mut Summary, error: &dyn std::error::Error) {
+pub fn of_failed_start(summary: &mut Summary, error: &InitialError) {
     tell(summary, "stopped", json!("failed"));
     tell(summary, "error", json!(error.to_string()));
+    tell(summary, "failure", Diagnosis::of(error).to_value());
     for name in ["records", "rejected_steps", "stagnated_steps", "newton_iterations", "factorizations"] {
         tell(summary, name, json!(0));
     }

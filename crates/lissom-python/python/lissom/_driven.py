@@ -60,6 +60,7 @@ def driven(
         "records": len(times),
         "sample": sample,
         "inputs": list(inputs),
+        "warnings": sim.warnings,
         "events": [{"event": name, "time": time} for name, time in sim.events],
     }
     if error is not None:

@@ -81,6 +81,11 @@ class LinearModel:
             return scipy("sparse").csr_matrix((self.coordinates + self.multipliers, 0))
         return sparse(self._texts["inputs.mtx"])
 
+    @property
+    def B(self) -> Any:
+        """The same as `F`: what the equations of second order have as input matrix. That of first order is `state_space.B`."""
+        return self.F
+
     def output_matrix(self, by: str) -> Any:
         """Outputs by `place`, `rate`, `acceleration` (columns: coordinates), `multiplier` (multipliers) or `input`."""
         if by not in ("place", "rate", "acceleration", "multiplier", "input"):

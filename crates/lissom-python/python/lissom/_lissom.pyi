@@ -11,16 +11,32 @@ _Progress = Optional[Callable[[float, float], object]]
 __version__: str
 
 class LissomError(Exception):
-    """What all exceptions of this package are."""
+    """What all exceptions of this package are.
+
+    The text is that of the command line; `time`, `part` and `remedy` say parts of it, None where it does not tell.
+    """
+
+    time: Optional[float]
+    """When [s]."""
+    part: Optional[str]
+    """What is blamed first: a table of the model file, as `joints.hinge`, or a name."""
+    remedy: Optional[str]
+    """What to try."""
 
 class ModelError(LissomError):
-    """A model or sweep is wrong. The text underlines every mistake where it stands, with a remedy."""
+    """A model or sweep is wrong. The text underlines every mistake where it stands, with a remedy.
+
+    `problems` has them as `lissom check --json` does: dictionaries of `severity`, `message`, `help` and, where it is known,
+    `part`, `file`, `line`, `column`. `part` and `remedy` are those of the first.
+    """
+
+    problems: tuple[dict[str, Any], ...]
 
 class SolutionError(LissomError):
     """A model has no solution. The text says at which time and where, and what to try."""
 
-    # What was computed before a run failed, a `lissom.Result`; not there otherwise.
     result: Any
+    """What was computed before a run failed, a `lissom.Result`; None otherwise."""
 
 @final
 class NativeModel:
@@ -37,7 +53,7 @@ class NativeModel:
     def replace(self, overrides: list[tuple[str, str]]) -> NativeModel: ...
     def to_toml(self) -> str: ...
     def check(self) -> dict[str, Any]: ...
-    def run(self, progress: _Progress, threads: Optional[int]) -> tuple[Parts, Optional[str]]: ...
+    def run(self, progress: _Progress, threads: Optional[int]) -> tuple[Parts, Optional[SolutionError]]: ...
     def simulation(self) -> Simulation: ...
 
 @final
@@ -75,6 +91,9 @@ class Simulation:
     @property
     def events(self) -> list[tuple[str, float]]:
         """Names and times [s] of the events that have happened."""
+    @property
+    def warnings(self) -> list[str]:
+        """Reasons to doubt the results up to now, as in `summary.json`. Each is also told by a `ModelWarning` when it comes up."""
     @property
     def names(self) -> list[str]:
         """Names of the columns, in the order of `values`."""
@@ -129,7 +148,7 @@ def response(
     model: NativeModel, inputs: list[str], outputs: list[str], range: tuple[float, float, int], state: str
 ) -> Files: ...
 def linearize(model: NativeModel, inputs: list[str], outputs: list[str], state: str) -> Files: ...
-def path(model: NativeModel) -> tuple[Parts, Optional[str]]: ...
+def path(model: NativeModel) -> tuple[Parts, Optional[SolutionError]]: ...
 def animation(model: NativeModel, threads: Optional[int]) -> str: ...
 def modes_animation(
     model: NativeModel, count: Optional[int], state: Optional[str], shift: Optional[float]

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import difflib
+import functools
 import os
 import sys
+import time
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeVar, Union
@@ -13,7 +15,7 @@ from . import _lissom, _toml
 from ._analyses import Buckling, Campbell, Gradient, Modes, Path, Response
 from ._driven import InputFunction, driven
 from ._linear import LinearModel, linear_model
-from ._lissom import NativeModel, Simulation, SolutionError
+from ._lissom import NativeModel, Simulation
 from ._result import Result
 from .entries._entry import written
 from .entries._model_tables import ORDER, ModelTables
@@ -147,7 +149,7 @@ class Model(ModelTables):
         """Simulates the model as its table `[analysis]` asks. The interpreter lock is released; Ctrl-C ends the run.
 
         Args:
-            progress: `True` for a line on the terminal, or a function of (steps done, steps planned).
+            progress: `True` for a line on the terminal with the time that is left, or a function of (steps done, steps planned).
             threads: for models of thousands of elements or joints; results do not depend on it. All by default.
             inputs: functions by the names of entries of `[inputs]`, as `{"motor": lambda sim: -3 * sim["arm.rate"]}`: each is
                 called with the simulation every `sample` seconds, from the start on, and its value holds until the next
@@ -166,28 +168,36 @@ class Model(ModelTables):
                 return driven(self._native, inputs, float(sample), show)
             finally:
                 clear()
+        threads = _at_least(1, threads, "threads")
         try:
             parts, failure = self._native.run(show, threads)
         finally:
             clear()
-        result = Result._of(parts, lambda: _lissom.animation(self._native, threads))
+        result = Result._of(parts, functools.partial(_lissom.animation, self._native, threads))
         if failure is not None:
-            error = SolutionError(failure)
-            error.result = result
-            raise error
-        # Those of the model itself were told when it was made.
-        for words in result.summary.get("warnings", []):
-            if words not in self._facts["warnings"]:
-                warnings.warn(words, ModelWarning, stacklevel=2)
+            failure.result = result
+            raise failure
+        self._warn(result.summary.get("warnings", []))
         return result
+
+    def _warn(self, told: Sequence[str]) -> None:
+        """Those of the model itself were told when it was made."""
+        for words in told:
+            if words not in self._facts["warnings"]:
+                warnings.warn(words, ModelWarning, stacklevel=3)
 
     def simulation(self) -> Simulation:
         """The model at its start, to be taken on step by step.
 
         Raises:
             SolutionError: if there are no consistent initial values.
+
+        Warns:
+            ModelWarning: when a reason comes up to doubt the results, also while stepping.
         """
-        return self._native.simulation()
+        sim = self._native.simulation()
+        self._warn(sim.warnings)
+        return sim
 
     def modes(self, count: int | None = None, *, about: About | None = None, shift: float | None = None) -> Modes:
         """Natural modes, as `lissom modes` finds them.
@@ -203,7 +213,7 @@ class Model(ModelTables):
             equilibrium, or modes were missed.
         """
         question = (_at_least(1, count, "count"), None if about is None else _about(about), None if shift is None else float(shift))
-        found = Modes(_lissom.modes(self._native, *question), lambda: _lissom.modes_animation(self._native, *question))
+        found = Modes(_lissom.modes(self._native, *question), functools.partial(_lissom.modes_animation, self._native, *question))
         return self._told(found)
 
     def buckling(self, count: int | None = None) -> Buckling:
@@ -224,9 +234,8 @@ class Model(ModelTables):
         parts, failure = _lissom.path(model._native)
         path = Path._of(parts)
         if failure is not None:
-            error = SolutionError(failure)
-            error.result = path
-            raise error
+            failure.result = path
+            raise failure
         return path
 
     def gradient(self, of: str, by: str | Sequence[str]) -> Gradient:
@@ -346,20 +355,37 @@ def _at_least(least: int, number: int | None, name: str) -> int | None:
     return int(number)
 
 
+def _duration(seconds: float) -> str:
+    whole = round(seconds)
+    if whole < 60:
+        return f"{whole} s"
+    return f"{whole // 60}:{whole % 60:02} min" if whole < 3600 else f"{whole // 3600}:{whole % 3600 // 60:02} h"
+
+
 def _shown(progress: Progress) -> tuple[Callable[[float, float], object] | None, Callable[[], None]]:
     """A function that shows progress, if it is wanted, and one that ends it."""
     if progress is False:
         return None, lambda: None
     if progress is not True:
+        if not callable(progress):
+            raise TypeError(f"`progress` is {progress!r}: it must be True, False or a function of two numbers")
         return progress, lambda: None
     width = 30
+    began: list[tuple[float, float]] = []
 
     def show(done: float, planned: float) -> None:
         share = done / planned if planned > 0 else 1.0
         bar = "#" * round(width * share)
-        print(f"\r[{bar:<{width}}] {100 * share:5.1f} %", end="", file=sys.stderr, flush=True)
+        now = time.monotonic()
+        if not began:
+            # A sweep that goes on has members already.
+            began.append((now, share))
+        since, first = began[0]
+        left = (now - since) * (1 - share) / (share - first) if share > first else None
+        words = "" if left is None else f", {_duration(left)} left"
+        print(f"\r[{bar:<{width}}] {100 * share:5.1f} %{words:<20}", end="", file=sys.stderr, flush=True)
 
     def clear() -> None:
-        print("\r" + " " * (width + 10) + "\r", end="", file=sys.stderr, flush=True)
+        print("\r" + " " * (width + 30) + "\r", end="", file=sys.stderr, flush=True)
 
     return show, clear

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import json
 import os
 from collections.abc import Callable, Iterator
@@ -126,4 +127,4 @@ def read(path: str | os.PathLike[str]) -> Result:
     if os.fspath(path).endswith(".npz"):
         return Result._of_npz(Path(path))
     folder = os.fspath(path)
-    return Result._of(_lissom.read_folder(folder), lambda: _lissom.folder_animation(folder))
+    return Result._of(_lissom.read_folder(folder), functools.partial(_lissom.folder_animation, folder))

@@ -11,7 +11,7 @@ import numpy as np
 
 from . import _toml
 from ._lissom import NativeSweep
-from ._model import Model, Progress, _shown
+from ._model import Model, Progress, _at_least, _shown
 
 if TYPE_CHECKING:
     import pandas
@@ -179,7 +179,8 @@ def sweep(
             of Parquet files, one per batch.
         restart: discard what an earlier sweep left in `out`.
         workers: members solved at the same time on this machine; all processors by default.
-        progress: `True` for a line on the terminal, or a function of (members done, members in all).
+        progress: `True` for a line on the terminal with the time that is left, or a function of (members done, members in
+            all).
         client: a `dask.distributed.Client`: members are solved in batches by its workers.
         batch: members per task of the cluster; by default a twentieth of a worker's share, at most 1000.
 
@@ -192,6 +193,7 @@ def sweep(
     """
     if histories and out is None:
         raise ValueError("histories are kept in files: name a folder by `out`")
+    workers = _at_least(1, workers, "workers")
     text = _text(vary, collect, sampling, members, seed, set or {}, histories)
     native = NativeSweep(model._native, text, "sweep")
     if client is not None:
