@@ -72,12 +72,20 @@ pub(super) fn write_joint(text: &mut String, joint: &RobotJoint, place: &Placed,
     write_effort(text, joint);
 }
 
-/// The greatest torque of a motor, as a comment.
+/// The greatest torque and speed of a motor, as comments.
 pub(super) fn write_effort(text: &mut String, joint: &RobotJoint) {
     if let Some(effort) = joint.effort {
         let unit = if joint.freedom == Freedom::Rotation { "N m" } else { "N" };
         let _ =
             writeln!(text, "# the motor of {} gives at most {effort:?} {unit}", joint.name.escape_debug());
+    }
+    if let Some(speed) = joint.speed {
+        let unit = if joint.freedom == Freedom::Rotation { "rad/s" } else { "m/s" };
+        let _ = writeln!(
+            text,
+            "# the motor of {} is meant for at most {speed:?} {unit}, which nothing enforces here",
+            joint.name.escape_debug()
+        );
     }
 }
 

@@ -114,6 +114,8 @@ pub struct RobotJoint {
     pub range: Option<[f64; 2]>,
     /// Greatest torque or force of its motor [N m, N].
     pub effort: Option<f64>,
+    /// Greatest speed that its motor is meant for [rad/s, m/s]; nothing keeps the joint below it.
+    pub speed: Option<f64>,
     /// Stiffness of the spring at the joint [N m/rad, N/m].
     pub stiffness: f64,
     /// Value at which that spring is free of force [rad, m].
@@ -142,6 +144,7 @@ impl RobotJoint {
             reference: 0.0,
             range: None,
             effort: None,
+            speed: None,
             stiffness: 0.0,
             rest: 0.0,
             damping: 0.0,

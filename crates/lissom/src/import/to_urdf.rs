@@ -4,6 +4,7 @@ use std::fmt::Write;
 
 use lissom_motion::{Motion, Rotation, Vector3};
 
+use super::urdf::NO_LIMIT;
 use super::{Freedom, LinkInertia, Robot, RobotJoint};
 
 /// A range that the format asks for, where a prismatic joint has none [m].
@@ -101,10 +102,11 @@ fn write_joint(text: &mut String, robot: &Robot, joint: &RobotJoint) {
         let range = joint.range.or((joint.freedom == Freedom::Displacement).then_some([-FAR, FAR]));
         if let Some([low, high]) = range {
             // Torque and rate must be given; a model has no limits of them.
-            let effort = joint.effort.unwrap_or(1e9);
+            let effort = joint.effort.unwrap_or(NO_LIMIT);
+            let speed = joint.speed.unwrap_or(NO_LIMIT);
             let _ = writeln!(
                 text,
-                "    <limit lower=\"{low:?}\" upper=\"{high:?}\" effort=\"{effort:?}\" velocity=\"1e9\"/>"
+                "    <limit lower=\"{low:?}\" upper=\"{high:?}\" effort=\"{effort:?}\" velocity=\"{speed:?}\"/>"
             );
         }
         if joint.damping != 0.0 || joint.friction != 0.0 {

@@ -12,6 +12,9 @@ use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint};
 /// Gravity as in ROS [m/s²].
 const GRAVITY: Vector3 = Vector3::new(0.0, 0.0, -9.81);
 
+/// Where the format asks for a number and there is no limit [rad/s, m/s, N, N m].
+pub(super) const NO_LIMIT: f64 = 1e9;
+
 /// Reads a robot from the text of a URDF file.
 ///
 /// # Errors
@@ -33,7 +36,12 @@ pub fn from_urdf(text: &str) -> Result<Robot, ImportError> {
     // Transmissions and simulators have elements of the same name elsewhere: only those of the robot itself count.
     let joints = children(root, "joint").map(|node| joint(node, &numbers)).collect::<Result<Vec<_>, _>>()?;
     let name = root.attribute("name").unwrap_or("robot").to_owned();
-    let left_out = left_out(root);
+    let mut left_out = left_out(root);
+    let limited = joints.iter().filter(|joint| joint.speed.is_some()).count();
+    if limited > 0 {
+        let joints = if limited == 1 { "1 joint".to_owned() } else { format!("{limited} joints") };
+        left_out.push(format!("greatest speeds of {joints} (`velocity`): nothing keeps them below"));
+    }
     in_order(Robot {
         name,
         gravity: GRAVITY,
@@ -215,9 +223,10 @@ fn joint(node: Node<'_, '_>, links: &BTreeMap<String, usize>) -> Result<RobotJoi
         None => Vector3::x(),
     };
     let limit = child(node, "limit").filter(|_| moves);
-    let (mut range, mut effort) = (None, None);
+    let (mut range, mut effort, mut speed) = (None, None, None);
     if let Some(limit) = limit {
         effort = number(limit, "effort")?;
+        speed = number(limit, "velocity")?.filter(|speed| *speed < NO_LIMIT);
         if kind != "continuous" {
             // Left out they are zero, as the format has it.
             let ends = [number(limit, "lower")?.unwrap_or(0.0), number(limit, "upper")?.unwrap_or(0.0)];
@@ -243,5 +252,5 @@ fn joint(node: Node<'_, '_>, links: &BTreeMap<String, usize>) -> Result<RobotJoi
     };
     let (damping, friction) = (of_dynamics("damping")?, of_dynamics("friction")?);
     let joint = RobotJoint::new(name, freedom, parent, child_link, origin(node)?);
-    Ok(RobotJoint { axis, range, effort, damping, friction, follows, ..joint })
+    Ok(RobotJoint { axis, range, effort, speed, damping, friction, follows, ..joint })
 }
