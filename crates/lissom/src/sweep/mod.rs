@@ -33,13 +33,14 @@ mod member;
 mod table;
 
 use std::any::Any;
+use std::cell::RefCell;
 use std::num::NonZero;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;
@@ -59,6 +60,10 @@ pub use table::{headings, plot, rows, write_parquet, write_table};
 
 /// How often the watch is asked while no member ends.
 const PATIENCE: Duration = Duration::from_millis(50);
+
+/// Members that end within this time are handed over together: waking the other thread for each takes as long as a tenth of a
+/// small member.
+const TOGETHER: Duration = Duration::from_millis(10);
 
 /// A sweep that cannot start.
 #[derive(Debug, thiserror::Error)]
@@ -225,8 +230,10 @@ impl Sweep {
         let next = AtomicUsize::new(0);
         let stopped = AtomicBool::new(false);
         let (sender, receiver) = mpsc::channel();
-        let work = |sender: mpsc::Sender<MemberOutcome>| {
+        let work = |sender: mpsc::Sender<Vec<MemberOutcome>>| {
+            let ended = RefCell::new(Ended { sender, outcomes: Vec::new(), since: Instant::now() });
             let mut go_on = |_: &Progress| {
+                ended.borrow_mut().hand_over_if_due();
                 let is_stopped = stopped.load(Ordering::Relaxed);
                 if is_stopped { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
             };
@@ -236,9 +243,8 @@ impl Sweep {
                 let caught = catch_unwind(AssertUnwindSafe(|| self.run_member(member, &mut go_on)));
                 let outcome = caught
                     .unwrap_or_else(|panic| Some(MemberOutcome::defect(member, &words_of(panic.as_ref()))));
-                if outcome.is_none_or(|outcome| sender.send(outcome).is_err()) {
-                    return;
-                }
+                let Some(outcome) = outcome else { return };
+                ended.borrow_mut().add(outcome);
             }
         };
         thread::scope(|scope| {
@@ -249,27 +255,65 @@ impl Sweep {
             drop(sender);
             let (mut done, mut outcome) = (0, Ok(ControlFlow::Continue(())));
             loop {
-                let told = match receiver.recv_timeout(PATIENCE) {
-                    Ok(member) => {
-                        done += 1;
-                        if outcome.is_ok() {
-                            outcome = keep(member).map(|()| ControlFlow::Continue(()));
+                let mut told = ControlFlow::Continue(());
+                match receiver.recv_timeout(PATIENCE) {
+                    Ok(members) => {
+                        for member in members {
+                            done += 1;
+                            if outcome.is_ok() {
+                                outcome = keep(member).map(|()| ControlFlow::Continue(()));
+                            }
+                            if told.is_continue() {
+                                told = watch(done);
+                            }
                         }
-                        watch(done)
                     }
-                    Err(RecvTimeoutError::Timeout) => watch(done),
+                    Err(RecvTimeoutError::Timeout) => told = watch(done),
                     Err(RecvTimeoutError::Disconnected) => {
                         return match outcome {
                             Ok(_) if done < members.len() => Ok(ControlFlow::Break(())),
                             outcome => outcome,
                         };
                     }
-                };
+                }
                 if told.is_break() || outcome.is_err() {
                     stopped.store(true, Ordering::Relaxed);
                 }
             }
         })
+    }
+}
+
+/// Members that a worker has solved, on their way to the thread that keeps them.
+struct Ended {
+    sender: mpsc::Sender<Vec<MemberOutcome>>,
+    outcomes: Vec<MemberOutcome>,
+    since: Instant,
+}
+
+impl Ended {
+    fn add(&mut self, outcome: MemberOutcome) {
+        self.outcomes.push(outcome);
+        self.hand_over_if_due();
+    }
+
+    /// Hands over what has waited long enough; asked also while a long member follows short ones.
+    fn hand_over_if_due(&mut self) {
+        if !self.outcomes.is_empty() && self.since.elapsed() >= TOGETHER {
+            self.hand_over();
+        }
+    }
+
+    fn hand_over(&mut self) {
+        // Nobody is there to take them any more where the sweep has ended.
+        let _ = self.sender.send(std::mem::take(&mut self.outcomes));
+        self.since = Instant::now();
+    }
+}
+
+impl Drop for Ended {
+    fn drop(&mut self) {
+        self.hand_over();
     }
 }
 
