@@ -26,7 +26,7 @@ def build() -> lissom.Model:
     model.inputs["motor"] = 0
     model.loads["motor"] = loads.JointTorque(joint="hinge", torque="motor")
     model.outputs["hinge"] = outputs.Relative(of="hinge")
-    model.analysis = analyses.Dynamics(end=10, step=0.01)
+    model.analysis = analyses.Dynamics(end=10, step=5e-3)
     return model
 
 

@@ -51,7 +51,7 @@ of = "torque"
 [analysis]
 kind = "dynamics"
 end = 2
-step = 0.01
+step = 5e-3
 """
 
 #: Where gains are sought, evenly in their logarithms.

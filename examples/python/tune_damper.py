@@ -26,7 +26,7 @@ def build() -> lissom.Model:
     model.springs["ground"] = springs.Point(base="ground", at_base=[-1, 0, 0], tip="mass", stiffness=4000, damping=2)
     model.springs["absorber"] = springs.Point(base="mass", tip="damper", stiffness=100, damping=1)
     model.outputs["mass"] = outputs.Position(of="mass")
-    model.analysis = analyses.Dynamics(end=4, step=0.01, scheme="generalized-alpha")
+    model.analysis = analyses.Dynamics(end=4, step=2e-3, scheme="generalized-alpha")
     return model
 
 

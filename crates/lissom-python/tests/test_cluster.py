@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import runpy
 import signal
 import threading
 import time
@@ -15,7 +16,7 @@ import pytest
 from distributed import Client, LocalCluster
 
 import lissom
-from conftest import PENDULUM
+from conftest import PENDULUM, ROOT
 
 VARY = {"point_masses.bob.mass": {"from": 1, "to": 4}, "springs.spring.stiffness": {"from": 1, "to": 100, "spacing": "logarithmic"}}
 COLLECT = {"swing": "max(bob.x)", "rest": "rms(energy.kinetic)"}
@@ -77,6 +78,15 @@ def test_a_cluster_that_loses_a_worker_gives_the_serial_table(client: Any, tmp_p
 
     frame = pandas.read_parquet(tmp_path)
     assert sorted(frame["member"]) == list(range(1000))
+
+
+def test_the_example_runs_on_processes_of_its_own(tmp_path: Path) -> None:
+    own = runpy.run_path(str(ROOT / "examples" / "python" / "sweep_on_cluster.py"))
+    table = own["sweep"](tmp_path, members=64, show=False)
+    model = lissom.load(PENDULUM, **{"analysis.end": 0.5})
+    collect = {"swing": "max(bob.x)", "rest": "final(energy.total)"}
+    equal(table, lissom.sweep(model, own["VARY"], collect=collect, sampling="sobol", members=64))
+    assert len(table) == 64 and len(list(tmp_path.glob("part-*.parquet"))) > 1
 
 
 def test_members_that_fail_have_their_diagnosis(client: Any) -> None:

@@ -173,6 +173,8 @@ def test_wrong_sweeps_are_refused() -> None:
         lissom.sweep(model, {"point_masses.bob.mas": [1]}, collect=["max(bob.x)"])
     with pytest.raises(lissom.ModelError, match="did you mean `sobol`"):
         lissom.sweep(model, VARY, collect=COLLECT, sampling="sobl")
+    with pytest.raises(ValueError, match="`workers` is 0"):
+        lissom.sweep(model, VARY, collect=COLLECT, workers=0)
     with pytest.raises(lissom.ModelError, match="needs the number of members"):
         lissom.sweep(model, VARY, collect=COLLECT, sampling="sobol")
 
