@@ -29,6 +29,7 @@ export const connect = (viewer) => {
   }
   on("colour", "change", () => viewer.colourBy($("colour").value));
   on("magnify", "change", () => viewer.magnify(Number($("magnify").value)));
+  on("frame", "change", () => viewer.against($("frame").value));
   on("shape", "change", () => {
     viewer.choices.bodyShape = $("shape").value;
     viewer.rebuild();

@@ -11,6 +11,33 @@ const piecewise = (at, value) => (s) => {
   return value(k) + x * (value(k + 1) - value(k));
 };
 
+/** The inverse of a symmetric positive matrix, by rows. */
+const inverse = (matrix) => {
+  const n = 6;
+  const rows = Array.from({ length: n }, (_, i) => [...matrix.slice(n * i, n * i + n), ...Array.from({ length: n }, (_, j) => (i === j ? 1 : 0))]);
+  for (let i = 0; i < n; i++) {
+    const pivot = rows[i][i];
+    for (let j = 0; j < 2 * n; j++) rows[i][j] /= pivot;
+    for (let k = 0; k < n; k++) {
+      if (k === i) continue;
+      const factor = rows[k][i];
+      for (let j = 0; j < 2 * n; j++) rows[k][j] -= factor * rows[i][j];
+    }
+  }
+  return rows.flatMap((row) => row.slice(n));
+};
+
+/** The compliance of the section of a beam at the fraction s; none where stations do not tell their stiffness. */
+const compliance = ({ stations }, s) => {
+  if (stations.some(({ stiffness }) => stiffness?.length !== 36)) return null;
+  let next = stations.findIndex((station) => station.at > s);
+  if (next < 0) next = stations.length;
+  const before = stations[Math.max(next - 1, 0)];
+  const after = stations[Math.min(next, stations.length - 1)];
+  const x = after.at > before.at ? (s - before.at) / (after.at - before.at) : 0;
+  return inverse(before.stiffness.map((value, k) => value + x * (after.stiffness[k] - value)));
+};
+
 /** A field of the numbers of nodes. */
 const ofNodes = (title, unit, numbers) => ({
   title,
@@ -56,6 +83,19 @@ export const fields = (scene, kinematics) => {
   names.forEach((name, j) => {
     found[name] = ofForces(name, j < 3 ? "N" : "N m", (k) => forces[k + j]);
   });
+  const compliances = kinematics.motion.forcePoints.flatMap(({ beam, at }) => {
+    const part = scene.beams.find((each) => each.name === beam);
+    return at.map((s) => part && compliance(part, s));
+  });
+  if (compliances.every(Boolean)) {
+    // Half the product of section forces and the strains that they belong to.
+    found["strain energy"] = ofForces("strain energy per length", "J/m", (k) => {
+      const flexible = compliances[k / 6];
+      let sum = 0;
+      for (let i = 0; i < 6; i++) for (let j = 0; j < 6; j++) sum += forces[k + i] * flexible[6 * i + j] * forces[k + j];
+      return sum / 2;
+    });
+  }
   return found;
 };
 

@@ -48,6 +48,8 @@ export class Kinematics {
     this.forces = new Float64Array(6 * motion.points);
     /** Displacements are shown so many times as large. */
     this.magnification = 1;
+    /** Against the rigid motion of which node each node's are enlarged: 0 is the ground, -1 leaves the node where it is. */
+    this.frames = new Int32Array(count);
     this.a = [0, 0, 0, 1];
     this.b = [0, 0, 0, 1];
     this.set(motion.times[0]);
@@ -135,6 +137,25 @@ export class Kinematics {
     const m = this.magnification;
     const before = 3 * count * frame;
     const after = 3 * count * next;
+    /** Rotation of a node since the description of the model, into `a`. */
+    const turned = (node) => {
+      exponential(rotations, before + 3 * node, a);
+      exponential(rotations, after + 3 * node, b);
+      const same = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] < 0 ? -1 : 1;
+      let norm = 0;
+      for (let k = 0; k < 4; k++) {
+        a[k] += x * (same * b[k] - a[k]);
+        norm += a[k] * a[k];
+      }
+      norm = 1 / Math.sqrt(norm);
+      for (let k = 0; k < 4; k++) a[k] *= norm;
+    };
+    const shiftOf = (node, k) => {
+      const first = displacements[before + 3 * node + k];
+      return first + x * (displacements[after + 3 * node + k] - first);
+    };
+    const carriers = new Map();
+    if (m !== 1) for (const frame of new Set(this.frames)) if (frame >= 0) carriers.set(frame, this.carrier(frame, turned, shiftOf));
     for (let node = 0; node < count; node++) {
       const p = 3 * node;
       let speed = 0;
@@ -143,23 +164,15 @@ export class Kinematics {
         const first = displacements[before + p + k];
         const change = displacements[after + p + k] - first;
         const shift = first + x * change;
-        positions[p + k] = reference[7 * node + k] + m * shift;
+        positions[p + k] = reference[7 * node + k] + shift;
         speed += change * change;
         distance += shift * shift;
       }
       this.speeds[node] = duration > 0 ? Math.sqrt(speed) / duration : 0;
       this.distances[node] = Math.sqrt(distance);
-      exponential(rotations, before + p, a);
-      exponential(rotations, after + p, b);
-      const same = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3] < 0 ? -1 : 1;
-      let norm = 0;
-      for (let k = 0; k < 4; k++) {
-        a[k] += x * (same * b[k] - a[k]);
-        norm += a[k] * a[k];
-      }
-      norm = 1 / Math.sqrt(norm);
-      if (m !== 1) this.magnify(a, norm, m);
-      else for (let k = 0; k < 4; k++) a[k] *= norm;
+      turned(node);
+      const carrier = node > 0 && carriers.get(this.frames[node]);
+      if (carrier) this.magnify(node, carrier, m);
       const r = 7 * node + 3;
       multiply(
         a[0], a[1], a[2], a[3],
@@ -174,13 +187,31 @@ export class Kinematics {
     }
   }
 
-  /** Turns the quaternion `q` into that of its angle times `m`. */
-  magnify(q, norm, m) {
-    const sine = Math.hypot(q[0], q[1], q[2]) * norm;
-    const half = Math.atan2(sine, q[3] * norm);
-    const factor = sine > 1e-12 ? (Math.sin(m * half) / sine) * norm : m * norm;
-    for (let k = 0; k < 3; k++) q[k] *= factor;
-    q[3] = Math.cos(m * half);
+  /** The rigid motion of a node that deformations are shown against: quaternion, and places before and after. */
+  carrier(frame, turned, shiftOf) {
+    turned(frame);
+    const { reference } = this.motion;
+    const from = [0, 1, 2].map((k) => reference[7 * frame + k]);
+    return { turn: [...this.a], from, to: from.map((place, k) => place + shiftOf(frame, k)) };
+  }
+
+  /** Moves a node, whose place is known and whose rotation is `a`, `m` times as far from where the carrier would have taken it. */
+  magnify(node, { turn: q, from, to }, m) {
+    const { positions, a, b } = this;
+    const { reference } = this.motion;
+    const rigid = [0, 0, 0];
+    turn(q, 0, reference[7 * node] - from[0], reference[7 * node + 1] - from[1], reference[7 * node + 2] - from[2], rigid, 0);
+    for (let k = 0; k < 3; k++) {
+      const carried = to[k] + rigid[k];
+      positions[3 * node + k] = carried + m * (positions[3 * node + k] - carried);
+    }
+    // The rotation that is left after that of the carrier, by its angle times m.
+    multiply(...a, -q[0], -q[1], -q[2], q[3], b, 0);
+    const sign = b[3] < 0 ? -1 : 1;
+    const sine = Math.hypot(b[0], b[1], b[2]);
+    const half = Math.atan2(sine, sign * b[3]);
+    const factor = sign * (sine > 1e-12 ? Math.sin(m * half) / sine : m);
+    multiply(factor * b[0], factor * b[1], factor * b[2], Math.cos(m * half), ...q, a, 0);
   }
 
   /** The place of a point carried by a node, now. */
@@ -196,7 +227,7 @@ export class Kinematics {
     const { count, motion } = this;
     const low = [Infinity, Infinity, Infinity];
     const high = [-Infinity, -Infinity, -Infinity];
-    const m = this.mode ? 1 : this.magnification;
+    const m = this.mode || this.frames.some((frame) => frame !== 0) ? 1 : this.magnification;
     const stride = Math.max(1, Math.floor((motion.frames * count) / 400000));
     for (let frame = 0; frame < motion.frames; frame += stride) {
       for (let node = count > 1 ? 1 : 0; node < count; node++) {

@@ -35,9 +35,10 @@ export class Plots {
     new ResizeObserver(() => this.resize()).observe(holder);
   }
 
-  load(history, isStatic) {
+  /** `clock` is what rows run over: `time`, `load`, or the `length` of a path. */
+  load(history, clock) {
     this.history = history;
-    this.isStatic = isStatic;
+    this.clock = clock;
     this.range = null;
     this.draw();
   }
@@ -113,7 +114,7 @@ export class Plots {
         { ...axis, size: 28, values: (_, ticks) => ticks.map((tick) => spelled(tick, 5)) },
         { ...axis, size: 58, values: (_, ticks) => ticks.map((tick) => spelled(tick, 4)) },
       ],
-      series: [{ label: this.isStatic ? "load" : "t [s]", value: (_, value) => (value == null ? "" : spelled(value)) }, ...series],
+      series: [{ label: this.clock === "time" ? "t [s]" : this.clock, value: (_, value) => (value == null ? "" : spelled(value)) }, ...series],
       hooks: {
         draw: [(plot) => this.drawTime(plot)],
         ready: [(plot) => this.listen(plot)],
@@ -130,7 +131,7 @@ export class Plots {
     select.className = "over";
     select.setAttribute("aria-label", "drawn over");
     const names = this.history.columns.map((column) => column.name);
-    const options = this.isStatic ? [["time", "over load"]] : [["time", "over time"], ["frequency", "spectrum"]];
+    const options = [["time", `over ${this.clock}`], ...(this.clock === "time" ? [["frequency", "spectrum"]] : [])];
     select.append(...[...options, ...names.map((name) => [`column ${name}`, `over ${name}`])].map(([value, text]) => new Option(text, value)));
     select.value = this.over.get(key) ?? "time";
     select.addEventListener("change", () => {

@@ -38,7 +38,7 @@ export class Viewer {
     this.plots = new Plots($("plots"), (time) => this.player.seek(time));
     this.panel = new Panel({ selection: $("selection"), parts: $("parts") }, (name) => this.select(name));
     this.modes = new Modes($("modes"), (index) => this.showMode(index));
-    this.choices = { bodyShape: "box", colour: "part", magnification: 1, traces: false, follow: false };
+    this.choices = { bodyShape: "box", colour: "part", magnification: 1, against: "", traces: false, follow: false };
     requestAnimationFrame((now) => this.draw(now));
   }
 
@@ -91,8 +91,9 @@ export class Viewer {
       ? [this.kinematics.start, this.kinematics.end]
       : [history.times[0] ?? 0, history.times[history.times.length - 1] ?? 0];
     this.isStatic = isStatic;
+    this.offerFrames();
     $("stage").parentElement.classList.toggle("empty", !this.kinematics);
-    this.plots.load(history, isStatic);
+    this.plots.load(history, isStatic ? (scene.path ? "length" : "load") : "time");
     const selected = keeps ? this.model?.selected : null;
     this.rebuild();
     if (this.kinematics && !keeps) this.firstLook();
@@ -277,6 +278,39 @@ export class Viewer {
     this.isMoved = true;
   }
 
+  /** What deformations can be enlarged against: the model as it is described, the start of each beam, or the motion of a part. */
+  offerFrames() {
+    const { bodies, beams } = this.result.scene ?? { bodies: [], beams: [] };
+    const parts = [...bodies.map(({ name, node }) => [name, node]), ...beams.map(({ name, nodes }) => [name, nodes[0]])];
+    this.frames = new Map(this.modes.current ? [] : parts);
+    const own = beams.length && !this.modes.current ? [["of each beam", "the start of each beam"]] : [];
+    const texts = [["", "the model as described"], ...own, ...[...this.frames.keys()].map((name) => [`part ${name}`, name])];
+    $("frame").replaceChildren(...texts.map(([value, text]) => new Option(text, value)));
+    if (!texts.some(([value]) => value === this.choices.against)) this.choices.against = "";
+    this.setFrames();
+  }
+
+  setFrames() {
+    const { against } = this.choices;
+    $("frame").value = against;
+    const frames = this.kinematics?.frames;
+    if (!frames) return;
+    frames.fill(against === "of each beam" ? -1 : this.frames.get(against.replace(/^part /, "")) ?? 0);
+    if (against !== "of each beam") return;
+    for (const { nodes } of this.result.scene.beams) {
+      // Beams that share a node are one structure: they go on from the start of the first.
+      const known = nodes.find((node) => frames[node] >= 0);
+      const start = known === undefined ? nodes[0] : frames[known];
+      for (const node of nodes) frames[node] = start;
+    }
+  }
+
+  against(value) {
+    this.choices.against = value;
+    this.setFrames();
+    this.magnify(this.choices.magnification);
+  }
+
   /** Moves everything to the time of the player. */
   move() {
     const { time } = this.player;
@@ -299,11 +333,21 @@ export class Viewer {
     const digits = Math.max(0, Math.min(6, 3 - Math.floor(Math.log10(Math.max(end - start, 1e-9)))));
     const mode = this.modes.current;
     if (mode) $("clock").textContent = `mode ${this.modes.index + 1}: ${spelled(mode.frequency, 5)} Hz`;
+    else if (this.result.scene?.path) $("clock").textContent = `${this.result.scene.path.name} ${spelled(this.pathValue(time), 5)}`;
     else $("clock").textContent = this.isStatic ? `load ${time.toFixed(3)}` : `${time.toFixed(digits)} s of ${spelled(end, 6)} s`;
     $("speed").textContent = factor(speed);
     const icon = isPlaying ? ICONS.pause : ICONS.play;
     if (this.icon !== icon) $("play").innerHTML = this.icon = icon;
     $("loop").setAttribute("aria-pressed", String(isLooping));
+  }
+
+  /** The load factor, or the number that is varied, at a length of an equilibrium path. */
+  pathValue(length) {
+    const { lengths, values } = this.result.scene.path;
+    const next = lengths.findIndex((known) => known >= length);
+    if (next <= 0) return values.at(next) ?? 0;
+    const x = (length - lengths[next - 1]) / (lengths[next] - lengths[next - 1] || 1);
+    return values[next - 1] + x * (values[next] - values[next - 1]);
   }
 
   /** Goes some frames on; back where negative. */

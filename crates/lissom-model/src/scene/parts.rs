@@ -47,6 +47,9 @@ pub struct Station {
     pub section: String,
     /// Its outline.
     pub outline: Outline,
+    /// Its stiffness by rows, 6 x 6 [N, N m, N m²], linear between stations; empty where it is not told.
+    #[serde(default)]
+    pub stiffness: Vec<f64>,
 }
 
 /// A beam.
@@ -112,8 +115,11 @@ pub(super) fn beams(document: &Document, places: &Places<'_>) -> Vec<Beam> {
         let offset =
             |(k, offset): (usize, &Motion)| (k, offset.position.into(), offset.rotation.quaternion());
         let station = |station: &crate::document::Station| {
-            let outline = Outline::of(document.section(&station.section.value)?);
-            Some(Station { at: station.at, section: station.section.value.clone(), outline })
+            let section = document.section(&station.section.value)?;
+            let outline = Outline::of(section);
+            // By columns is by rows: the matrix is symmetric.
+            let stiffness = section.properties.stiffness.as_slice().to_vec();
+            Some(Station { at: station.at, section: station.section.value.clone(), outline, stiffness })
         };
         let start = beam.properties(document, 0.0)?;
         Some(Beam {
