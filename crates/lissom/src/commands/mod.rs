@@ -13,6 +13,8 @@ mod kinds;
 mod linearization;
 mod linearize;
 mod live;
+#[cfg(test)]
+mod manual;
 mod modes;
 mod new;
 mod path;
