@@ -32,7 +32,7 @@ impl ResultFolder {
     /// If the folder holds no table or no motion, or if table, motion or scene are none.
     pub fn recorded(path: &Path) -> Result<RecordedRun, FolderError> {
         if path.join(MODES).is_file() {
-            let kind = "natural modes, whose shapes `lissom view` shows";
+            let kind = "natural modes, whose shapes `lissom view` and `lissom snapshot` show";
             return Err(FolderError::NoMotion { path: path.display().to_string(), holds: kind });
         }
         let (_, record, title) = Self::open(path)?;
@@ -100,7 +100,7 @@ fn drawn(path: &Path) -> Result<Option<(Value, Vec<u8>)>, FolderError> {
     Ok(Some((described?, bytes)))
 }
 
-fn read_scene(path: &Path) -> Result<Scene, FolderError> {
+pub(crate) fn read_scene(path: &Path) -> Result<Scene, FolderError> {
     Scene::from_json(&files::read_text(path)?)
         .map_err(|error| FolderError::Scene { path: path.display().to_string(), error })
 }
@@ -113,6 +113,6 @@ fn with_modes(path: &Path, results: Results) -> Result<Results, FolderError> {
     results.with_modes(&modes, &shapes).ok_or_else(damaged)
 }
 
-fn foreign(path: &Path, error: MotionError) -> FolderError {
+pub(crate) fn foreign(path: &Path, error: MotionError) -> FolderError {
     FolderError::Motion { path: path.display().to_string(), error }
 }

@@ -1,8 +1,9 @@
 //! Equilibrium paths of a model: its systems along the path, the table of equilibria, the critical points.
 
 mod number;
+mod pictures;
 
-use std::io;
+use std::io::{self, Write};
 use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -15,6 +16,7 @@ use lissom_model::channels::Channel;
 use lissom_model::document::{AnalysisKind, OutputKind};
 use lissom_model::lower::{Lowered, lower};
 use lissom_model::output::{Column, Record, Summary, Writer};
+use lissom_model::scene::Scene;
 use lissom_model::{Document, Report};
 use serde_json::{Value, json};
 
@@ -23,6 +25,7 @@ use crate::model::{Model, Override};
 use crate::session::columns;
 use number::Varied;
 pub use number::varied_number;
+use pictures::PathPictures;
 
 /// First step of a path as part of its way, where it is not given.
 const FIRST_OF_PATH: f64 = 0.02;
@@ -135,6 +138,7 @@ pub struct PathSession {
     columns: Vec<Column>,
     unknowns: [usize; 2],
     began: Instant,
+    pictures: PathPictures,
 }
 
 impl PathSession {
@@ -148,7 +152,9 @@ impl PathSession {
         let AnalysisKind::Path { first, end, most_steps, branch } = document.analysis.kind else {
             return Err(PathSessionError::NotAPath(document.analysis.kind.name()));
         };
-        let Lowered { system, state, settings, channels, .. } = lower(&document)?;
+        let lowered = lower(&document)?;
+        let pictures = PathPictures::new(&document, &lowered);
+        let Lowered { system, state, settings, channels, .. } = lowered;
         let varied = Varied::of(model, overrides, &document, &state)?;
         let from = varied.as_ref().map_or(0.0, |varied| varied.from);
         let mut without = document.clone();
@@ -183,7 +189,19 @@ impl PathSession {
         };
         let mut all = vec![column, Column::new("unstable", "", "unstable directions", "")];
         all.extend(columns(&channels));
-        Ok(Self { path, varied, system: own, channels, columns: all, unknowns, began })
+        let pictures = pictures.along(path.name(), varied.is_none());
+        Ok(Self { path, varied, system: own, channels, columns: all, unknowns, began, pictures })
+    }
+
+    /// Writes every equilibrium as a frame of a motion file, with the length of the path as its time.
+    #[must_use]
+    pub fn with_motion(self, to: Box<dyn Write + Send>) -> Self {
+        Self { pictures: self.pictures.writing_to(to), ..self }
+    }
+
+    /// What the model looks like along the path as far as it has been followed.
+    pub fn scene(&self) -> Scene {
+        self.pictures.scene()
     }
 
     /// What is recorded: the load factor or the number that is varied, the number of unstable directions, then the outputs.
@@ -237,7 +255,8 @@ impl PathSession {
             Ok(ControlFlow::Break(())) => PathEnd::Interrupted,
             Err(error) => PathEnd::Failed(error),
         };
-        let finished = writers.iter_mut().try_for_each(|writer| writer.finish());
+        let finished =
+            writers.iter_mut().try_for_each(|writer| writer.finish()).and_then(|()| self.pictures.flush());
         report.end = match (end, finished) {
             (PathEnd::Failed(error), _) => PathEnd::Failed(error),
             (_, Err(error)) => PathEnd::Failed(error.into()),
@@ -269,7 +288,9 @@ impl PathSession {
         loop {
             values.clear();
             self.values(&mut values);
-            writers.iter_mut().try_for_each(|writer| writer.row(self.path.arc(), &values))?;
+            let length = self.path.arc();
+            writers.iter_mut().try_for_each(|writer| writer.row(length, &values))?;
+            self.pictures.push((length, self.path.load_factor()), &self.path.state().kinematics)?;
             report.records += 1;
             if self.path.is_finished() {
                 return Ok(ControlFlow::Continue(()));
@@ -284,8 +305,9 @@ impl PathSession {
             report.critical.extend(step.critical);
             if let Some(varied) = &self.varied {
                 // Outputs may depend on the number, too.
-                Lowered { system: self.system, channels: self.channels, .. } =
-                    varied.at(self.path.load_factor())?;
+                let lowered = varied.at(self.path.load_factor())?;
+                self.pictures.read_elements_of(&lowered);
+                Lowered { system: self.system, channels: self.channels, .. } = lowered;
             }
         }
     }

@@ -7,6 +7,7 @@
 mod connections;
 mod kinds;
 mod parts;
+mod path_values;
 mod shapes;
 mod solids;
 mod symbols;
@@ -21,6 +22,7 @@ use crate::report::Located;
 
 pub use connections::{BeamLoad, Joint, Load, Spring};
 pub use parts::{Beam, Body, PointMass, Station};
+pub use path_values::PathValues;
 pub use shapes::{InertiaBox, Outline};
 pub use solids::{Form, Solid, Tone};
 pub use symbols::{Rod, Symbol};
@@ -57,6 +59,9 @@ pub struct Scene {
     pub end: f64,
     /// Whether time stands for the growth of loads.
     pub is_static: bool,
+    /// Where time stands for the length of an equilibrium path: the load factors, or values of a number, along it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path: Option<PathValues>,
     /// Rigid bodies.
     pub bodies: Vec<Body>,
     /// Point masses.
@@ -113,6 +118,7 @@ impl Scene {
             start: document.analysis.start,
             end: document.analysis.end,
             is_static: lowered.plan.is_static,
+            path: None,
             bodies: parts::bodies(document, &places),
             point_masses: parts::point_masses(document, &places),
             beams: parts::beams(document, &places),

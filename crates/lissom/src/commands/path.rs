@@ -35,7 +35,7 @@ pub(super) fn run(
         other => other,
     };
     let folder = ResultFolder::create(wanted.folder).map_err(|error| unwritable(error.into()))?;
-    let mut session = match started {
+    let session = match started {
         Ok(session) => session,
         Err(error) => {
             if !folder.has_results() {
@@ -47,6 +47,13 @@ pub(super) fn run(
         }
     };
     let mut history = folder.begin().map_err(|error| unwritable(error.into()))?;
+    let mut session = if wanted.plots {
+        // With both files the path can be seen even if the program is killed.
+        folder.write_scene(&session.scene()).map_err(|error| unwritable(error.into()))?;
+        session.with_motion(Box::new(folder.motion().map_err(|error| unwritable(error.into()))?))
+    } else {
+        session
+    };
     let mut record = CurveRecord::default();
     let mut writers: Vec<&mut dyn Writer> = vec![&mut history];
     if wanted.plots {
@@ -54,6 +61,9 @@ pub(super) fn run(
     }
     let mut watch = || if interrupt.is_noted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
     let report = session.run(&mut writers, &mut watch);
+    if wanted.plots {
+        folder.write_scene(&session.scene()).map_err(|error| unwritable(error.into()))?;
+    }
     folder.write_summary(&session.summary(summary, &report)).map_err(|error| unwritable(error.into()))?;
     let title = document.title.as_deref().unwrap_or(model.name());
     if !wanted.quiet {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use lissom::motion::Motion;
 use lissom::picture::{Picture, View, instants};
-use lissom::{Override, ResultFolder};
+use lissom::{FolderError, Override, RecordedModes, ResultFolder};
 use lissom_model::files;
 use lissom_model::output::animation;
 use lissom_model::scene::Scene;
@@ -18,7 +18,7 @@ use crate::terminal;
 /// Draw a mechanism at one or several instants, as SVG or PNG.
 ///
 /// The shapes are those of `lissom view`. A model is simulated first, as by `lissom run`, unless `--initial` asks for its
-/// start. Without `--at` and `--strip` the last instant is drawn.
+/// start. Without `--at` and `--strip` the last instant is drawn; of natural modes, the first twenty shapes.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -26,6 +26,7 @@ Examples:
   lissom snapshot out/tip-crank --at 0.1,0.2 --out crank.png
   lissom snapshot examples/four-bar.toml --initial --view front
   lissom snapshot examples/four-bar.toml --animate 4
+  lissom snapshot out/four-bar-modes --mode 2 --animate 2
 
 Exit code: 0 all is done; 2 wrong model or command line, or an instant without motion; 3 no solution: the picture then
 shows how far it came.")]
@@ -34,7 +35,7 @@ pub(super) struct Snapshot {
     #[arg(value_name = "RESULT|MODEL.toml")]
     what: PathBuf,
 
-    /// Instants to be drawn beside each other [s].
+    /// Instants to be drawn beside each other [s]; of equilibrium paths lengths, of a mode shares of its period.
     #[arg(
         long,
         value_name = "TIME",
@@ -47,6 +48,10 @@ pub(super) struct Snapshot {
     /// So many instants at equal distances from the first to the last.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=100))]
     strip: Option<u64>,
+
+    /// Of the results of `lissom modes`: the mode of this number, over one period.
+    #[arg(long, value_name = "N", conflicts_with = "initial", value_parser = clap::value_parser!(u32).range(1..))]
+    mode: Option<u32>,
 
     /// A moving picture (APNG, which browsers show) of the whole motion that lasts so many seconds.
     #[arg(long, value_name = "SECONDS", conflicts_with_all = ["at", "strip", "initial"])]
@@ -81,6 +86,8 @@ pub(super) struct Snapshot {
 /// Longest moving picture [s], and pictures of it in a second.
 const MOST_SECONDS: f64 = 30.0;
 const PICTURES_PER_SECOND: f64 = 20.0;
+/// Most shapes of natural modes on a sheet.
+const MOST_SHAPES: usize = 20;
 
 /// Directions of view on the command line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -148,22 +155,58 @@ impl Snapshot {
     }
 
     fn of_folder(&self, folder: &Path, is_png: bool) -> Result<(), Failure> {
-        let run = ResultFolder::recorded(folder).map_err(|error| Failure::folder(Exit::BadModel, &error))?;
+        let foreign = |error: FolderError| Failure::folder(Exit::BadModel, &error);
+        if ResultFolder::holds_modes(folder) {
+            return self.of_modes(&ResultFolder::recorded_modes(folder).map_err(foreign)?, folder, is_png);
+        }
+        if self.mode.is_some() {
+            let message = format!("`{}` holds no natural modes: `--mode` is for those", folder.display());
+            return Err(Failure::new(Exit::BadModel, message));
+        }
+        let run = ResultFolder::recorded(folder).map_err(foreign)?;
         self.draw((&run.scene, &run.motion, &run.title), (folder, is_png))
     }
 
-    fn draw(
-        &self,
-        (scene, motion, title): (&Scene, &Motion, &str),
-        (folder, is_png): (&Path, bool),
-    ) -> Result<(), Failure> {
-        let wrong = |error| Failure::new(Exit::BadModel, error);
-        let moving = self.animate.map(|duration| (duration * PICTURES_PER_SECOND).round() as usize);
-        let times = if self.at.is_empty() {
-            instants(motion, moving.unwrap_or(self.strip.unwrap_or(1) as usize)).map_err(wrong)?
-        } else {
-            self.at.clone()
+    /// The first shapes beside each other, or one mode over its period.
+    fn of_modes(&self, modes: &RecordedModes, folder: &Path, is_png: bool) -> Result<(), Failure> {
+        let labels = modes.labels();
+        let Some(number) = self.mode.map(|number| number as usize) else {
+            if self.strip.is_some() || self.animate.is_some() || !self.at.is_empty() {
+                let message =
+                    "of natural modes `--at`, `--strip` and `--animate` show one: choose it with `--mode N`";
+                return Err(Failure::new(Exit::BadModel, message));
+            }
+            let motion = modes.shapes(MOST_SHAPES);
+            let picture = Picture { times: motion.times().to_vec(), labels, ..self.picture() };
+            return self.write(&picture, (&modes.scene, &motion, &modes.title), (folder, is_png));
         };
+        let shares: Vec<f64> = match (self.pictures(), self.strip.unwrap_or(1)) {
+            // The first picture follows the last.
+            (Some(count), _) => (0..count).map(|k| k as f64 / count as f64).collect(),
+            (None, _) if !self.at.is_empty() => self.at.clone(),
+            (None, count) => (0..count).map(|k| k as f64 / count.max(2).saturating_sub(1) as f64).collect(),
+        };
+        let mut ascending = shares.clone();
+        ascending.sort_by(f64::total_cmp);
+        let (Some(motion), Some(label)) = (modes.oscillation(number, &ascending), labels.get(number - 1))
+        else {
+            let message =
+                format!("there is no mode {number}: `{}` holds {}", folder.display(), modes.count());
+            return Err(Failure::new(Exit::BadModel, message));
+        };
+        let below = |share: &f64| format!("mode {label}, {share:.3} of its period");
+        let labels = shares.iter().map(below).collect();
+        let picture = Picture { times: shares, labels, ..self.picture() };
+        self.write(&picture, (&modes.scene, &motion, &modes.title), (folder, is_png))
+    }
+
+    /// Number of pictures of one that moves.
+    fn pictures(&self) -> Option<usize> {
+        self.animate.map(|duration| (duration * PICTURES_PER_SECOND).round() as usize)
+    }
+
+    /// Without instants.
+    fn picture(&self) -> Picture {
         let view = match self.view {
             From::Chosen => View::Chosen,
             From::Oblique => View::Oblique,
@@ -171,9 +214,32 @@ impl Snapshot {
             From::Side => View::Side,
             From::Top => View::Top,
         };
-        let picture = Picture { times, view, paths: self.paths, labels: Vec::new() };
+        Picture { times: Vec::new(), view, paths: self.paths, labels: Vec::new() }
+    }
+
+    fn draw(
+        &self,
+        (scene, motion, title): (&Scene, &Motion, &str),
+        target: (&Path, bool),
+    ) -> Result<(), Failure> {
+        let times = if self.at.is_empty() {
+            let count = self.pictures().unwrap_or(self.strip.unwrap_or(1) as usize);
+            instants(motion, count).map_err(|error| Failure::new(Exit::BadModel, error))?
+        } else {
+            self.at.clone()
+        };
+        self.write(&Picture { times, ..self.picture() }, (scene, motion, title), target)
+    }
+
+    fn write(
+        &self,
+        picture: &Picture,
+        (scene, motion, title): (&Scene, &Motion, &str),
+        (folder, is_png): (&Path, bool),
+    ) -> Result<(), Failure> {
+        let wrong = |error| Failure::new(Exit::BadModel, error);
         let failed = |error| Failure::new(Exit::Failed, error);
-        let bytes = if moving.is_some() {
+        let bytes = if self.animate.is_some() {
             let drawings = picture.draw_moving(scene, motion, title).map_err(wrong)?;
             animation(&drawings, 1.0 / PICTURES_PER_SECOND, 1.0).map_err(failed)?
         } else {
@@ -185,7 +251,7 @@ impl Snapshot {
             file.clone()
         } else {
             files::create_folder(folder).map_err(unwritable)?;
-            folder.join(if moving.is_some() { "snapshot.png" } else { "snapshot.svg" })
+            folder.join(if self.animate.is_some() { "snapshot.png" } else { "snapshot.svg" })
         };
         files::write(&target, &bytes).map_err(unwritable)?;
         if !self.quiet {

@@ -48,13 +48,16 @@ impl Still {
     }
 }
 
-/// Paths and buckling loads have tables of their own, and no motion.
+/// Buckling loads have a table of their own, and no motion.
 pub(super) fn refuse_what_does_not_move(path: &Path, set: &[Override]) -> Result<(), Failure> {
     let model = Model::read(path).map_err(|error| Failure::file(Exit::BadModel, &error))?;
     let kind = model.document(set)?.analysis.kind;
     match kind {
-        AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } | AnalysisKind::Modes { .. } => Ok(()),
-        _ => {
+        AnalysisKind::Dynamics { .. }
+        | AnalysisKind::Statics { .. }
+        | AnalysisKind::Modes { .. }
+        | AnalysisKind::Path { .. } => Ok(()),
+        AnalysisKind::Buckling { .. } => {
             let message = format!("an analysis of kind `{}` leaves no motion to be shown", kind.name());
             Err(Failure::new(Exit::BadModel, format!("{message}; `--initial` shows the model at its start")))
         }

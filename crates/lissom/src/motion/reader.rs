@@ -131,6 +131,33 @@ impl Motion {
         Pose::new(rotation, start.position + vector(node))
     }
 
+    /// Another motion: each frame has its time, and nodes but the ground moved from where they are in the first frame of this
+    /// one, by three displacements [m] and a rotation vector [rad] each, in global axes. Section forces are zero.
+    pub(crate) fn with_moved(&self, frames: &[(f64, Vec<f64>)]) -> Self {
+        let count = self.header.nodes.len();
+        let (mut times, mut numbers) = (Vec::new(), Vec::new());
+        for (time, moved) in frames {
+            let of = |node: usize, k: usize| match node.checked_sub(1) {
+                Some(node) => moved.get(6 * node + k).copied().unwrap_or(0.0),
+                None => 0.0,
+            };
+            times.push(*time);
+            let vector = |node: usize, first: usize| Vector3::from_fn(|k, _| of(node, first + k));
+            let start = numbers.len();
+            for node in 0..count {
+                let shift = self.pose(0, node).position - self.reference[node].position + vector(node, 0);
+                numbers.extend(shift.iter().map(|number| *number as f32));
+            }
+            for node in 0..count {
+                let rotation = Rotation::exponential(&vector(node, 3)) * self.pose(0, node).rotation;
+                let turn = (rotation * self.reference[node].rotation.inverse()).logarithm();
+                numbers.extend(turn.iter().map(|number| *number as f32));
+            }
+            numbers.resize(start + 6 * (count + self.header.point_count()), 0.0);
+        }
+        Self { header: self.header.clone(), reference: self.reference.clone(), times, numbers }
+    }
+
     /// Section forces [N] and moments [N m] at a point in a frame, local axes.
     ///
     /// # Panics

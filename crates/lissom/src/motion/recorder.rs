@@ -94,6 +94,24 @@ impl<W: Write + Send> MotionRecorder<W> {
         self.flush()
     }
 
+    /// Takes section forces of the elements of another system from now on, whose nodes and beams are those of the first.
+    pub fn read_elements_of(&mut self, lowered: &Lowered) {
+        self.probes = lowered.names.lines.values().flat_map(|line| line.elements.iter().cloned()).collect();
+    }
+
+    /// Writes the next frame, and before the first what stands before the frames.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write_next(&mut self, at: &Kinematics) -> io::Result<()> {
+        if self.last.is_none() {
+            let head = self.header.to_bytes(&self.reference);
+            self.buffer.extend_from_slice(&head);
+        }
+        self.frame(at);
+        self.flush_if_full()
+    }
+
     /// The next instant at which a frame is wanted [s].
     fn due(&self) -> f64 {
         self.last.map_or(self.start, |last| {

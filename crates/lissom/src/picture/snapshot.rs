@@ -114,7 +114,7 @@ impl Frame {
 
 /// What is seen at all instants.
 struct Panels {
-    seen: Vec<(f64, Vec<Seen>)>,
+    seen: Vec<Vec<Seen>>,
     paths: Vec<Vec<[f64; 2]>>,
     projection: Projection,
     /// About all of them.
@@ -129,7 +129,7 @@ impl Picture {
     pub fn draw(&self, scene: &Scene, motion: &Motion, title: &str) -> Result<Drawing, PictureError> {
         let Panels { seen, paths, projection, frame } = self.panels(scene, motion, MOST_PANELS)?;
         let sheet = Sheet::of(frame, seen.len(), MOST);
-        Ok(sheet.drawn(&seen, &paths, &projection, (title, scene.is_static, &self.labels)))
+        Ok(sheet.drawn(&seen, &paths, &projection, (title, &self.labels(scene))))
     }
 
     /// Draws a model that moves so, with a sheet for each instant, all of one size and scale.
@@ -144,8 +144,21 @@ impl Picture {
     ) -> Result<Vec<Drawing>, PictureError> {
         let Panels { seen, paths, projection, frame } = self.panels(scene, motion, MOST_FRAMES)?;
         let sheet = Sheet::of(frame, 1, MOST_MOVING);
-        let words = (title, scene.is_static, &[] as &[String]);
-        Ok(seen.chunks(1).map(|panel| sheet.drawn(panel, &paths, &projection, words)).collect())
+        let labels = self.labels(scene);
+        let drawn = |(panel, label)| sheet.drawn(panel, &paths, &projection, (title, label));
+        Ok(seen.chunks(1).zip(labels.chunks(1)).map(drawn).collect())
+    }
+
+    /// What stands below each panel.
+    fn labels(&self, scene: &Scene) -> Vec<String> {
+        let of_time = |time: f64| match &scene.path {
+            Some(path) => format!("{} {}", path.name, short(path.at(time))),
+            None if scene.is_static => format!("load {}", short(time)),
+            None => format!("t = {} s", short(time)),
+        };
+        let label =
+            |(index, time): (usize, &f64)| self.labels.get(index).cloned().unwrap_or_else(|| of_time(*time));
+        self.times.iter().enumerate().map(label).collect()
     }
 
     fn panels(&self, scene: &Scene, motion: &Motion, most: usize) -> Result<Panels, PictureError> {
@@ -157,13 +170,13 @@ impl Picture {
         }
         let geometry = Geometry::new(scene, motion, true);
         let projection = Projection::of(&geometry, self.view);
-        let mut panels: Vec<(f64, Vec<Seen>)> = Vec::new();
+        let mut panels: Vec<Vec<Seen>> = Vec::new();
         let mut frame = Frame { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
         for &time in &self.times {
             let poses = poses_at(motion, time).ok_or(PictureError::Outside { time, first, last })?;
             let seen = painted(&geometry, &projection, &poses, time);
             seen.iter().flat_map(|face| &face.points).for_each(|point| frame.take(point));
-            panels.push((time, seen));
+            panels.push(seen);
         }
         let paths = if self.paths { paths(scene, motion, &projection) } else { Vec::new() };
         paths.iter().flatten().for_each(|point| frame.take(point));
@@ -212,10 +225,10 @@ impl Sheet {
 
     fn drawn(
         &self,
-        panels: &[(f64, Vec<Seen>)],
+        panels: &[Vec<Seen>],
         paths: &[Vec<[f64; 2]>],
         projection: &Projection,
-        (title, is_static, labels): (&str, bool, &[String]),
+        (title, labels): (&str, &[String]),
     ) -> Drawing {
         let [width, height] = self.frame.extent().map(|extent| extent * self.scale + 2.0 * MARGIN);
         let head = if title.is_empty() { 0.0 } else { 2.0 * LINE };
@@ -226,7 +239,7 @@ impl Sheet {
         if !title.is_empty() {
             drawing.words([0.5 * size[0], 1.3 * LINE], title, 17, Align::Middle, WORDS);
         }
-        for (index, (time, faces)) in panels.iter().enumerate() {
+        for (index, (faces, words)) in panels.iter().zip(labels).enumerate() {
             let x = left + (index % self.columns) as f64 * width + MARGIN;
             let y = head + (index / self.columns) as f64 * (height + LINE) + MARGIN;
             let place = |point: &[f64; 2]| {
@@ -239,13 +252,8 @@ impl Sheet {
             for face in faces {
                 drawing.polygon(face.points.iter().map(place).collect(), face.shade);
             }
-            let words = match labels.get(index) {
-                Some(words) => words.clone(),
-                None if is_static => format!("load {}", short(*time)),
-                None => format!("t = {} s", short(*time)),
-            };
             let middle = [x + 0.5 * width - MARGIN, y + height - MARGIN + 0.6 * LINE];
-            drawing.words(middle, &words, 13, Align::Middle, FAINT);
+            drawing.words(middle, words, 13, Align::Middle, FAINT);
         }
         let foot = size[1] - 0.45 * FOOT;
         axes(&mut drawing, projection, [34.0, foot]);

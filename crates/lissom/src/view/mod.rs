@@ -2,7 +2,7 @@
 //!
 //! The page itself is bundled from `viewer/`; here the results are put into it.
 
-mod modes;
+pub(crate) mod modes;
 mod packed;
 
 use lissom_model::output::{Column, Record};
@@ -85,7 +85,8 @@ impl Results {
             word("title").clone_into(&mut self.title);
         }
         if let (Some(unknowns), Some(steps)) = (summary["unknowns"].as_u64(), summary["steps"].as_u64()) {
-            self.facts = format!("{} · {unknowns} unknowns · {steps} steps", word("scheme"));
+            let method = if word("analysis") == "path" { "equilibrium path" } else { word("scheme") };
+            self.facts = format!("{method} · {unknowns} unknowns · {steps} steps");
         }
         let time = summary["time"].as_f64().unwrap_or_default();
         match word("stopped") {

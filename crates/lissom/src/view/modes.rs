@@ -2,24 +2,24 @@
 
 use serde::Serialize;
 
-/// A mode as the page shows it.
+/// A mode as pictures show it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub(super) struct Mode {
+pub(crate) struct Mode {
     /// Frequency [Hz].
-    frequency: f64,
+    pub(crate) frequency: f64,
     /// Damping ratio [-].
     damping: f64,
     /// Kind, as `oscillation`.
     kind: String,
     /// Displacement [m] and rotation [rad] of every node but the ground, one after the other.
-    real: Vec<f32>,
+    pub(crate) real: Vec<f32>,
     /// Imaginary parts; empty where there are none.
-    imaginary: Vec<f32>,
+    pub(crate) imaginary: Vec<f32>,
 }
 
 /// Reads `modes.csv` and `shapes.csv` of a model with so many nodes, the ground included; nothing if they are something
 /// else.
-pub(super) fn read(modes: &str, shapes: &str, nodes: usize) -> Option<Vec<Mode>> {
+pub(crate) fn read(modes: &str, shapes: &str, nodes: usize) -> Option<Vec<Mode>> {
     let mut rows = shapes.lines();
     let is_complex = rows.next()?.ends_with("_im");
     let columns = if is_complex { 15 } else { 9 };

@@ -219,11 +219,14 @@ fn strangers_are_refused() {
     }
 }
 
-/// Memory of a process [kB], where the system tells it.
-fn memory(process: u32) -> Option<u64> {
+/// Memory [kB], threads and open files of a process, where the system tells them.
+fn held(process: u32) -> Option<[u64; 3]> {
     let told = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
-    let line = told.lines().find(|line| line.starts_with("VmRSS"))?;
-    line.split_whitespace().nth(1)?.parse().ok()
+    let of = |name: &str| -> Option<u64> {
+        told.lines().find(|line| line.starts_with(name))?.split_whitespace().nth(1)?.parse().ok()
+    };
+    let files = fs::read_dir(format!("/proc/{process}/fd")).ok()?.count() as u64;
+    Some([of("VmRSS:")?, of("Threads:")?, files])
 }
 
 #[test]
@@ -233,17 +236,44 @@ fn many_saves_leave_nothing_behind() {
     let live = Live::start("bar.toml", folder.path());
     let mut told = live.after(0);
     let mut sizes = Vec::new();
-    for round in 0..120 {
+    for round in 0..1000 {
         save(&folder, &format!("{}\n# {}", model(), "x".repeat(1 + round % 7)));
         told = live.after(version(&told));
         assert_eq!(told["notice"], Value::Null);
-        if round == 39 || round == 119 {
-            sizes.extend(memory(live.program.id()));
+        if round == 99 || round == 999 {
+            sizes.extend(held(live.program.id()));
         }
     }
     if let [before, after] = sizes[..] {
-        assert!(after < before + 3000, "{before} kB after 40 saves, {after} kB after 120");
+        assert!(after[0] < before[0] + 4000, "{} kB after 100 saves, {} kB after 1000", before[0], after[0]);
+        // Threads that answer end on their own.
+        assert!(
+            after[1] <= before[1] + 3 && after[2] <= before[2] + 3,
+            "{before:?} threads and files, {after:?}"
+        );
     }
+}
+
+#[test]
+fn paths_are_followed_and_what_does_not_move_is_refused() {
+    let folder = Folder::new("live-path");
+    let statics = model();
+    let (parts, _) = statics.split_once("[analysis]").unwrap();
+    let parts = parts.replace("load*t", "load");
+    save(&folder, &format!("{parts}[analysis]\nkind = \"path\"\nend = 1\n"));
+    let live = Live::start("bar.toml", folder.path());
+    let first = live.after(0);
+    assert_eq!(first["notice"], Value::Null, "{first}");
+    let scene = &first["result"]["scene"];
+    let last = |list: &Value| list.as_array().unwrap().last().unwrap().as_f64().unwrap();
+    assert!((last(&scene["path"]["values"]) - 1.0).abs() < 1e-9);
+    assert!((last(&scene["loads"][0]["scale"]) - 3.0).abs() < 1e-8);
+    save(&folder, &format!("{parts}[analysis]\nkind = \"buckling\"\n"));
+    let refused = live.after(version(&first));
+    assert!(
+        refused["notice"]["text"].as_str().unwrap().contains("`buckling` is not simulated here"),
+        "{refused}"
+    );
 }
 
 #[test]

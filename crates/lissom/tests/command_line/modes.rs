@@ -1,5 +1,7 @@
 //! `lissom modes` and analyses of kind `modes`, as scripts see them.
 
+use lissom::ResultFolder;
+
 use super::support::{CANTILEVER, Folder, lissom, summary};
 
 fn rows(folder: &std::path::Path, name: &str) -> Vec<Vec<String>> {
@@ -159,4 +161,48 @@ fn modes_that_mean_nothing_have_an_exit_code() {
     folder.write("free.toml", &free);
     assert_eq!(code(&["modes", "free.toml"], "error"), 3);
     assert_eq!(summary(&folder.path().join("out/free-modes"))["stopped"], "failed");
+}
+
+#[test]
+fn modes_are_drawn_as_shapes_and_as_oscillations() {
+    let folder = Folder::new("mode-pictures");
+    folder.write("bar.toml", CANTILEVER);
+    assert_eq!(lissom(&["modes", "bar.toml", "--count", "3", "-q"], folder.path()).code, 0);
+    let out = folder.path().join("out/bar-modes");
+    let snapshot = |more: &[&str]| lissom(&[&["snapshot", "out/bar-modes"], more].concat(), folder.path());
+    let all = snapshot(&[]);
+    assert_eq!(all.code, 0, "{}", all.errors);
+    let sheet = std::fs::read_to_string(out.join("snapshot.svg")).unwrap();
+    let frequencies: Vec<f64> =
+        rows(&out, "modes.csv")[1..].iter().map(|row| row[1].parse().unwrap()).collect();
+    for (index, frequency) in frequencies.iter().enumerate() {
+        assert!(sheet.contains(&format!("{}: {frequency:.4} Hz", index + 1)));
+    }
+    let period = snapshot(&["--mode", "2", "--strip", "3"]);
+    assert_eq!(period.code, 0, "{}", period.errors);
+    let sheet = std::fs::read_to_string(out.join("snapshot.svg")).unwrap();
+    assert!(sheet.contains("mode 2: ") && sheet.contains("0.500 of its period"), "{sheet}");
+    let moving = snapshot(&["--mode", "1", "--animate", "0.5"]);
+    assert_eq!(moving.code, 0, "{}", moving.errors);
+    assert!(std::fs::read(out.join("snapshot.png")).unwrap().windows(4).any(|word| word == b"acTL"));
+    for (wrong, message) in [
+        (&["--strip", "3"] as &[&str], "choose it with `--mode N`"),
+        (&["--mode", "9"], "there is no mode 9"),
+    ] {
+        let refused = snapshot(wrong);
+        assert!(refused.code == 2 && refused.errors.contains(message), "{}", refused.errors);
+    }
+    // The shape goes a twelfth of the model, along what the table says, and back in half a period.
+    let modes = ResultFolder::recorded_modes(&out).unwrap();
+    let motion = modes.oscillation(1, &[0.0, 0.25, 0.5]).unwrap();
+    let still = ResultFolder::recorded_modes(&out).unwrap().oscillation(1, &[0.25]).unwrap();
+    let tip = motion.reference().len() - 1;
+    let shift = |frame: usize| motion.pose(frame, tip).position - still.pose(0, tip).position;
+    let length = motion.reference()[tip].position.norm();
+    assert!((shift(0).norm() / length - 1.0 / 12.0).abs() < 1e-4, "{} of {length}", shift(0));
+    assert!((shift(0) + shift(2)).norm() < 1e-6 * length && shift(1).norm() < 1e-6 * length);
+    let table = rows(&out, "shapes.csv");
+    let last: Vec<f64> = table[tip].iter().skip(5).take(3).map(|text| text.parse().unwrap()).collect();
+    let along = shift(0).normalize().dot(&nalgebra::Vector3::from_row_slice(&last).normalize());
+    assert!((along - 1.0).abs() < 1e-6, "{along}");
 }

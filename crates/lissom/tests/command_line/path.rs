@@ -1,5 +1,7 @@
 //! Analyses of kind `path`, as scripts see them.
 
+use lissom::ResultFolder;
+
 use super::support::{Folder, lissom, summary};
 
 /// Two springs lean on each other, and snap through under a load.
@@ -71,4 +73,46 @@ fn a_path_that_ends_early_has_an_exit_code() {
     assert!(run.errors.contains("load factor changes nothing"), "{}", run.errors);
     let run = lissom(&["run", "truss.toml", "--set", "analysis.end=0"], folder.path());
     assert_eq!(run.code, 2, "{}", run.errors);
+}
+
+#[test]
+fn a_path_is_seen_by_its_load_factors() {
+    let folder = Folder::new("path-seen");
+    folder.write("truss.toml", TRUSS);
+    let view = lissom(&["view", "truss.toml", "--quiet"], folder.path());
+    assert_eq!(view.code, 0, "{}", view.errors);
+    let out = folder.path().join("out/truss");
+    let run = ResultFolder::recorded(&out).unwrap();
+    // A frame for every equilibrium, at the length of the path, where the table says.
+    assert_eq!(run.motion.times(), run.record.times);
+    let top = run.motion.node("top").unwrap();
+    for (frame, y) in run.record.column("top", "y").unwrap().iter().enumerate() {
+        assert!((run.motion.pose(frame, top).position.y - y).abs() < 1e-6);
+    }
+    let path = run.scene.path.as_ref().unwrap();
+    assert_eq!(
+        (path.name.as_str(), &path.values[..]),
+        ("load factor", run.record.column("load_factor", "").unwrap())
+    );
+    // The arrow of the load grows with the factor, and turns where it is below zero.
+    let scale = &run.scene.loads[0].scale;
+    let last = *path.values.last().unwrap();
+    assert!((scale[0], *scale.last().unwrap()) == (0.0, last) && scale.iter().any(|factor| *factor < 0.0));
+    let picture = lissom(&["snapshot", "out/truss", "--strip", "3"], folder.path());
+    assert_eq!(picture.code, 0, "{}", picture.errors);
+    let drawn = std::fs::read_to_string(out.join("snapshot.svg")).unwrap();
+    assert!(drawn.contains("load factor 0") && drawn.contains("load factor 60"), "{drawn}");
+    // Along another number loads may be of any size: none is drawn.
+    let along = TRUSS.replace("end = 60", "end = 2000\nvary = \"springs.left.stiffness\"");
+    folder.write("stiffer.toml", &along);
+    let view = lissom(&["view", "stiffer.toml", "--quiet"], folder.path());
+    assert_eq!(view.code, 0, "{}", view.errors);
+    let stiffer = ResultFolder::recorded(&folder.path().join("out/stiffer")).unwrap();
+    let path = stiffer.scene.path.unwrap();
+    assert_eq!((path.name.as_str(), path.values.last()), ("springs.left.stiffness", Some(&2000.0)));
+    assert!(stiffer.scene.loads.is_empty());
+    // Without its motion there is nothing to be drawn.
+    let bare = lissom(&["run", "truss.toml", "--no-plots", "-q"], folder.path());
+    assert!(bare.code == 0 && !out.join("motion.bin").exists());
+    assert_eq!(lissom(&["snapshot", "out/truss"], folder.path()).code, 2);
 }

@@ -188,7 +188,8 @@ fn what_cannot_be_drawn_is_refused() {
         (vec!["snapshot", "out", "--strip", "0"], "0 is not in 1..=100"),
         (vec!["snapshot", "out", "--strip", "2", "--at", "1"], "cannot be used with"),
         (vec!["snapshot", "out", "--initial"], "folder of results"),
-        (vec!["snapshot", "modes"], "natural modes"),
+        (vec!["snapshot", "modes", "--strip", "3"], "natural modes"),
+        (vec!["snapshot", "out", "--mode", "1"], "holds no natural modes"),
         (vec!["snapshot", "plain"], "--no-plots"),
         (vec!["snapshot", "nowhere"], "there is no such file"),
     ] {

@@ -192,12 +192,12 @@ fn what_is_missing_or_went_wrong_is_told_in_the_page() {
     assert_eq!(lissom(&["view", "out/bar", "-q"], folder.path()).code, 0);
     let told = notices("out/bar/view.html");
     assert!(told[0]["text"].as_str().unwrap().contains("--no-plots"), "{told}");
-    let path = CANTILEVER.replace("kind = \"statics\"\nsteps = 4", "kind = \"path\"\nend = 3");
-    folder.write("path.toml", &path.replace("scale = \"3*t\"\n", ""));
+    let buckling = CANTILEVER.replace("kind = \"statics\"\nsteps = 4", "kind = \"buckling\"");
+    folder.write("buckling.toml", &buckling.replace("scale = \"3*t\"\n", ""));
     for (args, words) in [
         (vec!["view", "nowhere"], "there is no such file"),
         (vec!["view", "out"], "history.csv"),
-        (vec!["view", "path.toml"], "leaves no motion"),
+        (vec!["view", "buckling.toml"], "leaves no motion"),
         (vec!["view", "out/bar", "--initial"], "folder of results"),
     ] {
         let view = lissom(&args, folder.path());

@@ -9,8 +9,10 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant, SystemTime};
 
 use lissom::motion::MotionRecorder;
+use lissom::path::{PathEnd, PathSession, PathSessionError};
 use lissom::view::{Notice, Results};
-use lissom::{FileError, Model, Override, Record, Session, Writer, summary};
+use lissom::{Document, FileError, Model, Override, Record, Session, Writer, summary};
+use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
 use serde_json::{Value, json};
@@ -213,6 +215,15 @@ fn results(
 ) -> Result<Option<Results>, Fault> {
     let wrong = |report: lissom::Report| Fault { text: report.render(false), is_code: true };
     let document = model.document(overrides).map_err(wrong)?;
+    match &document.analysis.kind {
+        AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } => {}
+        AnalysisKind::Path { .. } => return path(model, overrides, &document, is_current),
+        kind => {
+            let text =
+                format!("An analysis of kind `{}` is not simulated here: use `lissom run`.", kind.name());
+            return Err(Fault { text, is_code: false });
+        }
+    }
     let lowered = lower(&document).map_err(wrong)?;
     let scene = Scene::of(&document, &lowered);
     let mut summary = summary::of_model(model.name(), overrides, &document, &lowered);
@@ -241,6 +252,36 @@ fn results(
     }
     let bytes = motion.take();
     results.with_scene(&scene, &bytes).map(Some).map_err(Fault::plain)
+}
+
+/// An equilibrium path in memory. Nothing if the model has changed meanwhile.
+fn path(
+    model: &Model,
+    overrides: &[Override],
+    document: &Document,
+    is_current: &dyn Fn() -> bool,
+) -> Result<Option<Results>, Fault> {
+    let motion = Buffer::default();
+    let session = match PathSession::new(model, overrides) {
+        Err(PathSessionError::Model(report)) => {
+            return Err(Fault { text: report.render(false), is_code: true });
+        }
+        other => other.map_err(Fault::plain)?,
+    };
+    let mut session = session.with_motion(Box::new(motion.clone()));
+    let mut record = Record::default();
+    let mut watch = || if is_current() { ControlFlow::Continue(()) } else { ControlFlow::Break(()) };
+    let report = session.run(&mut [&mut record as &mut dyn Writer], &mut watch);
+    if matches!(report.end, PathEnd::Interrupted) {
+        return Ok(None);
+    }
+    let summary = session.summary(lissom::path::of_request(model.name(), overrides, document), &report);
+    let facts: Value = serde_json::from_str(&summary.to_json()).unwrap_or_default();
+    let mut results = Results::new(model.name()).with_summary(&facts).with_record(&record);
+    if !document.warnings.is_empty() {
+        results = results.with_notice(Notice::warning(document.warnings.render(false)).with_code());
+    }
+    results.with_scene(&session.scene(), &motion.take()).map(Some).map_err(Fault::plain)
 }
 
 /// Bytes in memory that two may hold.

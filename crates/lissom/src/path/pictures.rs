@@ -1,0 +1,63 @@
+//! What pictures need of an equilibrium path: a motion with a frame for every equilibrium, and the scene along it.
+
+use std::io::{self, Write};
+
+use lissom_core::system::Kinematics;
+use lissom_model::Document;
+use lissom_model::lower::Lowered;
+use lissom_model::scene::{PathValues, Scene};
+
+use crate::motion::MotionRecorder;
+use crate::state_writer::StateWriter;
+
+/// Records equilibria for pictures.
+pub(super) struct PathPictures {
+    scene: Scene,
+    passed: PathValues,
+    /// Whether the load factor is what changes.
+    scales_loads: bool,
+    recorder: MotionRecorder<Box<dyn Write + Send>>,
+}
+
+impl PathPictures {
+    /// None yet, written nowhere.
+    pub(super) fn new(document: &Document, lowered: &Lowered) -> Self {
+        let nowhere: Box<dyn Write + Send> = Box::new(io::sink());
+        Self {
+            scene: Scene::of(document, lowered),
+            passed: PathValues::default(),
+            scales_loads: true,
+            recorder: MotionRecorder::new(lowered, None, nowhere),
+        }
+    }
+
+    /// The same, where what changes is called so.
+    pub(super) fn along(self, name: &str, scales_loads: bool) -> Self {
+        Self { passed: PathValues::new(name), scales_loads, ..self }
+    }
+
+    /// The same, writing to `to`.
+    pub(super) fn writing_to(self, to: Box<dyn Write + Send>) -> Self {
+        Self { recorder: self.recorder.writing_to(to), ..self }
+    }
+
+    /// Takes section forces from the elements of another model from now on.
+    pub(super) fn read_elements_of(&mut self, lowered: &Lowered) {
+        self.recorder.read_elements_of(lowered);
+    }
+
+    /// Adds an equilibrium at a length of the path.
+    pub(super) fn push(&mut self, (length, value): (f64, f64), at: &Kinematics) -> io::Result<()> {
+        self.passed.push(length, value);
+        self.recorder.write_next(&Kinematics { time: length, ..at.clone() })
+    }
+
+    pub(super) fn flush(&mut self) -> io::Result<()> {
+        self.recorder.flush()
+    }
+
+    /// What the model looks like along the path as far as it has been followed.
+    pub(super) fn scene(&self) -> Scene {
+        self.scene.clone().along(self.passed.clone(), self.scales_loads)
+    }
+}
