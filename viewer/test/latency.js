@@ -1,17 +1,18 @@
 // From a save to the new picture: `node test/latency.js PROGRAM MODEL [KEY=VALUE …]` prints the median of ten saves. Needs chromium.
 
 import { spawn } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
-import { join, resolve } from "node:path";
+import { basename, dirname, join, resolve } from "node:path";
 
 import { launch } from "../browser.js";
 
 const [program, model, ...set] = process.argv.slice(2);
 const folder = mkdtempSync(join(tmpdir(), "lissom-latency-"));
-const file = join(folder, "model.toml");
-const text = readFileSync(model, "utf8");
-writeFileSync(file, text);
+// With the files that it includes.
+cpSync(dirname(model), folder, { recursive: true });
+const file = join(folder, basename(model));
+const text = readFileSync(file, "utf8");
 const live = spawn(resolve(program), ["live", file, ...set.flatMap((change) => ["--set", change])], { stdio: ["ignore", "pipe", "inherit"] });
 const browser = await launch();
 try {
