@@ -283,8 +283,8 @@ export class Viewer {
     const { bodies, beams } = this.result.scene ?? { bodies: [], beams: [] };
     const parts = [...bodies.map(({ name, node }) => [name, node]), ...beams.map(({ name, nodes }) => [name, nodes[0]])];
     this.frames = new Map(this.modes.current ? [] : parts);
-    const own = beams.length && !this.modes.current ? [["of each beam", "the start of each beam"]] : [];
-    const texts = [["", "the model as described"], ...own, ...[...this.frames.keys()].map((name) => [`part ${name}`, name])];
+    const own = beams.length && !this.modes.current ? [["of each beam", "each beam's start"]] : [];
+    const texts = [["", "as described"], ...own, ...[...this.frames.keys()].map((name) => [`part ${name}`, name])];
     $("frame").replaceChildren(...texts.map(([value, text]) => new Option(text, value)));
     if (!texts.some(([value]) => value === this.choices.against)) this.choices.against = "";
     this.setFrames();

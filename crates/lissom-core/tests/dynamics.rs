@@ -287,7 +287,7 @@ fn constraints_do_not_drift_and_the_top_keeps_its_energy() {
     let tens = 10 * ((totals.factorizations + 5) / 10);
     let figure =
         format!("violation below 1e-13 m, {per_step:.1} iterations per step, about {tens} factorisations");
-    let readme = include_str!("../../../README.md");
-    assert!(readme.contains(&figure), "README.md does not say: {figure}");
+    let page = include_str!("../../../docs/measured.md");
+    assert!(page.contains(&figure), "docs/measured.md does not say: {figure}");
     assert!(change.abs() < 1e-5 && change < 1e-9, "{change:e}");
 }

@@ -6,11 +6,11 @@ use lissom_model::lower::{lower, registry::registry};
 
 const TIP_CRANK: &str = include_str!("../../../examples/tip-crank.toml");
 
-const README: &str = include_str!("../../../README.md");
+const MEASURED: &str = include_str!("../../../docs/measured.md");
 
-/// The figure stands in the README as it was measured.
+/// The figure stands in the book as it was measured.
 fn assert_told(figure: &str) {
-    assert!(README.contains(figure), "README.md does not say: {figure}");
+    assert!(MEASURED.contains(figure), "docs/measured.md does not say: {figure}");
 }
 
 struct Run {

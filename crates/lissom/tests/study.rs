@@ -65,7 +65,7 @@ fn condition_numbers_over_the_step_size() {
     assert_flat(&column(&rows, "physical"));
 }
 
-/// Least and largest of what the README prints of them.
+/// Least and largest of what `docs/measured.md` prints of them.
 #[test]
 fn condition_numbers_are_those_of_the_readme() {
     let rows = measured(&conditioning::Request {
@@ -85,8 +85,8 @@ fn condition_numbers_are_those_of_the_readme() {
     let figure = format!(
         "{least:.1} to {most:.1} for every h from 0.1 s to 10 µs, {by_scale:.0} by `s` alone; unscaled {small:.1e} to {large:.1e}"
     );
-    let readme = include_str!("../../../README.md");
-    assert!(readme.contains(&figure), "README.md does not say: {figure}");
+    let page = include_str!("../../../docs/measured.md");
+    assert!(page.contains(&figure), "docs/measured.md does not say: {figure}");
 }
 
 #[test]
