@@ -1,13 +1,13 @@
 //! Sparse LU with partial pivoting: what to fall back on when a matrix does not bear elimination without pivoting.
 //!
-//! Columns are eliminated in the order of [`crate::minimum_degree_order`]. Each is solved with the columns of L before it, which
-//! a depth-first search finds (Gilbert and Peierls 1988, SIAM J. Sci. Stat. Comput. 9, 862); its pivot is the entry on the
-//! diagonal where that is at least [`DIAGONAL`] of the largest one, which keeps fill small, and the largest one otherwise.
+//! Columns are eliminated in an order that suits all choices of pivots (`ordering::column_order`). Each is solved with the
+//! columns of L before it, which a depth-first search finds (Gilbert and Peierls 1988, SIAM J. Sci. Stat. Comput. 9, 862);
+//! its pivot is its largest entry.
 
 use std::sync::Arc;
 
 use crate::entries::largest_entry;
-use crate::ordering::minimum_degree_order;
+use crate::ordering::column_order;
 use crate::pattern::Pattern;
 use crate::report::{FactorError, FactorReport, Monitor};
 use crate::scalar::Scalar;
@@ -16,8 +16,6 @@ use crate::structure::Structure;
 
 pub(crate) const NAME: &str = "pivoting";
 
-/// Share of the largest entry of a column from which on the one on the diagonal is its pivot.
-const DIAGONAL: f64 = 0.5;
 /// Backward error of the solve behind the report above which the factors are refused.
 const UNUSABLE: f64 = 1e-6;
 /// A row that no pivot has been taken from, or an unknown without a place.
@@ -135,7 +133,7 @@ impl<S: Scalar> Pivoting<S> {
     pub fn new(structure: &Structure) -> Self {
         let pattern = Arc::clone(&structure.pattern);
         let size = pattern.size();
-        let order = structure.unknowns_in_order(&minimum_degree_order(structure));
+        let order = structure.unknowns_in_order(&column_order(structure));
         // Numbers without a short binary form, of one size, so that every direction is tried.
         let probe = (0..size).map(|unknown| S::from_real((1.0 + unknown as f64).sin() + 2.0)).collect();
         Pivoting {
@@ -174,8 +172,11 @@ impl<S: Scalar> Pivoting<S> {
             self.search.begin();
             let start = self.pattern.column_starts()[column];
             for (offset, &row) in self.pattern.column(column).iter().enumerate() {
-                self.work[row] = values[start + offset];
-                self.search.reach(row as u32, step as u32, &self.steps, &self.lower);
+                let value = values[start + offset];
+                if value != S::zero() {
+                    self.work[row] = value;
+                    self.search.reach(row as u32, step as u32, &self.steps, &self.lower);
+                }
             }
             for &before in self.search.before.iter().rev() {
                 let value = std::mem::take(&mut self.work[self.rows[before as usize] as usize]);
@@ -214,14 +215,11 @@ impl<S: Scalar> Pivoting<S> {
         if chosen == NONE {
             return Err(FactorError::ZeroPivot { unknown: column, pivot: 0.0, largest });
         }
-        let diagonal = self.work[column].magnitude();
-        if self.steps[column] == NONE && diagonal > 0.0 && diagonal >= DIAGONAL * largest {
-            chosen = column as u32;
-        }
         let pivot = std::mem::take(&mut self.work[chosen as usize]);
         for &row in &self.search.candidates {
-            if row != chosen {
-                self.lower.push(row, std::mem::take(&mut self.work[row as usize]) / pivot);
+            let value = std::mem::take(&mut self.work[row as usize]);
+            if value != S::zero() {
+                self.lower.push(row, value / pivot);
             }
         }
         self.lower.end_column();

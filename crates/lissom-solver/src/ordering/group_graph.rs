@@ -51,6 +51,27 @@ impl GroupGraph {
         GroupGraph { starts, neighbours, weights }
     }
 
+    /// Groups that have a common neighbour, or are neighbours: couplings in AᵀA.
+    pub(crate) fn square(&self) -> GroupGraph {
+        let mut starts = vec![0];
+        let mut neighbours = Vec::new();
+        let mut seen = vec![u32::MAX; self.len()];
+        for group in 0..self.len() {
+            let (begin, mark) = (neighbours.len(), group as u32);
+            seen[group] = mark;
+            for &near in self.neighbours(group) {
+                for &next in std::iter::once(&near).chain(self.neighbours(near as usize)) {
+                    if std::mem::replace(&mut seen[next as usize], mark) != mark {
+                        neighbours.push(next);
+                    }
+                }
+            }
+            neighbours[begin..].sort_unstable();
+            starts.push(neighbours.len());
+        }
+        GroupGraph { starts, neighbours, weights: self.weights.clone() }
+    }
+
     pub(crate) fn len(&self) -> usize {
         self.weights.len()
     }

@@ -6,6 +6,7 @@ mod minimum_degree;
 mod profile;
 
 pub(crate) use group_graph::GroupGraph;
+pub(crate) use minimum_degree::column_order;
 pub use minimum_degree::minimum_degree_order;
 pub use profile::profile_order;
 
