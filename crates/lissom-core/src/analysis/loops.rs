@@ -156,48 +156,87 @@ fn root(parents: &mut [usize], mut row: usize) -> usize {
 }
 
 impl Loop {
-    /// Derivatives of its equations at a configuration, by equation and column; an angle counts as an arc at `length`.
-    pub(crate) fn gradient(&self, system: &System, at: &Kinematics, length: f64) -> DMatrix<f64> {
+    /// Derivatives of its equations at a configuration; an angle counts as an arc at `length`.
+    pub(crate) fn gradient(&self, system: &System, at: &Kinematics, length: f64, gradient: &mut Gradient) {
         let layout = system.layout();
-        let mut matrix = DMatrix::zeros(self.multipliers.len(), self.columns.len());
-        let mut equation = 0;
-        let mut enter = |equation: usize, row: usize, is_turn: bool, value: f64| {
-            if let Ok(column) = self.columns.binary_search(&row) {
-                matrix[(equation, column)] += if is_turn { value / length } else { value };
-            }
+        gradient.columns.resize_with(self.columns.len(), Vec::new);
+        gradient.columns.iter_mut().for_each(Vec::clear);
+        // The entries of one column, of equations that follow each other.
+        let mut enter = |first: usize, row: usize, is_turn: bool, values: &mut dyn Iterator<Item = f64>| {
+            let Ok(column) = self.columns.binary_search(&row) else { return };
+            let unit = if is_turn { length } else { 1.0 };
+            let entries = values.enumerate().filter(|(_, value)| *value != 0.0);
+            gradient.columns[column].extend(entries.map(|(own, value)| (first + own, value / unit)));
         };
         let is_turn = |row: usize| layout.quantities()[row] == Quantity::Angle;
+        let mut equation = 0;
         for &index in &self.joints {
             let joint = &system.joints[index];
-            let gradient = joint.gradient_at(&joint.outright(at));
-            for own in 0..joint.equations() {
-                for (frame, first) in joint.frames.iter().zip([0, TIP]) {
-                    for (k, &row) in layout.rows_of_node(frame.node).iter().enumerate() {
-                        if row != LOCKED {
-                            enter(equation, row as usize, k >= 3, gradient[(own, first + k)]);
-                        }
+            let local = &joint.gradient_at(&joint.outright(at));
+            let of = |column: usize| (0..joint.equations()).map(move |own| local[(own, column)]);
+            for (frame, first) in joint.frames.iter().zip([0, TIP]) {
+                for (k, &row) in layout.rows_of_node(frame.node).iter().enumerate() {
+                    if row != LOCKED {
+                        enter(equation, row as usize, k >= 3, &mut of(first + k));
                     }
                 }
-                for (k, &coordinate) in joint.coordinates.iter().enumerate() {
-                    let row = layout.row_of_coordinate(coordinate);
-                    enter(equation, row, is_turn(row), gradient[(own, OWN + k)]);
-                }
-                equation += 1;
             }
+            for (k, &coordinate) in joint.coordinates.iter().enumerate() {
+                let row = layout.row_of_coordinate(coordinate);
+                enter(equation, row, is_turn(row), &mut of(OWN + k));
+            }
+            equation += joint.equations();
         }
         for &index in &self.drives {
             let row = layout.row_of_coordinate(system.drives[index].prescribed.coordinate);
-            enter(equation, row, is_turn(row), 1.0);
+            enter(equation, row, is_turn(row), &mut std::iter::once(1.0));
             equation += 1;
         }
         for &index in &self.couplings {
             let coupling = &system.couplings[index];
             for (&coordinate, by) in coupling.coordinates.iter().zip(coupling.gradient(at)) {
                 let row = layout.row_of_coordinate(coordinate);
-                enter(equation, row, is_turn(row), by);
+                enter(equation, row, is_turn(row), &mut std::iter::once(by));
             }
             equation += 1;
         }
-        matrix
+    }
+}
+
+/// Derivatives of a loop's equations, without those that vanish.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Gradient {
+    /// Of every column the equations that know it, each with its derivative. A joint between two places of one part
+    /// enters a column twice.
+    columns: Vec<Vec<(usize, f64)>>,
+    /// Reciprocals of the equations' sizes.
+    sizes: Vec<f64>,
+}
+
+impl Gradient {
+    /// B Bᵀ over its diagonal, below and on the diagonal. `square` has as many rows as there are equations.
+    pub(crate) fn square(&mut self, square: &mut DMatrix<f64>) {
+        let Self { columns, sizes } = self;
+        square.fill(0.0);
+        for column in columns {
+            for (place, &(i, by_i)) in column.iter().enumerate() {
+                square[(i, i)] += by_i * by_i;
+                for &(j, by_j) in &column[..place] {
+                    // Twice where one equation has entered twice: (a + b)² = a² + 2 a b + b².
+                    let share = if i == j { 2.0 } else { 1.0 };
+                    square[(i.max(j), i.min(j))] += share * by_i * by_j;
+                }
+            }
+        }
+        let count = square.nrows();
+        sizes.clear();
+        sizes.extend(
+            (0..count).map(|k| square[(k, k)].sqrt()).map(|size| if size > 0.0 { 1.0 / size } else { 0.0 }),
+        );
+        for (j, column) in square.as_mut_slice().chunks_exact_mut(count.max(1)).enumerate() {
+            for (entry, size) in column[j..].iter_mut().zip(&sizes[j..]) {
+                *entry *= size * sizes[j];
+            }
+        }
     }
 }

@@ -9,7 +9,7 @@ use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
 
 use super::Warning;
-use crate::analysis::loops::{self, Loop};
+use crate::analysis::loops::{self, Gradient, Loop};
 use crate::system::{Kinematics, System};
 
 /// Pivots below this part of their equation's square are round-off: the equation repeats others.
@@ -36,6 +36,8 @@ const TAKES_PART: f64 = 1e-3;
 pub(crate) struct SingularPositions {
     loops: Vec<Loop>,
     pub(crate) known: Vec<Known>,
+    gradient: Gradient,
+    pivots: Pivots,
     length: f64,
 }
 
@@ -52,7 +54,8 @@ pub(crate) struct Known {
     moved: f64,
 }
 
-/// Pivots of B Bᵀ over its diagonal, with the factor L.
+/// Pivots of B Bᵀ over its diagonal, with the factor L below the diagonal.
+#[derive(Clone, Debug)]
 struct Pivots {
     pivots: Vec<f64>,
     factor: DMatrix<f64>,
@@ -64,13 +67,15 @@ impl SingularPositions {
         let length = if length > 0.0 { length } else { 1.0 };
         let mut loops = loops::of(system);
         loops.retain(|found| found.multipliers.len() <= MOST_EQUATIONS);
+        let (mut gradient, mut pivots) = (Gradient::default(), Pivots::default());
         let known = |found: &Loop| {
-            let references = pivots(&found.gradient(system, at, length)).pivots;
-            let references = references.into_iter().map(independent).collect();
+            found.gradient(system, at, length, &mut gradient);
+            pivots.of(&mut gradient, found.multipliers.len());
+            let references = pivots.pivots.iter().copied().map(independent).collect();
             Known { since: at.time, references, looks: Vec::new(), moved: 0.0 }
         };
         let known = loops.iter().map(known).collect();
-        Self { loops, known, length }
+        Self { loops, known, gradient, pivots, length }
     }
 
     /// Whether there is anything to look at.
@@ -84,15 +89,14 @@ impl SingularPositions {
         let mut told = None;
         for (found, known) in self.loops.iter().zip(&mut self.known) {
             known.moved += way;
-            // A pivot is the square of the way to where it vanishes: looks come closer as that does.
-            let nearest = known.looks.last().map_or(1.0, |&(_, _, size)| size.clamp(0.0, 1.0).sqrt());
-            if known.moved < BETWEEN_LOOKS * nearest {
+            if known.moved < known.unseen() {
                 continue;
             }
             known.moved = 0.0;
-            let pivots = pivots(&found.gradient(system, at, self.length));
-            if let Some((time, equation)) = known.compare(at.time, &pivots.pivots) {
-                let joints = names(system, found, &pivots, equation);
+            found.gradient(system, at, self.length, &mut self.gradient);
+            self.pivots.of(&mut self.gradient, found.multipliers.len());
+            if let Some((time, equation)) = known.compare(at.time, &self.pivots.pivots) {
+                let joints = self.pivots.names(system, found, equation);
                 told = told.or(Some(Warning::SingularPosition { time, joints }));
             }
         }
@@ -101,6 +105,13 @@ impl SingularPositions {
 }
 
 impl Known {
+    /// Motion that may go unseen until the next look [rad]. A pivot is the square of the way to where it vanishes: what
+    /// is far comes near first, and near it looks come closer as that does.
+    fn unseen(&self) -> f64 {
+        let way = self.looks.last().map_or(1.0, |&(_, _, size)| size.clamp(0.0, 1.0).sqrt());
+        (way - NEAR.sqrt()).max(BETWEEN_LOOKS * way)
+    }
+
     /// Time and equation of a singular position, if the motion has come through one.
     fn compare(&mut self, time: f64, pivots: &[f64]) -> Option<(f64, usize)> {
         let repeating = |values: &[f64]| values.iter().filter(|value| **value == 0.0).count();
@@ -158,55 +169,61 @@ fn independent(pivot: f64) -> f64 {
     if pivot > REPEATS { pivot } else { 0.0 }
 }
 
-/// L D Lᵀ of B Bᵀ, rows of B brought to length 1; equations that repeat earlier ones are left out.
-fn pivots(gradient: &DMatrix<f64>) -> Pivots {
-    let count = gradient.nrows();
-    let mut rows = gradient.clone();
-    for mut row in rows.row_iter_mut() {
-        let size = row.norm();
-        if size > 0.0 {
-            row /= size;
-        }
+impl Default for Pivots {
+    fn default() -> Self {
+        Self { pivots: Vec::new(), factor: DMatrix::zeros(0, 0) }
     }
-    let mut square = &rows * rows.transpose();
-    let mut pivots = vec![0.0; count];
-    for k in 0..count {
-        let pivot = square[(k, k)];
-        pivots[k] = pivot;
-        if pivot <= REPEATS {
-            (k + 1..count).for_each(|i| square[(i, k)] = 0.0);
-            continue;
-        }
-        // Column by column, as the numbers lie.
-        let (known, rest) = square.as_mut_slice().split_at_mut((k + 1) * count);
-        let factors = &known[k * count + k + 1..];
-        for (j, column) in rest.chunks_exact_mut(count).enumerate() {
-            let upper = factors[j] / pivot;
-            for (entry, factor) in column[k + 1 + j..].iter_mut().zip(&factors[j..]) {
-                *entry -= factor * upper;
-            }
-        }
-        (k + 1..count).for_each(|i| square[(i, k)] /= pivot);
-    }
-    Pivots { pivots, factor: square }
 }
 
-/// Joints whose equations give the one that vanishes: its row of L, through those before it.
-fn names(system: &System, found: &Loop, pivots: &Pivots, equation: usize) -> String {
-    let mut shares: Vec<f64> = (0..equation).map(|k| pivots.factor[(equation, k)]).collect();
-    for k in (0..equation).rev() {
-        for j in k + 1..equation {
-            shares[k] -= pivots.factor[(j, k)] * shares[j];
+impl Pivots {
+    /// L D Lᵀ of B Bᵀ, rows of B brought to length 1; equations that repeat earlier ones are left out.
+    fn of(&mut self, gradient: &mut Gradient, count: usize) {
+        self.pivots.resize(count, 0.0);
+        self.factor.resize_mut(count, count, 0.0);
+        gradient.square(&mut self.factor);
+        let square = self.factor.as_mut_slice();
+        for k in 0..count {
+            // Column by column, as the numbers lie.
+            let (known, rest) = square.split_at_mut((k + 1) * count);
+            let factors = &mut known[k * count + k..];
+            let pivot = factors[0];
+            self.pivots[k] = pivot;
+            if pivot <= REPEATS {
+                factors[1..].fill(0.0);
+                continue;
+            }
+            let factors = &mut factors[1..];
+            for (j, column) in rest.chunks_exact_mut(count).enumerate() {
+                // Equations of joints that share no part know nothing of each other.
+                if factors[j] == 0.0 {
+                    continue;
+                }
+                let upper = factors[j] / pivot;
+                for (entry, factor) in column[k + 1 + j..].iter_mut().zip(&factors[j..]) {
+                    *entry -= factor * upper;
+                }
+                factors[j] = upper;
+            }
         }
     }
-    let mut names: Vec<String> = Vec::new();
-    let takes_part = |k: &usize| shares[*k].abs() > TAKES_PART && pivots.pivots[*k] > REPEATS;
-    for k in (0..equation).filter(takes_part).chain([equation]) {
-        let (joint, _) = system.layout().constraint_name(found.multipliers[k]);
-        let name = format!("`{joint}`");
-        if !names.contains(&name) {
-            names.push(name);
+
+    /// Joints whose equations give the one that vanishes: its row of L, through those before it.
+    fn names(&self, system: &System, found: &Loop, equation: usize) -> String {
+        let mut shares: Vec<f64> = (0..equation).map(|k| self.factor[(equation, k)]).collect();
+        for k in (0..equation).rev() {
+            for j in k + 1..equation {
+                shares[k] -= self.factor[(j, k)] * shares[j];
+            }
         }
+        let mut names: Vec<String> = Vec::new();
+        let takes_part = |k: &usize| shares[*k].abs() > TAKES_PART && self.pivots[*k] > REPEATS;
+        for k in (0..equation).filter(takes_part).chain([equation]) {
+            let (joint, _) = system.layout().constraint_name(found.multipliers[k]);
+            let name = format!("`{joint}`");
+            if !names.contains(&name) {
+                names.push(name);
+            }
+        }
+        names.join(", ")
     }
-    names.join(", ")
 }
