@@ -6,6 +6,8 @@ mod assembly;
 mod changes;
 #[path = "command_line/data_file.rs"]
 mod data_file;
+#[path = "command_line/determinism.rs"]
+mod determinism;
 #[path = "command_line/export.rs"]
 mod export;
 #[path = "command_line/fmu.rs"]

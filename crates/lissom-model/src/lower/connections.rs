@@ -8,6 +8,7 @@ use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Valu
 use lissom_core::system::{Builder, CoordinateId, NodeId, PlaceOnTip, Placement};
 use lissom_motion::Vector3;
 
+use super::order::by_name;
 use super::{Names, parameter_problem};
 use crate::document::{Attachment, Component, Document, OnTip};
 use crate::functions::Ramp;
@@ -20,8 +21,9 @@ pub(super) fn add(
     names: &mut Names,
     problems: &mut Vec<Problem>,
 ) {
+    let sorted_joints = by_name(&document.joints, |component| &component.name.value);
     for order in 0..3 {
-        for component in &document.joints {
+        for &component in &sorted_joints {
             let Some(kind) = joints::KINDS.iter().find(|kind| kind.name == component.kind.value) else {
                 problems.push(unknown_kind(component));
                 continue;
@@ -43,14 +45,14 @@ pub(super) fn add(
         // Whatever names a signal that could not be read would be wrong as well.
         return;
     }
-    for component in &document.joints {
+    for component in sorted_joints {
         if let Err(problem) = friction(component, builder, names) {
             problems.push(problem);
         }
     }
     for (components, kinds, is_load) in [(&document.springs, SPRINGS, false), (&document.loads, LOADS, true)]
     {
-        for component in components {
+        for component in by_name(components, |component| &component.name.value) {
             let Some(kind) = kinds.iter().find(|kind| kind.name == component.kind.value) else {
                 problems.push(unknown_kind(component));
                 continue;

@@ -8,6 +8,7 @@ mod connections;
 mod couplings;
 mod distributed;
 mod measurements;
+mod order;
 mod parts;
 mod redundancy;
 pub mod registry;

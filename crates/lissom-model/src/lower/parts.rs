@@ -7,6 +7,7 @@ use lissom_core::system::{Builder, Freedoms, Kinematics, LOCKED, NodeId, System}
 use lissom_motion::{Matrix3, Matrix6, Motion, Rotation, Vector3, Vector6, screw};
 
 use super::Names;
+use super::order::by_name;
 use crate::document::{Beam, Document, InitialMotion, NodeReference, Plane};
 use crate::report::{Located, Problem};
 
@@ -23,7 +24,7 @@ pub(super) fn add(
 }
 
 fn bodies(document: &Document, builder: &mut Builder, names: &mut Names) {
-    for body in &document.bodies {
+    for body in by_name(&document.bodies, |body| &body.name.value) {
         let frame = Motion::new(Rotation::from_matrix(&body.axes), body.position);
         let node = builder.add_node(&body.name.value, frame, Freedoms::Full);
         builder.add_inertia(node, &Inertia::of_rigid_body(body.mass, &body.center_of_mass, &body.inertia));
@@ -32,7 +33,7 @@ fn bodies(document: &Document, builder: &mut Builder, names: &mut Names) {
 }
 
 fn point_masses(document: &Document, builder: &mut Builder, names: &mut Names) {
-    for mass in &document.point_masses {
+    for mass in by_name(&document.point_masses, |mass| &mass.name.value) {
         let frame = Motion::translation(mass.position);
         let freedoms = match mass.plane {
             None => Freedoms::Translations,
@@ -89,7 +90,7 @@ fn initial_motion(initial: Option<&InitialMotion>, frame: &Motion) -> (Vector3, 
 
 /// Adds the beams, each after those whose nodes it shares.
 fn beams(document: &Document, builder: &mut Builder, names: &mut Names, problems: &mut Vec<Problem>) {
-    let mut waiting: Vec<&Beam> = document.beams.iter().collect();
+    let mut waiting: Vec<&Beam> = by_name(&document.beams, |beam| &beam.name.value);
     while !waiting.is_empty() {
         let before = waiting.len();
         let mut later = Vec::new();

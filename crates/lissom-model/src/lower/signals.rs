@@ -11,6 +11,7 @@ use lissom_core::system::{Builder, CoordinateId};
 
 use super::Names;
 use super::measurements::measure;
+use super::order::by_name;
 use crate::document::{Document, EventEntry, SignalEntry};
 use crate::expression::{Formula, Name};
 use crate::report::{Located, Problem};
@@ -23,19 +24,20 @@ pub(super) fn add(
     names: &mut Names,
     problems: &mut Vec<Problem>,
 ) {
-    for (name, value) in &document.inputs {
+    for (name, value) in by_name(&document.inputs, |(name, _)| &name.value) {
         let held = builder.add_held(&name.value, *value);
         names.signals.insert(name.value.clone(), Argument::Held(held));
     }
     let mut states = Vec::new();
-    for state in &document.states {
+    let sorted_states = by_name(&document.states, |state| &state.name.value);
+    for state in &sorted_states {
         let coordinate = builder.add_state(&state.name.value, state.start, state.magnitude);
         let measured = builder.add_measurement(Coordinate::new(coordinate, Of::Value));
         names.signals.insert(state.name.value.clone(), Argument::Measured(measured));
         states.push(coordinate);
     }
     let mut order = Order { document, marks: BTreeMap::new(), path: Vec::new(), sorted: Vec::new() };
-    for entry in &document.signals {
+    for entry in by_name(&document.signals, |entry| &entry.name.value) {
         if let Err(problem) = order.visit(entry) {
             problems.push(problem);
             // Whatever names a signal of a loop would be wrong as well.
@@ -53,14 +55,14 @@ pub(super) fn add(
     if !problems.is_empty() {
         return;
     }
-    for (state, coordinate) in document.states.iter().zip(states) {
+    for (state, coordinate) in sorted_states.into_iter().zip(states) {
         let name = format!("`derivative` of state `{}`", state.name.value);
         match add_formula(document, builder, names, &name, &state.derivative) {
             Ok(signal) => builder.drive_state(coordinate, signal),
             Err(problem) => problems.push(problem),
         }
     }
-    for event in &document.events {
+    for event in by_name(&document.events, |event| &event.name.value) {
         if let Err(problem) = add_event(document, builder, names, event) {
             problems.push(problem);
         }

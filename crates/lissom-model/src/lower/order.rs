@@ -1,0 +1,56 @@
+//! The order in which what a model consists of is numbered: by name, whatever the order of the file. Sums are then taken in the
+//! same order, and a file with its sections in another order gives the same bits.
+
+use std::cmp::Ordering;
+use std::iter::Peekable;
+use std::str::Chars;
+
+/// The entries by name.
+pub(super) fn by_name<T>(entries: &[T], name: impl Fn(&T) -> &str) -> Vec<&T> {
+    let mut sorted: Vec<&T> = entries.iter().collect();
+    sorted.sort_by(|a, b| compare(name(a), name(b)));
+    sorted
+}
+
+/// Compares names as people count: `leg2` before `leg10`, which keeps neighbours of a row together.
+fn compare(a: &str, b: &str) -> Ordering {
+    let (mut left, mut right) = (a.chars().peekable(), b.chars().peekable());
+    loop {
+        let order = match (left.peek(), right.peek()) {
+            (Some(x), Some(y)) if x.is_ascii_digit() && y.is_ascii_digit() => {
+                let (x, y) = (number(&mut left), number(&mut right));
+                x.len().cmp(&y.len()).then_with(|| x.cmp(&y))
+            }
+            (Some(_), Some(_)) => left.next().cmp(&right.next()),
+            // Numbers with zeros before them may differ in nothing else.
+            (None, None) => return a.cmp(b),
+            (x, y) => return x.cmp(&y),
+        };
+        if order != Ordering::Equal {
+            return order;
+        }
+    }
+}
+
+/// The digits that come next, without zeros before them.
+fn number(text: &mut Peekable<Chars<'_>>) -> String {
+    let mut digits = String::new();
+    while let Some(digit) = text.next_if(char::is_ascii_digit) {
+        if !(digits.is_empty() && digit == '0') {
+            digits.push(digit);
+        }
+    }
+    digits
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_compared_as_people_count() {
+        let names = ["leg10.rod", "a", "leg2.rod", "leg2", "B", "leg02", "leg1.rod"];
+        let sorted = by_name(&names, |name| name);
+        assert_eq!(sorted, [&"B", &"a", &"leg1.rod", &"leg02", &"leg2", &"leg2.rod", &"leg10.rod"]);
+    }
+}
