@@ -111,6 +111,17 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
             touched.coordinates.extend(&joint.coordinates);
             touched.multipliers = joint.first_multiplier..joint.first_multiplier + joint.equations();
         }
+        Source::Line(places) => {
+            touched.nodes.extend(places.iter().flat_map(|place| match place {
+                Place::Carried { node, .. } => std::slice::from_ref(node),
+                Place::OnBeam { nodes, .. } => nodes,
+            }));
+        }
+        Source::DrivePower(index) => {
+            let drive = &system.drives()[*index];
+            touched.coordinates.insert(drive.prescribed.coordinate);
+            touched.multipliers = drive.multiplier..drive.multiplier + 1;
+        }
         Source::Drive(index) => {
             let multiplier = system.drives()[*index].multiplier;
             touched.multipliers = multiplier..multiplier + 1;
@@ -136,7 +147,13 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
             }
         }
         // Several ranges of multipliers may meet in one expression.
-        Source::Expression(..) | Source::Spring(..) | Source::Energy | Source::Momentum => return None,
+        Source::Expression(..)
+        | Source::Spring(..)
+        | Source::Power(_)
+        | Source::Energy
+        | Source::Momentum => {
+            return None;
+        }
     }
     Some(touched)
 }

@@ -36,6 +36,8 @@ pub(crate) struct Resolver<'a> {
     pub(crate) lines: &'a BTreeMap<String, BeamLine>,
     pub(crate) coordinates: &'a BTreeMap<String, Vec<CoordinateId>>,
     pub(crate) springs: &'a BTreeMap<String, (ElementId, Quantity)>,
+    /// Springs, loads and joints' friction.
+    pub(crate) powers: &'a BTreeMap<String, ElementId>,
     /// Signals, inputs and states.
     pub(crate) signals: &'a BTreeMap<String, Argument>,
 }
@@ -68,6 +70,12 @@ pub(crate) enum Source {
     /// Of coordinates by joint and place in it.
     Accelerations(Vec<(usize, usize)>),
     Spring(ElementId, Quantity),
+    /// Power of an element.
+    Power(ElementId),
+    /// Power of a drive.
+    DrivePower(usize),
+    /// Places along a beam.
+    Line(Vec<Place>),
     Energy,
     Momentum,
     Signal(Argument),
@@ -218,6 +226,18 @@ impl Channel {
             Source::Spring(element, _) => {
                 out.extend(system.spring_motion(*element, at).unwrap_or([f64::NAN; 3]));
             }
+            Source::Power(element) => out.push(system.power(*element, at)),
+            Source::DrivePower(index) => {
+                let drive = &system.drives()[*index];
+                let rate = at.coordinates[drive.prescribed.coordinate].rate;
+                out.push(-state.multipliers[drive.multiplier] * rate);
+            }
+            Source::Line(places) => {
+                out.extend(places.iter().flat_map(|place| {
+                    let position = place.frame(at).position;
+                    [position.x, position.y, position.z]
+                }));
+            }
             Source::Signal(argument) => out.push(signal_value(system, at, *argument)),
             Source::Momentum => {
                 let (linear, angular) = system.momentum(at);
@@ -304,6 +324,8 @@ pub(crate) fn source(
                     .help("name a spring between two points, or on a joint's coordinate")
             })?
         }
+        OutputSource::Actor(name) => power_source(name, system, names)?,
+        OutputSource::Beam(name) => Source::Line(nodes_of(name, names)?),
         OutputSource::Joint(name) => joint_source(output, name, system, names)?,
         OutputSource::Node { node, point } => {
             let place = place(output, node, point.as_ref(), drawn, names)?;
@@ -311,6 +333,26 @@ pub(crate) fn source(
             Source::Place(place, start)
         }
     })
+}
+
+/// The power of a spring, a load, a drive or the friction of a joint.
+fn power_source(name: &Located<String>, system: &System, names: &Resolver<'_>) -> Result<Source, Problem> {
+    let drive = system.drives().iter().position(|drive| drive.name == name.value);
+    let own = names.powers.get(&name.value).map(|&element| Source::Power(element));
+    own.or(drive.map(Source::DrivePower)).ok_or_else(|| {
+        Problem::error(name.span, format!("`{}` has no power to record", name.value)).help(
+            "name a spring, a load, a drive of a joint's coordinate, or a joint with friction; other joints neither give nor take",
+        )
+    })
+}
+
+/// The nodes of a beam as places on its axis.
+fn nodes_of(name: &Located<String>, names: &Resolver<'_>) -> Result<Vec<Place>, Problem> {
+    let unknown = || Problem::error(name.span, format!("there is no beam called `{}`", name.value));
+    let line = names.lines.get(&name.value).ok_or_else(unknown)?;
+    // A node may be another part's: the section has its place beside it.
+    let places = line.nodes.iter().zip(&line.offsets);
+    Ok(places.map(|(&node, offset)| Place::Carried { node, offset: offset.position }).collect())
 }
 
 fn joint_source(
@@ -468,6 +510,12 @@ pub(crate) fn components(
             words(&["rotation", "rate", "moment"], &["rad", "rad/s", "N m"])
         }
         (OutputKind::Spring, _) => words(&["elongation", "rate", "force"], &["m", "m/s", "N"]),
+        (OutputKind::Power, _) => words(&["power"], &["W"]),
+        (OutputKind::Line, Source::Line(places)) => {
+            let of = |k: usize| ["x", "y", "z"].map(|axis| (format!("{axis}{k}"), "m"));
+            (0..places.len()).flat_map(of).unzip()
+        }
+        (OutputKind::Line, _) => (Vec::new(), Vec::new()),
         (OutputKind::Momentum, _) => {
             words(&["p1", "p2", "p3", "l1", "l2", "l3"], &["N s", "N s", "N s", "N m s", "N m s", "N m s"])
         }

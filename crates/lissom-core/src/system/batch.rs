@@ -60,6 +60,8 @@ pub(crate) trait AnyBatch: Send + Sync {
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64;
     /// Elongation, rate and force of an item that is like a spring.
     fn spring_motion(&self, item: usize, at: &Kinematics) -> Option<[f64; 3]>;
+    /// Power of an item's forces [W].
+    fn power(&self, item: usize, at: &Kinematics) -> f64;
     /// Times at which forces are known not to be smooth [s].
     fn kinks(&self) -> Vec<f64>;
     /// Gives every item a place for the sides of its switches, from the held value `first` on, and says how many.
@@ -277,6 +279,10 @@ impl<E: Element> AnyBatch for Batch<E> {
         self.items.get(item)?.spring_motion(at)
     }
 
+    fn power(&self, item: usize, at: &Kinematics) -> f64 {
+        self.items.get(item).map_or(0.0, |item| power(item, at))
+    }
+
     fn kinks(&self) -> Vec<f64> {
         self.items.iter().flat_map(E::kinks).collect()
     }
@@ -384,6 +390,17 @@ pub(super) fn work<E: Element + ?Sized>(
     }
     // Forces stand on the left-hand side of the equations of motion.
     -sum
+}
+
+/// Power of an element's forces on its nodes and coordinates [W].
+pub(super) fn power<E: Element + ?Sized>(element: &E, at: &Kinematics) -> f64 {
+    let mut forces = [0.0; MOST_UNKNOWNS];
+    let size = 6 * element.nodes().len() + element.coordinates().len();
+    element.forces(at, &mut forces[..size]);
+    let twists = element.nodes().iter().flat_map(|&node| at.nodes[node].twist.iter().copied());
+    let rates = element.coordinates().iter().map(|&own| at.coordinates[own].rate);
+    // Forces stand on the left-hand side of the equations of motion.
+    -twists.chain(rates).zip(forces).map(|(rate, force)| rate * force).sum::<f64>()
 }
 
 /// ∫ f dx of a force that changes linearly in time along a cubic way of given ends and speeds at them:

@@ -177,18 +177,19 @@ impl Builder {
     pub fn add_element<E: Element>(&mut self, element: E) {
         if let Some(signal) = self.driver {
             self.targets.push((Target::Load(Box::new(element)), signal));
+            self.last = Some(ElementId { batch: None, item: self.targets.len() - 1 });
             return;
         }
         for (index, batch) in self.batches.iter_mut().enumerate() {
             if let Some(batch) = batch.as_any_mut().downcast_mut::<Batch<E>>() {
                 batch.push(element);
-                self.last = Some(ElementId { batch: index, item: batch.len() - 1 });
+                self.last = Some(ElementId { batch: Some(index), item: batch.len() - 1 });
                 return;
             }
         }
         let mut batch = Batch::<E>::new();
         batch.push(element);
-        self.last = Some(ElementId { batch: self.batches.len(), item: 0 });
+        self.last = Some(ElementId { batch: Some(self.batches.len()), item: 0 });
         self.batches.push(Box::new(batch));
     }
 

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use lissom_solver::Pattern;
 
 use super::System;
-use super::batch::{AnyBatch, Chart, Owner, scatter, through, work};
+use super::batch::{AnyBatch, Chart, Owner, power, scatter, through, work};
 use super::layout::Layout;
 use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
@@ -341,6 +341,16 @@ impl AnyBatch for Arc<Feedback> {
             Target::State(_) => 0.0,
         };
         self.driven.iter().map(of).sum()
+    }
+
+    fn power(&self, item: usize, at: &Kinematics) -> f64 {
+        let Some(driven) = self.driven.get(item) else { return 0.0 };
+        match &driven.target {
+            Target::Load(element) => {
+                self.graph.evaluate(at, |values| values[driven.signal]) * power(&**element, at)
+            }
+            Target::State(_) => 0.0,
+        }
     }
 
     fn spring_motion(&self, _: usize, _: &Kinematics) -> Option<[f64; 3]> {

@@ -58,7 +58,8 @@ pub struct Drive {
 /// Where an element is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ElementId {
-    batch: usize,
+    /// None for what a signal drives.
+    batch: Option<usize>,
     item: usize,
 }
 
@@ -145,7 +146,15 @@ impl System {
 
     /// Elongation, its rate and the force against it [SI] of a spring or what is like one.
     pub fn spring_motion(&self, element: ElementId, at: &Kinematics) -> Option<[f64; 3]> {
-        self.batches.get(element.batch)?.spring_motion(element.item, at)
+        self.batches.get(element.batch?)?.spring_motion(element.item, at)
+    }
+
+    /// Power that an element puts into the rest of the model [W]; of what stores or takes away energy, negative while it does.
+    pub fn power(&self, element: ElementId, at: &Kinematics) -> f64 {
+        match element.batch {
+            None => self.feedback.power(element.item, at),
+            Some(batch) => self.batches[batch].power(element.item, at),
+        }
     }
 
     /// Work of loads between two configurations [J], as if forces changed linearly in time between them and places as

@@ -41,6 +41,10 @@ pub enum OutputKind {
     RelativeMotion,
     /// Elongation, rate and force of a spring [m, m/s, N or rad, rad/s, N m].
     Spring,
+    /// Power that a spring, load, drive or friction puts into the model [W].
+    Power,
+    /// Places of all nodes of a beam [m].
+    Line,
     /// Energies of the whole model [J].
     Energy,
     /// A signal, an input or a state.
@@ -57,7 +61,7 @@ pub enum OutputKind {
 
 impl OutputKind {
     /// All of them, in the order of the manual.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 21] = [
         Self::Position,
         Self::Displacement,
         Self::Rotation,
@@ -68,11 +72,13 @@ impl OutputKind {
         Self::Acceleration,
         Self::SectionForce,
         Self::SectionMoment,
+        Self::Line,
         Self::Reaction,
         Self::Relative,
         Self::RelativeAcceleration,
         Self::RelativeMotion,
         Self::Spring,
+        Self::Power,
         Self::Energy,
         Self::Momentum,
         Self::Signal,
@@ -95,6 +101,8 @@ impl OutputKind {
             Self::RelativeAcceleration => "relative_acceleration",
             Self::RelativeMotion => "relative_motion",
             Self::Spring => "spring",
+            Self::Power => "power",
+            Self::Line => "line",
             Self::Energy => "energy",
             Self::Momentum => "momentum",
             Self::Signal => "signal",
@@ -122,6 +130,10 @@ impl OutputKind {
                 "Place and rotation vector of a joint's tip frame, in the axes of its base frame."
             }
             Self::Spring => "Elongation or rotation of a spring, its rate, and its force or moment.",
+            Self::Power => {
+                "Power that a spring, a load, a drive or the friction of a joint puts into the rest of the model."
+            }
+            Self::Line => "Places of all nodes of a beam along its axis, from its start to its end.",
             Self::Energy => "Kinetic, strain, gravity and total energy of the model.",
             Self::Signal => "Value of a signal, an input or a state.",
             Self::Expression => {
@@ -139,7 +151,7 @@ impl OutputKind {
         !(self.is_of_beam()
             || self.is_of_joint()
             || self.is_of_model()
-            || matches!(self, Self::Signal | Self::Spring | Self::Expression))
+            || matches!(self, Self::Signal | Self::Spring | Self::Power | Self::Line | Self::Expression))
     }
 
     /// Whether it belongs to the whole model.
@@ -187,6 +199,10 @@ pub enum OutputSource {
     Joint(Located<String>),
     /// A spring, by name.
     Spring(Located<String>),
+    /// A spring, a load, a drive or a joint with friction, by name.
+    Actor(Located<String>),
+    /// A whole beam, by name.
+    Beam(Located<String>),
     /// The whole model.
     Model,
     /// A signal, an input or a state, by name.
@@ -244,8 +260,17 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
             OutputSource::Joint(reader.name_in("of")?)
         } else if kind == OutputKind::Spring {
             OutputSource::Spring(reader.name_in("of")?)
+        } else if kind == OutputKind::Power {
+            let what = "spring, load or joint";
+            OutputSource::Actor(name_of_one(reader, &["springs", "loads", "joints"], what)?)
+        } else if kind == OutputKind::Line {
+            OutputSource::Beam(reader.name_in("of")?)
         } else if kind == OutputKind::Signal {
-            OutputSource::Signal(signal(reader)?)
+            OutputSource::Signal(name_of_one(
+                reader,
+                &["signals", "inputs", "states"],
+                "signal, input or state",
+            )?)
         } else if kind == OutputKind::Expression {
             OutputSource::Expression(reader.formula("value")?)
         } else if kind.is_of_model() {
@@ -295,18 +320,16 @@ fn frame(reader: &Reader<'_, '_>, node: &Node, key: &str) -> Option<Located<Node
     Some(found)
 }
 
-/// The name of a signal, an input or a state.
-fn signal(reader: &Reader<'_, '_>) -> Option<Located<String>> {
+/// The name of an entry of one of some `tables`, which are called `what`.
+fn name_of_one(reader: &Reader<'_, '_>, tables: &[&str], what: &str) -> Option<Located<String>> {
     let name = reader.text("of")?;
-    let tables = ["signals", "inputs", "states"];
     let known = || tables.iter().flat_map(|table| reader.context.names(table)).map(|(name, _)| name);
     let scope = reader.node("of")?.scope;
     let exists = |full: &str| tables.iter().any(|table| reader.context.has(table, full));
     if let Some(full) = reader.context.resolve(name.value, scope, &exists) {
         return Some(Located::new(full, name.span));
     }
-    let message =
-        format!("{} names `{}`, which is no signal, input or state", reader.words("of"), name.value);
-    let help = suggest::help(name.value, known()).unwrap_or_else(|| "add it to [signals]".to_owned());
+    let message = format!("{} names `{}`, which is no {what}", reader.words("of"), name.value);
+    let help = suggest::help(name.value, known()).unwrap_or_else(|| format!("add it to [{}]", tables[0]));
     reader.context.fail(name.span, message, help)
 }

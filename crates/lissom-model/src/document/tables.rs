@@ -420,6 +420,13 @@ fn outputs() -> Vec<Variant> {
         if *kind == OutputKind::Spring {
             keys.push(required("of", Shape::Name("springs"), "", "the spring"));
         }
+        if *kind == OutputKind::Power {
+            let words = "the name of a spring, a load, a drive or a joint with friction";
+            keys.push(required("of", Shape::Text, "", words));
+        }
+        if *kind == OutputKind::Line {
+            keys.push(required("of", Shape::Name("beams"), "", "the beam"));
+        }
         if *kind == OutputKind::Signal {
             keys.push(required("of", Shape::Text, "", "the name of a signal, an input or a state"));
         }

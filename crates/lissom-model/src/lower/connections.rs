@@ -134,7 +134,7 @@ fn joint(
 }
 
 /// Adds the friction of a joint with one coordinate.
-fn friction(component: &Component, builder: &mut Builder, names: &Names) -> Result<(), Problem> {
+fn friction(component: &Component, builder: &mut Builder, names: &mut Names) -> Result<(), Problem> {
     let Some(friction) = &component.friction else { return Ok(()) };
     let name = &component.name.value;
     let coordinates = names.coordinates.get(name).map_or(&[][..], Vec::as_slice);
@@ -153,7 +153,9 @@ fn friction(component: &Component, builder: &mut Builder, names: &Names) -> Resu
         return Err(Problem::error(friction.span, format!("joint `{name}` can have no friction")));
     };
     (kind.build)(builder, Attached::Coordinate(*coordinate), &friction.value)
-        .map_err(|error| Problem::error(friction.span, format!("friction of joint `{name}`: {error}")))
+        .map_err(|error| Problem::error(friction.span, format!("friction of joint `{name}`: {error}")))?;
+    names.powers.extend(builder.take_last_element().map(|element| (name.clone(), element)));
+    Ok(())
 }
 
 /// The coordinate of a joint that a drive or a spring acts on: the one it names, or the first of the kind it wants.
@@ -245,7 +247,9 @@ fn element(
         }
     };
     let is_spring = SPRINGS.iter().any(|spring| spring.name == kind.name);
-    if let Some(element) = builder.take_last_element().filter(|_| is_spring) {
+    let element = builder.take_last_element();
+    names.powers.extend(element.map(|element| (component.name.value.clone(), element)));
+    if let Some(element) = element.filter(|_| is_spring) {
         let quantity = match kind.attachment {
             elements::Attachment::Coordinate(quantity) => quantity,
             _ => Quantity::Length,

@@ -115,6 +115,8 @@ fn of_output(
         | OutputKind::RelativeAcceleration
         | OutputKind::RelativeMotion
         | OutputKind::Spring
+        | OutputKind::Power
+        | OutputKind::Line
         | OutputKind::Energy
         | OutputKind::Momentum
         | OutputKind::Quaternion

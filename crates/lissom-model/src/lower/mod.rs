@@ -79,6 +79,8 @@ pub struct Names {
     pub coordinates: BTreeMap<String, Vec<CoordinateId>>,
     /// Springs that have an elongation, and whether it is a length or an angle.
     pub springs: BTreeMap<String, (ElementId, Quantity)>,
+    /// Springs, loads and joints' friction, whose power can be told.
+    pub powers: BTreeMap<String, ElementId>,
     /// Signals, inputs and states.
     pub signals: BTreeMap<String, Argument>,
     /// Measurements that signals use, by the names they are written with.
@@ -187,6 +189,7 @@ impl Names {
             lines: &self.lines,
             coordinates: &self.coordinates,
             springs: &self.springs,
+            powers: &self.powers,
             signals: &self.signals,
         }
     }

@@ -212,9 +212,11 @@ impl Places<'_> {
     fn output(&self, output: &crate::document::Output) -> Output {
         let (of, point) = match &output.source {
             OutputSource::Model | OutputSource::Expression(_) => (None, None),
-            OutputSource::Joint(name) | OutputSource::Spring(name) | OutputSource::Signal(name) => {
-                (Some(name.value.clone()), None)
-            }
+            OutputSource::Joint(name)
+            | OutputSource::Spring(name)
+            | OutputSource::Actor(name)
+            | OutputSource::Beam(name)
+            | OutputSource::Signal(name) => (Some(name.value.clone()), None),
             OutputSource::Node { node, point } => {
                 (Some(part_of(&node.value).to_owned()), self.observed(&node.value, point.as_ref()))
             }

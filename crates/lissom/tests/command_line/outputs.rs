@@ -2,11 +2,11 @@
 
 use std::fs;
 
-use lissom::{Model, Record};
+use lissom::{Model, Record, SessionError};
 use lissom_motion::Vector3;
 use serde_json::Value;
 
-use crate::support::{Folder, lissom, summary};
+use crate::support::{CANTILEVER, Folder, lissom, summary};
 
 /// A disc that turns at 2 rad/s about z at [1, 0, 0], and a stone that flies straight on.
 const MODEL: &str = r#"
@@ -254,4 +254,168 @@ fn kinds_answer_for_tables_and_functions() {
     assert!(all.contains("More by `lissom kinds WORD`") && all.contains("output"), "{all}");
     let schema: Value = serde_json::from_str(&lissom(&["schema"], folder.path()).output).unwrap();
     assert_eq!(schema["properties"]["initial"]["additionalProperties"]["required"][0], "parts");
+}
+
+/// Two arms, one after the other, with one of everything that gives or takes power, and a beam on the second.
+const POWERS: &str = r#"
+lissom = 1
+
+[bodies.upper]
+mass = 2
+inertia = [0.1, 0.2, 0.3]
+position = [0.5, 0.1, 0]
+[bodies.lower]
+mass = 1
+inertia = [0.1, 0.1, 0.15]
+position = [1.5, 0, 0.2]
+rotation = [0.3, 0.2, 0.1]
+
+[joints.shoulder]
+kind = "revolute"
+base = "ground"
+tip = "upper"
+at = [0, 0, 0]
+axis = [0, 0.6, 0.8]
+friction = { coulomb = 0.4, static = 0.4, stribeck = 0.1, viscous = 0.1 }
+[joints.elbow]
+kind = "revolute"
+base = "upper"
+tip = "lower"
+at = [1, 0, 0]
+axis = [0, 0, 1]
+[joints.drive]
+kind = "prescribed_rotation"
+joint = "elbow"
+rotation = "0.2*sin(3*t)^2"
+
+[springs.coil]
+kind = "torsional"
+joint = "shoulder"
+stiffness = 5
+damping = 0.3
+[springs.cord]
+kind = "point"
+base = "ground"
+tip = "lower"
+at_base = [1, 1, 1]
+at_tip = [1.6, 0.1, 0.2]
+stiffness = 40
+
+[loads.motor]
+kind = "joint_torque"
+joint = "shoulder"
+torque = "3*cos(t) - 0.2*shoulder.rate"
+[loads.push]
+kind = "force"
+on = "lower"
+at = [1.5, 0.3, 0.2]
+vector = [0, 1, 2]
+follower = true
+
+[initial.arms]
+parts = ["upper", "lower"]
+angular_velocity = [0, 0.9, 1.2]
+
+[outputs.motor]
+kind = "power"
+of = "motor"
+[outputs.push]
+kind = "power"
+of = "push"
+[outputs.coil]
+kind = "power"
+of = "coil"
+[outputs.cord]
+kind = "power"
+of = "cord"
+[outputs.friction]
+kind = "power"
+of = "shoulder"
+[outputs.drive]
+kind = "power"
+of = "drive"
+[outputs.turn]
+kind = "relative"
+of = "shoulder"
+[outputs.spring]
+kind = "spring"
+of = "cord"
+[outputs.energy]
+kind = "energy"
+
+[analysis]
+kind = "dynamics"
+scheme = "radau-iia"
+end = 0.5
+step = 1e-3
+"#;
+
+#[test]
+fn powers_are_what_the_kinetic_energy_grows_by() {
+    let mut session = Model::from_text("powers.toml", POWERS).session(&[]).unwrap();
+    let (record, report) = session.record();
+    assert!(report.is_complete());
+    let of = |output: &str, component: &str| {
+        record.column(output, component).unwrap_or_else(|| panic!("{output}"))
+    };
+    let all = ["motor", "push", "coil", "cord", "friction", "drive"];
+    let powers = all.map(|output| of(output, "power"));
+    let (kinetic, rate) = (of("energy", "kinetic"), of("turn", "rate"));
+    let spring = [of("spring", "force"), of("spring", "rate")];
+    let largest = powers.map(|power| power.iter().fold(0.0_f64, |most, value| most.max(value.abs())));
+    assert!(largest.iter().all(|&most| most > 0.1), "each has a share: {largest:?}");
+    for row in 2..record.times.len() - 2 {
+        let time = record.times[row];
+        let slope =
+            (8.0 * (kinetic[row + 1] - kinetic[row - 1]) - kinetic[row + 2] + kinetic[row - 2]) / 12e-3;
+        let sum: f64 = powers.iter().map(|power| power[row]).sum();
+        assert!((slope - sum).abs() < 1e-4 * largest.iter().sum::<f64>(), "at {time}: {slope} {sum}");
+        let motor = (3.0 * time.cos() - 0.2 * rate[row]) * rate[row];
+        assert!((powers[0][row] - motor).abs() < 1e-9, "at {time}: {} {motor}", powers[0][row]);
+        let cord = -spring[0][row] * spring[1][row];
+        assert!((powers[3][row] - cord).abs() < 1e-9, "at {time}: {} {cord}", powers[3][row]);
+        assert!(powers[4][row] <= 0.0, "friction takes: {}", powers[4][row]);
+    }
+}
+
+#[test]
+fn what_has_no_power_is_told_with_what_has() {
+    let elbow = POWERS.replace("of = \"shoulder\"\n[outputs.drive]", "of = \"elbow\"\n[outputs.drive]");
+    let words = |text: &str| match Model::from_text("powers.toml", text).session(&[]) {
+        Err(SessionError::Model(report)) => report.render(false),
+        _ => panic!("the model is wrong"),
+    };
+    let words_of_elbow = words(&elbow);
+    assert!(words_of_elbow.contains("`elbow` has no power"), "{words_of_elbow}");
+    assert!(words_of_elbow.contains("a joint with friction"), "{words_of_elbow}");
+    let unknown = POWERS.replace("of = \"motor\"", "of = \"moter\"");
+    let words = words(&unknown);
+    assert!(words.contains("no spring, load or joint") && words.contains("did you mean `motor`"), "{words}");
+}
+
+#[test]
+fn a_line_is_the_places_of_all_nodes() {
+    let model = CANTILEVER.to_owned()
+        + "\n[outputs.axis]\nkind = \"line\"\nof = \"bar\"\n[outputs.foot]\nkind = \"position\"\nof = \"bar@0\"\n\
+           [outputs.end]\nkind = \"position\"\nof = \"bar@1\"\n";
+    let mut session = Model::from_text("line.toml", &model).session(&[]).unwrap();
+    let (record, report) = session.record();
+    assert!(report.is_complete());
+    let components: Vec<&str> = record
+        .columns
+        .iter()
+        .filter(|column| column.output == "axis")
+        .map(|column| column.component.as_str())
+        .collect();
+    let last = components.len() / 3 - 1;
+    assert_eq!(components[..4], ["x0", "y0", "z0", "x1"]);
+    assert!(last >= 2, "{components:?}");
+    for axis in ["x", "y", "z"] {
+        assert_eq!(record.column("axis", &format!("{axis}0")), record.column("foot", axis));
+        assert_eq!(record.column("axis", &format!("{axis}{last}")), record.column("end", axis));
+    }
+    // Along the beam places go on.
+    let middle = record.column("axis", "x1").unwrap()[0];
+    let ends = ["x0".to_owned(), format!("x{last}")].map(|name| record.column("axis", &name).unwrap()[0]);
+    assert!(middle > ends[0] && middle < ends[1], "{ends:?} {middle}");
 }
