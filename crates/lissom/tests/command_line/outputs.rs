@@ -346,8 +346,8 @@ kind = "energy"
 [analysis]
 kind = "dynamics"
 scheme = "radau-iia"
-end = 0.5
-step = 1e-3
+end = 0.3
+step = 2e-4
 "#;
 
 #[test]
@@ -364,10 +364,11 @@ fn powers_are_what_the_kinetic_energy_grows_by() {
     let spring = [of("spring", "force"), of("spring", "rate")];
     let largest = powers.map(|power| power.iter().fold(0.0_f64, |most, value| most.max(value.abs())));
     assert!(largest.iter().all(|&most| most > 0.1), "each has a share: {largest:?}");
-    for row in 2..record.times.len() - 2 {
+    // The multipliers of Radau IIA are right to first order of the step, and those of the very first one less.
+    for row in 3..record.times.len() - 2 {
         let time = record.times[row];
         let slope =
-            (8.0 * (kinetic[row + 1] - kinetic[row - 1]) - kinetic[row + 2] + kinetic[row - 2]) / 12e-3;
+            (8.0 * (kinetic[row + 1] - kinetic[row - 1]) - kinetic[row + 2] + kinetic[row - 2]) / 2.4e-3;
         let sum: f64 = powers.iter().map(|power| power[row]).sum();
         assert!((slope - sum).abs() < 1e-4 * largest.iter().sum::<f64>(), "at {time}: {slope} {sum}");
         let motor = (3.0 * time.cos() - 0.2 * rate[row]) * rate[row];

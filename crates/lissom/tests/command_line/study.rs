@@ -34,7 +34,8 @@ fn factorization_names_the_unknown() {
     let folder = Folder::new("factorization");
     let run = lissom(&["study", "factorization", &example("tip-crank")], folder.path());
     assert_eq!((run.code, run.errors.as_str()), (0, ""));
-    let words = "physical, not augmented, sparse: elimination stops at the coordinate `L.angle`";
+    let words =
+        "physical, not augmented, sparse: elimination stops at the multiplier of joint `G` (rotation 3)";
     assert!(run.output.contains(words), "{}", run.output);
     assert!(folder.path().join("out/study-factorization/tip-crank.csv").is_file());
 }

@@ -180,6 +180,19 @@ class SectionMoment(Output):
 
 
 @dataclass(kw_only=True, slots=True)
+class Line(Output):
+    """Places of all nodes of a beam along its axis, from its start to its end.
+
+    Args:
+        of: the beam; the name of an entry of `[beams]`.
+    """
+
+    _form: ClassVar[str] = "line"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
 class Reaction(Output):
     """Force and moment of a joint on its tip.
 
@@ -242,6 +255,19 @@ class Spring(Output):
     """
 
     _form: ClassVar[str] = "spring"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
+class Power(Output):
+    """Power that a spring, a load, a drive or the friction of a joint puts into the rest of the model.
+
+    Args:
+        of: the name of a spring, a load, a drive or a joint with friction; a text.
+    """
+
+    _form: ClassVar[str] = "power"
 
     of: str
 

@@ -108,6 +108,16 @@ entry! {
 }
 
 entry! {
+    /// Places of all nodes of a beam along its axis, from its start to its end.
+    Line => OutputId, "line";
+    ["kind" = "line"]
+    /// With what must be given.
+    ///
+    /// - `of`: the beam
+    new(of: JointId = "of")
+}
+
+entry! {
     /// Force and moment of a joint on its tip.
     Reaction => OutputId, "reaction";
     ["kind" = "reaction"]
@@ -157,6 +167,16 @@ entry! {
     ///
     /// - `of`: the spring
     new(of: SpringId = "of")
+}
+
+entry! {
+    /// Power that a spring, a load, a drive or the friction of a joint puts into the rest of the model.
+    Power => OutputId, "power";
+    ["kind" = "power"]
+    /// With what must be given.
+    ///
+    /// - `of`: the name of a spring, a load, a drive or a joint with friction
+    new(of: Quantity = "of")
 }
 
 entry! {
