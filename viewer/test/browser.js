@@ -229,6 +229,28 @@ const tests = {
     await page.waitForTimeout(300);
     assert.deepEqual(complaints(), []);
   },
+  "bodies by the solids and files that a model gives": async (browser) => {
+    const facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 0.5 0 0 vertex 0 0.25 0 endloop endfacet";
+    writeFileSync(join(folder, "part.stl"), `solid part ${facet} endsolid`);
+    const body = (name, x, drawn) => `[bodies.${name}]\nmass = 1\ninertia = [0.1, 0.1, 0.1]\nposition = [${x}, 0, 0]\n${drawn}\n`;
+    const bodies = [body("block", 0, "shape = { box = [0.2, 0.4, 0.6] }"), body("flag", 1, 'mesh = "part.stl"')];
+    writeFileSync(join(folder, "shapes.toml"), `lissom = 1\n${bodies.join("")}[analysis]\nkind = "dynamics"\nend = 1\nstep = 0.1\n`);
+    const out = view(join(folder, "shapes.toml"));
+    const { page, complaints } = await open(browser, join(out, "view.html"));
+    const extent = (name) => page.evaluate((name) => {
+      const [low, high] = [[1e9, 1e9, 1e9], [-1e9, -1e9, -1e9]];
+      lissom.model.parts.get(name).object.traverse(({ geometry }) => geometry?.attributes.position?.array.forEach((value, k) => {
+        low[k % 3] = Math.min(low[k % 3], value);
+        high[k % 3] = Math.max(high[k % 3], value);
+      }));
+      return [low, high].map((corner) => corner.map((value) => Number(value.toFixed(4))));
+    }, name);
+    assert.deepEqual(await extent("block"), [[-0.1, -0.2, -0.3], [0.1, 0.2, 0.3]]);
+    assert.deepEqual(await extent("flag"), [[0, 0, 0], [0.5, 0.25, 0]]);
+    await page.evaluate(() => lissom.look("front"));
+    await selects(page, "block");
+    assert.deepEqual(complaints(), []);
+  },
   "a turbine, and a delta robot": async (browser) => {
     for (const [model, part, ...set] of [
       ["examples/turbine-rotor.toml", null, "analysis.end=1"],
@@ -372,6 +394,14 @@ frames_per_second = 1000
     await plays(page);
     await draws(page);
     assert.deepEqual(complaints(), []);
+    // Along another number its value is told, and loads, which may depend on it, are not drawn.
+    const along = `${parts}${load}[analysis]\nkind = "path"\nend = 2\nstep = 0.1\nvary = "parameters.size"\n`;
+    writeFileSync(join(folder, "along.toml"), along.replace("limit = 18544.5", "limit = 18544.5\nsize = 1").replace("vector = [0, -1, 0]", 'vector = [0, "-size", 0]'));
+    const varied = await open(browser, join(view(join(folder, "along.toml")), "view.html"));
+    await varied.page.evaluate(() => lissom.player.seek(lissom.player.end));
+    await varied.page.waitForFunction(() => document.getElementById("clock").textContent === "parameters.size 2", null, { timeout: 60000 });
+    assert.deepEqual(await varied.page.evaluate(() => [lissom.result.scene.loads.length, [...document.getElementById("colour").options].some(({ value }) => value === "strain energy")]), [0, false]);
+    assert.deepEqual(varied.complaints(), []);
   },
   "a phone": async (browser) => {
     const out = view("examples/four-bar.toml", "analysis.end=2");
