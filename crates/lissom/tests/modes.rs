@@ -456,3 +456,60 @@ fn a_mechanism_that_is_driven_has_no_modes() {
         find(&pendulum(REVOLUTE, "position = [0, 0, -0.7]", &format!("{drive}{MODES}")), About::Static, 3);
     assert_eq!(report.modes.len(), 0);
 }
+
+/// A rotor that turns freely: hub, disc on a cross of two axes with springs, both without anything that holds their rotation.
+const FREE_ROTOR: &str = r#"
+lissom = 1
+[bodies.hub]
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+[joints.bearing]
+kind = "revolute"
+base = "ground"
+tip = "hub"
+axis = [1, 0, 0]
+[bodies.disc]
+mass = 5
+inertia = [0.3, 0.15, 0.15]
+position = [0.3, 0, 0]
+[joints.cross]
+kind = "universal"
+base = "hub"
+tip = "disc"
+at = [0, 0, 0]
+axis = [0, 1, 0]
+second_axis = [0, 0, 1]
+[springs.one]
+kind = "torsional"
+joint = "cross"
+stiffness = 2000
+[springs.two]
+kind = "torsional"
+joint = "cross"
+coordinate = 2
+stiffness = 3000
+[analysis]
+kind = "modes"
+"#;
+
+#[test]
+fn a_rotor_that_turns_freely_has_a_rigid_mode_and_all_others() {
+    // About the cross the disc has 0.15 + 5·0.3² in both directions; the rotation strains nothing at all.
+    let across = 0.15 + 5.0 * 0.09;
+    let exact = [2000.0_f64, 3000.0].map(|stiffness| (stiffness / across).sqrt() / std::f64::consts::TAU);
+    // Masses and inertias of the hub that let the shift fall on the rigid mode, each in its way.
+    for (mass, inertia) in [(1.0, 0.1), (0.01, 0.1), (1.0, 1.0), (10.0, 1e-3), (1e-3, 1e-6)] {
+        let text = FREE_ROTOR.replace(
+            "mass = 1\ninertia = [0.1, 0.1, 0.1]",
+            &format!("mass = {mass:?}\ninertia = [{inertia:?}, {inertia:?}, {inertia:?}]"),
+        );
+        let found = modes(&Model::from_text("model.toml", &text), &[], &ModeRequest::default())
+            .unwrap_or_else(|error| panic!("hub of {mass} kg and {inertia} kg m²: {error}"));
+        let frequencies: Vec<f64> = found.modes.iter().map(|mode| mode.frequency).collect();
+        assert_eq!(frequencies.len(), 3, "hub of {mass} kg and {inertia} kg m²: {frequencies:?}");
+        assert_eq!(frequencies[0], 0.0);
+        for (found, exact) in frequencies[1..].iter().zip(exact) {
+            assert!((found / exact - 1.0).abs() < 1e-9, "{found} for {exact}");
+        }
+    }
+}

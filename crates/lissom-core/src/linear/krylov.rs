@@ -9,6 +9,9 @@ use lissom_solver::Scalar;
 /// What is left of an image after orthogonalisation, relative to the image, if it is a combination of the basis.
 const DEPENDENT: f64 = 1e-11;
 
+/// What orthogonalisation must leave of a vector so that it need not be done again.
+const KEPT: f64 = 0.7;
+
 /// An operator with the inner product in which its basis is orthonormal.
 pub(super) trait Operator<S> {
     /// Length of the vectors.
@@ -90,24 +93,37 @@ impl<S: Scalar> Krylov<S> {
         purifications: usize,
     ) -> usize {
         let mut added = 0;
-        for _ in 0..count {
+        'vectors: for _ in 0..count {
             let mut vector: Vec<S> =
                 (0..operator.size()).map(|_| S::from_real(self.noise.number())).collect();
             for _ in 0..purifications {
                 operator.apply(&vector, &mut self.image);
                 std::mem::swap(&mut vector, &mut self.image);
-                operator.weigh(&vector, &mut self.weights);
-                let norm = product(&self.weights, &vector).parts()[0].max(0.0).sqrt();
-                if norm > 0.0 && norm.is_finite() {
-                    for value in &mut vector {
-                        *value *= S::from_real(norm.recip());
+                // Each time without what the basis has: the largest eigenvalues would leave round-off of all others.
+                let whole = self.norm(operator, &vector);
+                for _ in 0..2 {
+                    for (known, weighted) in self.basis.iter().zip(&self.weighted) {
+                        let part = product(weighted, &vector);
+                        add(&mut vector, S::zero() - part, known);
                     }
+                }
+                let norm = self.norm(operator, &vector);
+                if norm <= DEPENDENT * whole || norm == 0.0 || !norm.is_finite() {
+                    continue 'vectors;
+                }
+                for value in &mut vector {
+                    *value *= S::from_real(norm.recip());
                 }
             }
             self.image.copy_from_slice(&vector);
             added += usize::from(self.append(operator).is_some());
         }
         added
+    }
+
+    fn norm(&mut self, operator: &mut dyn Operator<S>, vector: &[S]) -> f64 {
+        operator.weigh(vector, &mut self.weights);
+        product(&self.weights, vector).parts()[0].max(0.0).sqrt()
     }
 
     /// Finds the image of the next vector that waits; false if none does.
@@ -167,8 +183,9 @@ impl<S: Scalar> Krylov<S> {
         let whole = product(&self.weights, &self.image).parts()[0].max(0.0).sqrt();
         let mut column = vec![S::zero(); self.basis.len()];
         let mut norm = whole;
-        // Twice is enough (Parlett 1980); a third time where nearly nothing is left.
+        // Again only where much was taken away: then twice is enough (Parlett 1980), a third time where nearly nothing is left.
         for _ in 0..3 {
+            let before = norm;
             for (coefficient, (vector, weighted)) in
                 column.iter_mut().zip(self.basis.iter().zip(&self.weighted))
             {
@@ -178,6 +195,9 @@ impl<S: Scalar> Krylov<S> {
             }
             operator.weigh(&self.image, &mut self.weights);
             norm = product(&self.weights, &self.image).parts()[0].max(0.0).sqrt();
+            if norm > KEPT * before {
+                break;
+            }
         }
         if norm <= DEPENDENT * whole || !norm.is_finite() || norm == 0.0 {
             return (column, 0.0);

@@ -11,7 +11,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 use super::krylov::{Krylov, Operator, product};
 use super::mode::{Completeness, ModeOptions};
 use super::model::{LinearError, LinearModel};
-use super::shifted::RealShift;
+use super::shifted::{RealShift, SMALL};
 use crate::interrupt;
 
 /// Vectors to start with: eigenvalues of this multiplicity are found at once.
@@ -24,6 +24,8 @@ const BETWEEN: usize = 8;
 const CLUSTER: f64 = 1e-5;
 /// Modes sought beyond those asked for, so that the last one is not cut out of a cluster.
 const BEYOND: usize = 4;
+/// Squares of rates below this part of the small one that stands for zero are not told from rigid modes where the shift is chosen.
+const NEAREST: f64 = 1e-4;
 /// Times the search is started again with new vectors.
 const MOST_RESTARTS: usize = 6;
 /// Where modes are counted if none is found, in units of the shift.
@@ -173,7 +175,9 @@ fn shift_below<'a>(model: &LinearModel<'a>, solver: &mut RealShift<'a>) -> Resul
         let elastic = estimates.iter().filter_map(|(value, weights, _)| {
             let lambda = value.recip() - square;
             let shape = krylov.combine(weights);
-            (lambda > round_off(model, &shape, 1.0)).then_some(lambda)
+            // A rigid mode that strains nothing has the round-off of the solve alone.
+            let noise = round_off(model, &shape, 1.0) + SOLVED * value.recip().abs();
+            (lambda > noise.max(NEAREST * square)).then_some(lambda)
         });
         elastic.fold(f64::INFINITY, f64::min)
     };
@@ -187,8 +191,8 @@ fn shift_below<'a>(model: &LinearModel<'a>, solver: &mut RealShift<'a>) -> Resul
     // Unstable modes stay above the shift.
     let mut nearer = lowest;
     while nearer < square {
-        let (shift, below) = factor_near(model, solver, -nearer)?;
-        if below == 0 {
+        // Too near to zero the pivots of rigid modes vanish.
+        if let Ok((shift, 0)) = factor_near(model, solver, -nearer) {
             return Ok((shift, 0));
         }
         nearer *= 4.0;
@@ -255,7 +259,12 @@ fn search<'a>(
         let keep = whole_clusters(&distances, options.count);
         let next = distances.get(keep).copied();
         pairs.truncate(keep);
-        let missing = missing(model, &pairs, shift, below_shift, next);
+        let are_all = next.is_none() && pairs.len() < options.count;
+        let missing = if are_all && below_shift == 0 {
+            missing_anywhere(model, &pairs, shift)
+        } else {
+            missing(model, &pairs, shift, below_shift, next)
+        };
         let completeness = match missing {
             Count::None => Completeness::Counted,
             Count::Some(missing) if restarts == MOST_RESTARTS || is_exhausted => {
@@ -288,6 +297,21 @@ enum Count {
     None,
     Some(usize),
     Unknown,
+}
+
+/// Compares the number of modes found with the number of all eigenvalues above `shift`, where no more than those found are
+/// believed to be.
+fn missing_anywhere(model: &LinearModel<'_>, pairs: &[Pair], shift: f64) -> Count {
+    let mut solver = RealShift::new(model.system, &model.representative);
+    let farthest = pairs.iter().map(|pair| (pair.square - shift).abs()).fold(0.0, f64::max);
+    let stiffest = solver.small_square() / SMALL;
+    let beyond = (3.0 * farthest).max(stiffest).max(shift.abs());
+    let counts = FAR_AWAY.map(|far| solver.factor(&model.parts, shift + far * beyond).ok());
+    match counts.into_iter().flatten().max().map(|count| count.checked_sub(pairs.len())) {
+        Some(Some(0)) => Count::None,
+        Some(Some(missing)) => Count::Some(missing),
+        Some(None) | None => Count::Unknown,
+    }
 }
 
 /// Compares the number of modes found with the number of eigenvalues between shifts on both sides of them.

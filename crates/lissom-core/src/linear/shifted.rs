@@ -3,7 +3,9 @@
 //! With time in units of 1/|s| it is the tangent of a scheme whose rate and curvature are s/|s| and s²/|s|² times the
 //! increment: the same scaling, augmented term and equilibration serve.
 
-use lissom_solver::{FactorError, FactorReport, LinearSolver, Multifrontal, Symmetric};
+use std::sync::Arc;
+
+use lissom_solver::{FactorError, FactorReport, LinearSolver, Multifrontal, Pattern, Structure, Symmetric};
 use num_complex::Complex64;
 
 use crate::analysis::compliance::Compliance;
@@ -13,7 +15,7 @@ use crate::schemes::Weights;
 use crate::system::{Linearization, System};
 
 /// The square of the rate from which the search for modes starts, relative to that of the stiffest parts.
-const SMALL: f64 = 1e-6;
+pub(super) const SMALL: f64 = 1e-6;
 
 /// The pivot of a redundant constraint's multiplier is this part of the terms it is made of, or less.
 const REDUNDANT: f64 = 1e-12;
@@ -88,6 +90,7 @@ impl<'a> RealShift<'a> {
 /// Solves with s² M + s D + K and the constraints for a complex s.
 pub(super) struct ComplexShift<'a> {
     system: &'a System,
+    pattern: Arc<Pattern>,
     representative: Representative,
     scaled: Scaled,
     solver: Multifrontal<Complex64>,
@@ -97,14 +100,20 @@ pub(super) struct ComplexShift<'a> {
 
 impl<'a> ComplexShift<'a> {
     pub(super) fn new(system: &'a System, representative: &Representative) -> Self {
+        Self::on(system, system.structure(), representative)
+    }
+
+    /// For matrices on another structure than the system's.
+    pub(super) fn on(system: &'a System, structure: &Structure, representative: &Representative) -> Self {
         let layout = system.layout();
         Self {
             system,
+            pattern: Arc::clone(&structure.pattern),
             representative: *representative,
             scaled: Scaled::at_rate(representative, 1.0),
-            solver: Multifrontal::new(system.structure()),
+            solver: Multifrontal::new(structure),
             equilibration: Equilibration::new(layout.size(), layout.coordinate_count()),
-            values: vec![Complex64::default(); system.structure().pattern.entries()],
+            values: vec![Complex64::default(); structure.pattern.entries()],
         }
     }
 
@@ -120,7 +129,7 @@ impl<'a> ComplexShift<'a> {
                     + blend.augmented * parts.gram[k]
                     + blend.constraint * parts.constraint[k]);
         }
-        let pattern = &self.system.structure().pattern;
+        let pattern = &self.pattern;
         let count = self.system.layout().coordinate_count();
         self.equilibration.apply(pattern, &mut self.values);
         let mut report = self.solver.factor(&self.values);
