@@ -8,8 +8,9 @@
 //! J δz = -r(z; x ± δx, θ ± δθ)
 //! ```
 //!
-//! is the linear equation of direct differentiation, with the derivatives of r by x and θ as differences. It is iterated a few
-//! times with the same J, so that the neighbour solves its own equations.
+//! is the linear equation of direct differentiation, with the derivatives of r by x and θ as differences. It is iterated with
+//! the same J, which is not exact for every scheme, until what is still to come is round-off of the derivative: three corrections
+//! where J is exact.
 
 use super::dynamics::Simulation;
 use super::equations::StepEquations;
@@ -22,6 +23,11 @@ const MOST: usize = 12;
 const ROUND_OFF: f64 = 1e-13;
 /// A correction below this is round-off whatever the step finds out [-, rad].
 const LEAST: f64 = 1e-13;
+/// Corrections still to come, by their contraction, may be this part of the first one. The derivatives of reactions err by more:
+/// a small displacement is a large force across a constraint.
+const TO_COME: f64 = 1e-11;
+/// A contraction that is worse than this tells nothing of the next one.
+const CONTRACTS: f64 = 0.1;
 /// A neighbour whose last correction is larger has not found its solution.
 const FOUND: f64 = 1e-9;
 
@@ -90,15 +96,24 @@ impl Simulation {
             watch: &mut Unwatched,
         };
         equations.update_motions();
-        let mut made = 0;
+        let (mut made, mut first) = (0, 0.0);
         let (mut last, mut size_of_last) = (f64::INFINITY, f64::INFINITY);
         while made < MOST {
             let correction = equations.correct();
             made += 1;
             let relative = correction.size / correction.reference.max(f64::MIN_POSITIVE);
             let is_found = relative <= FOUND || correction.size <= LEAST;
+            let contraction = correction.size / size_of_last;
+            if made == 1 {
+                first = correction.size;
+            }
+            let is_exact = made > 1
+                && is_found
+                && contraction <= CONTRACTS
+                && contraction * correction.size <= TO_COME * first;
             // What no longer shrinks is round-off.
-            let is_done = relative <= ROUND_OFF || correction.size == 0.0 || (is_found && relative >= last);
+            let is_done =
+                is_exact || relative <= ROUND_OFF || correction.size == 0.0 || (is_found && relative >= last);
             (last, size_of_last) = (relative, correction.size);
             if is_done || !relative.is_finite() {
                 break;
