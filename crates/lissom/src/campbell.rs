@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::about::{About, Reached};
 use crate::model::{Model, Override};
-use crate::modes::{ModesError, constant_coefficients};
+use crate::modes::{ModesError, constant_coefficients, in_axes_at_rest};
 
 /// Shapes that are less alike are not of one line.
 const ALIKE: f64 = 0.3;
@@ -203,9 +203,16 @@ impl Search<'_> {
         let failed = |error| CampbellError::Modes { path: path.clone(), value, error: Box::new(error) };
         let count = self.request.count;
         let find = |reached: Reached<'_, '_>| -> Result<Option<Point>, ModesError> {
-            let model = reached.model;
-            let found = model.modes(&ModeOptions { count, shift: None })?.modes;
-            constant_coefficients(model, &found)?;
+            let options = ModeOptions { count, shift: None };
+            let mut found = reached.model.modes(&options)?.modes;
+            let at_rest;
+            let mut model = reached.model;
+            if let Err(refused) = constant_coefficients(model, (model, &found)) {
+                at_rest = in_axes_at_rest(model, refused)?;
+                found = at_rest.modes(&options)?.modes;
+                constant_coefficients(model, (&at_rest, &found))?;
+                model = &at_rest;
+            }
             if before.is_some_and(|before| different(before, &found)) {
                 return Ok(None);
             }

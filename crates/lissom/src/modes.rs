@@ -88,8 +88,8 @@ pub enum ModesError {
     /// Coefficients change as the model turns.
     #[error(
         "mode {number} ({frequency:.4e} Hz) belongs to coefficients that change as the model turns ({departure:.1e}): parts that \
-         turn and parts that do not are coupled across the axis, as by a support that yields; such modes need multi-blade \
-         coordinates or Floquet's theory, which are not there"
+         turn and parts that do not are coupled across the axis, as by a support that yields; there are no multi-blade coordinates \
+         in which they are constant, because {reason}; such modes need Floquet's theory, which is not there"
     )]
     Periodic {
         /// Number of the mode, from 1.
@@ -98,6 +98,8 @@ pub enum ModesError {
         frequency: f64,
         /// How far the mode is from being one a part of a turn later.
         departure: f64,
+        /// Why multi-blade coordinates do not help.
+        reason: &'static str,
     },
     /// There is no linear model.
     #[error(transparent)]
@@ -180,8 +182,13 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
     }
     let mut report = about.linearized(&document, |reached| -> Result<ModeReport, ModesError> {
         let mut report = tell(reached.model, count, shift)?;
-        if about == About::Rotation {
-            constant_coefficients(reached.model, &report.modes)?;
+        if about == About::Rotation
+            && let Err(refused) = constant_coefficients(reached.model, (reached.model, &report.modes))
+        {
+            let at_rest = in_axes_at_rest(reached.model, refused)?;
+            report = tell(&at_rest, count, shift)?;
+            constant_coefficients(reached.model, (&at_rest, &report.modes))?;
+            report.warnings.push(AT_REST.to_owned());
         }
         report.warnings.extend(reached.warnings);
         Ok(report)
@@ -194,19 +201,45 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
     Ok(report)
 }
 
-/// Whether the modes of a steady rotation go on as they are while it turns.
-pub(crate) fn constant_coefficients(model: &LinearModel<'_>, modes: &[Mode]) -> Result<(), ModesError> {
+/// What is told of modes in axes at rest.
+const AT_REST: &str = "the coefficients are constant in axes at rest alone, with multi-blade coordinates: frequencies are those seen \
+    from there, shapes those of this instant";
+
+/// Whether `modes` of `own`, which is `model` or the same in axes at rest, go on as they are while it turns.
+pub(crate) fn constant_coefficients(
+    model: &LinearModel<'_>,
+    (own, modes): (&LinearModel<'_>, &[Mode]),
+) -> Result<(), ModesError> {
     if model.is_at_rest() {
         return Ok(());
     }
     let later = model.turned()?;
     for (index, mode) in modes.iter().enumerate() {
-        let departure = model.departure_of(mode, &later)?;
+        let departure = own.departure_of(mode, &later)?;
         if departure.is_nan() || departure > CONSTANT {
-            return Err(ModesError::Periodic { number: index + 1, frequency: mode.frequency, departure });
+            let reason = "they change in the multi-blade coordinates of its rotor, too";
+            return Err(ModesError::Periodic {
+                number: index + 1,
+                frequency: mode.frequency,
+                departure,
+                reason,
+            });
         }
     }
     Ok(())
+}
+
+/// The model in axes at rest, where its coefficients change in those of its nodes.
+pub(crate) fn in_axes_at_rest<'a>(
+    model: &LinearModel<'a>,
+    refused: ModesError,
+) -> Result<LinearModel<'a>, ModesError> {
+    match refused {
+        ModesError::Periodic { number, frequency, departure, .. } => model
+            .in_axes_at_rest()
+            .map_err(|no| ModesError::Periodic { number, frequency, departure, reason: no.words() }),
+        other => Err(other),
+    }
 }
 
 fn tell(model: &LinearModel<'_>, count: usize, shift: Option<f64>) -> Result<ModeReport, ModesError> {

@@ -244,6 +244,25 @@ fn an_overhung_disc_whirls_forward_and_backward_as_in_closed_form() {
 }
 
 #[test]
+fn an_overhung_rotor_that_turns_freely_whirls_like_one_that_is_driven() {
+    // Torques about the axis are of second order: the free rotation adds a rigid mode and changes no other.
+    let found = find(OVERHUNG, &request("parameters.speed", 50.0, 200.0, 4, 5, &[1]));
+    let (across, along, stiffness) = (0.15 + 5.0 * 0.3 * 0.3, 0.3_f64, 2000.0_f64);
+    let rows = rows(&found);
+    for speed in [50.0, 100.0, 150.0, 200.0] {
+        let own: Vec<_> = rows.iter().filter(|row| row[0].parse::<f64>().unwrap() == speed).collect();
+        assert_eq!(own.iter().filter(|row| row[5] == "rigid").count(), 1, "{own:#?}");
+        let root = ((along * speed).powi(2) + 4.0 * across * stiffness).sqrt();
+        for (whirl, rate) in [("forward", root + along * speed), ("backward", root - along * speed)] {
+            let rate = rate / (2.0 * across);
+            let seen = own.iter().filter(|row| row[6] == whirl).filter_map(|row| row[7].parse::<f64>().ok());
+            let least = seen.map(|seen| (seen * TAU / rate - 1.0).abs()).fold(f64::INFINITY, f64::min);
+            assert!(least < 1e-8, "{whirl} {rate} at {speed}: {own:#?}");
+        }
+    }
+}
+
+#[test]
 fn a_blade_on_a_wide_hub_flaps_and_lags_as_published() {
     // A hub as wide as the blade is long: μ = ω √(m l⁴/EI) of a rotating Euler-Bernoulli cantilever by power series [Wright, Smith,
     // Thresher and Wang 1982 have five digits]; lag: the square less that of the rotation.

@@ -12,7 +12,7 @@
 use nalgebra::{DMatrix, Schur};
 use num_complex::Complex64;
 
-use super::krylov::{Krylov, Operator};
+use super::krylov::{Krylov, Operator, product};
 use super::lanczos::{VIOLATED, round_off};
 use super::mode::{Completeness, Mode, ModeError, ModeOptions, Modes};
 use super::model::{LinearError, LinearModel};
@@ -35,7 +35,10 @@ const REAL: f64 = 1e-9;
 /// Zero eigenvalues come in defective pairs, whose round-off is larger than that of single ones.
 const DEFECTIVE: f64 = 16.0;
 /// The same of a solve, relative to the shift: the root of the round-off.
-const SOLVED: f64 = 1e-6;
+const SOLVED: f64 = 1e-5;
+/// What the operator makes of an eigenvector may differ from its multiple by this part: more is no eigenvector, but round-off of
+/// an infinite eigenvalue, which two applications have taken away.
+const EIGENVECTOR: f64 = 1e-2;
 /// Rigid modes whose shapes differ by less are one.
 const SAME: f64 = 1e-4;
 
@@ -114,7 +117,7 @@ struct Estimate {
 
 /// Finds the modes nearest to the shift.
 pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Modes, ModeError> {
-    let mut solver = ComplexShift::new(model.system, &model.representative);
+    let mut solver = ComplexShift::on(model.system, model.structure(), &model.representative);
     let (shift, mut wanted) = match options.shift {
         Some(frequency) if frequency > 0.0 => {
             (Complex64::new(0.0, std::f64::consts::TAU * frequency), options.count + BEYOND)
@@ -168,7 +171,8 @@ fn first_shift<'a>(model: &LinearModel<'a>, solver: &mut ComplexShift<'a>) -> Re
         .map(|mode| mode.eigenvalue.norm())
         .filter(|&size| size > 0.0)
         .fold(f64::INFINITY, f64::min);
-    Ok(if least.is_finite() { Complex64::new(least, 0.0) } else { start })
+    // Nearer to zero the pivots of rigid modes vanish, and what they leave of the other eigenvalues is round-off.
+    Ok(if least.is_finite() { Complex64::new(least.max(rate), 0.0) } else { start })
 }
 
 fn inverse<'m, 's, 'a>(
@@ -284,6 +288,17 @@ fn mode(
     for _ in 0..2 {
         operator.apply(&vector, &mut image);
         std::mem::swap(&mut vector, &mut image);
+    }
+    let size = |values: &[Complex64]| product(values, values).re.sqrt();
+    let is_defective = eigenvalue.norm_sqr() <= DEFECTIVE * operator.shift.norm_sqr() * SOLVED;
+    if !is_defective {
+        operator.apply(&vector, &mut image);
+        let missed: Vec<Complex64> =
+            image.iter().zip(&vector).map(|(image, x)| image - estimate.value * x).collect();
+        let is_one = size(&missed) <= EIGENVECTOR * size(&image);
+        if !is_one {
+            return None;
+        }
     }
     let count = operator.units.len();
     let mut shape: Vec<Complex64> =

@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
-use lissom_solver::{FactorError, Pattern, Scalar, SolverKind};
+use lissom_solver::{FactorError, Pattern, Scalar, SolverKind, Structure};
 use num_complex::Complex64;
 
+use super::multiblade::Generator;
 use super::shifted::{ComplexShift, RealShift, small_square};
 use crate::analysis::InitialError;
 use crate::analysis::initial::Initial;
@@ -46,13 +47,15 @@ pub enum LinearError {
     },
     /// A pivot vanished or a number is not finite.
     #[error(
-        "the linear model at t = {time:.6e} s: elimination stops at the {unknown}; give it mass, stiffness or a joint"
+        "the linear model at t = {time:.6e} s: elimination stops at the {unknown} (pivot {pivot:.1e}); give it mass, stiffness or a joint"
     )]
     Factor {
         /// Time of the state [s].
         time: f64,
         /// Name of the unknown.
         unknown: String,
+        /// The pivot, relative to the terms it is made of; not a number if it is not finite.
+        pivot: f64,
     },
     /// Accelerations and multipliers of a moving state do not exist.
     #[error("the linear model at t = {time:.6e} s: {error}")]
@@ -81,6 +84,8 @@ pub struct LinearModel<'a> {
     multipliers: Vec<f64>,
     /// What finds accelerations.
     pub(super) solver: &'a SolverKind,
+    /// The change to axes at rest, and the structure of the matrices there; none in the axes of the nodes.
+    at_rest: Option<(Generator, Structure)>,
 }
 
 impl<'a> LinearModel<'a> {
@@ -140,7 +145,40 @@ impl<'a> LinearModel<'a> {
             unsteadiness,
             multipliers: state.multipliers,
             solver,
+            at_rest: None,
         })
+    }
+
+    /// The same with other matrices, those of axes at rest.
+    pub(super) fn with_generator(
+        &self,
+        parts: Linearization,
+        structure: Structure,
+        generator: Generator,
+    ) -> Self {
+        Self {
+            system: self.system,
+            at: self.at.clone(),
+            parts,
+            representative: self.representative,
+            is_conservative: false,
+            is_at_rest: self.is_at_rest,
+            imbalance: self.imbalance,
+            unsteadiness: self.unsteadiness,
+            multipliers: self.multipliers.clone(),
+            solver: self.solver,
+            at_rest: Some((generator, structure)),
+        }
+    }
+
+    /// The change to axes at rest, if its matrices are those.
+    pub(super) fn generator(&self) -> Option<&Generator> {
+        self.at_rest.as_ref().map(|(generator, _)| generator)
+    }
+
+    /// Pattern and groups of its matrices.
+    pub(super) fn structure(&self) -> &Structure {
+        self.at_rest.as_ref().map_or(self.system.structure(), |(_, structure)| structure)
     }
 
     /// The system.
@@ -203,7 +241,7 @@ impl<'a> LinearModel<'a> {
     }
 
     pub(super) fn pattern(&self) -> Arc<Pattern> {
-        self.system.pattern()
+        Arc::clone(&self.structure().pattern)
     }
 
     pub(super) fn coordinate_count(&self) -> usize {
@@ -242,8 +280,11 @@ impl<'a> LinearModel<'a> {
 }
 
 pub(super) fn stopped(system: &System, time: f64, error: &FactorError) -> LinearError {
-    let (FactorError::ZeroPivot { unknown, .. } | FactorError::NotFinite { unknown }) = error;
-    LinearError::Factor { time, unknown: system.layout().name_of(*unknown) }
+    let (unknown, pivot) = match *error {
+        FactorError::ZeroPivot { unknown, pivot, largest } => (unknown, pivot / largest),
+        FactorError::NotFinite { unknown } => (unknown, f64::NAN),
+    };
+    LinearError::Factor { time, unknown: system.layout().name_of(unknown), pivot }
 }
 
 fn is_at_rest(at: &Kinematics) -> bool {

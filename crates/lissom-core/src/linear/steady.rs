@@ -197,15 +197,20 @@ impl<'a> LinearModel<'a> {
         let pattern = other.pattern();
         let mut right = vec![Complex64::default(); pattern.size()];
         let count = self.coordinate_count();
-        for (column, value) in mode.shape.iter().enumerate() {
+        let [places, rates, accelerations] = match self.generator() {
+            Some(generator) => generator.in_nodes(mode, TURN),
+            None => [0, 1, 2].map(|power| mode.shape.iter().map(|value| value * s.powi(power)).collect()),
+        };
+        for column in 0..count {
             for at in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
                 let row = pattern.row_indices()[at];
-                right[row] += value
-                    * if row < count {
-                        s * (s * other.parts.mass[at] + other.parts.damping[at]) + other.parts.stiffness[at]
-                    } else {
-                        Complex64::from(other.parts.constraint[at])
-                    };
+                right[row] += if row < count {
+                    accelerations[column] * other.parts.mass[at]
+                        + rates[column] * other.parts.damping[at]
+                        + places[column] * other.parts.stiffness[at]
+                } else {
+                    places[column] * other.parts.constraint[at]
+                };
             }
         }
         shifted.solve(&mut right);

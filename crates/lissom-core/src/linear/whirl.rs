@@ -24,9 +24,10 @@ const CIRCULAR: f64 = 0.999;
 pub enum Whirl {
     /// Along the axis or about it, or nothing turns.
     None,
-    /// A circle in the sense of the rotation, with this frequency in axes at rest [Hz].
+    /// A circle in the sense of the rotation, with this frequency in axes at rest [Hz]; of a mode that was found in axes at rest
+    /// an ellipse.
     Forward(f64),
-    /// A circle against the rotation, likewise.
+    /// A circle against the rotation, or an ellipse, likewise.
     Backward(f64),
     /// An ellipse in rotating axes: two frequencies in axes at rest.
     Mixed,
@@ -51,6 +52,14 @@ impl LinearModel<'_> {
         let rate = spin.norm();
         if rate == 0.0 {
             return Whirl::None;
+        }
+        if let Some(generator) = self.generator() {
+            let sense = self.sense_at_rest(generator, mode);
+            return match sense {
+                _ if sense.abs() <= LATERAL => Whirl::None,
+                _ if sense > 0.0 => Whirl::Forward(mode.frequency),
+                _ => Whirl::Backward(mode.frequency),
+            };
         }
         let axis = spin / rate;
         let other = Vector3::ith(axis.iamin(), 1.0);

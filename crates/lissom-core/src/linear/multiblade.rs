@@ -1,0 +1,416 @@
+//! A rotor on a support that is not the same in all directions, in axes at rest [Coleman and Feingold 1958; Bir 2008].
+//!
+//! In the axes of its nodes the coefficients of such a model change as it turns by the angle ψ. They are constant where the
+//! rotor looks the same after every N-th part of a turn, N ≥ 3, and its displacements x are written as
+//!
+//! ```text
+//! x = exp(-ψ G) z,    ẋ = exp(-ψ G) (ż - Ω G z),    ẍ = exp(-ψ G) (z̈ - 2Ω G ż + Ω² G² z)
+//! ```
+//!
+//! G turns the vectors of nodes on the axis, and moves the pattern of displacements over the N equal nodes around it on by
+//! their discrete Fourier series: these are the multi-blade coordinates, here as values at the blades where they stand.
+//!
+//! ```text
+//! M z̈ + (D - 2Ω M G) ż + (K - Ω D G + Ω² M G²) z + Bᵀ μ = 0,    B z = 0
+//! ```
+//!
+//! with the matrices of one azimuth. Whether they serve is not taken for granted: every mode is put into the equations of another
+//! azimuth ([`LinearModel::departure_of`]).
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use lissom_motion::{Motion, Rotation, Vector3};
+use lissom_solver::{Pattern, Structure};
+use num_complex::Complex64;
+
+use super::mode::Mode;
+use super::model::LinearModel;
+use crate::system::{Kinematics, LOCKED, Linearization, NodeId};
+
+/// Places that differ by less, over the length of the model, and axes [rad], are the same.
+const SAME: f64 = 1e-6;
+/// Blades are at most so many.
+const MOST_BLADES: usize = 12;
+/// Terms of the series of exp(-ψ G).
+const TERMS: u32 = 40;
+
+/// Why there are no multi-blade coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NoMultiblade {
+    /// Parts turn at different rates or about different axes.
+    SeveralAxes,
+    /// The rotor does not look the same after a part of a turn.
+    NotPeriodic,
+    /// It does after half a turn only: coefficients are periodic in every coordinates.
+    TwoBlades,
+}
+
+impl NoMultiblade {
+    /// The reason in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::SeveralAxes => "its parts turn at different rates or about different axes",
+            Self::NotPeriodic => "the rotor does not look the same after a third of a turn or less",
+            Self::TwoBlades => "a rotor of two blades has no constant coefficients in any coordinates",
+        }
+    }
+}
+
+/// The generator of the change to axes at rest, by column: rows with values.
+#[derive(Clone, Debug)]
+pub(super) struct Generator {
+    columns: Vec<Vec<(usize, f64)>>,
+    /// Rate of rotation [rad/s].
+    pub(super) rate: f64,
+}
+
+impl Generator {
+    fn apply(&self, vector: &[Complex64]) -> Vec<Complex64> {
+        let mut product = vec![Complex64::default(); vector.len()];
+        for (column, value) in self.columns.iter().zip(vector) {
+            for &(row, entry) in column {
+                product[row] += entry * value;
+            }
+        }
+        product
+    }
+
+    /// exp(-ψ G) z.
+    fn turned(&self, angle: f64, vector: &[Complex64]) -> Vec<Complex64> {
+        let mut sum = vector.to_vec();
+        let mut term = vector.to_vec();
+        for k in 1..=TERMS {
+            term = self.apply(&term);
+            for (sum, term) in sum.iter_mut().zip(&mut term) {
+                *term *= -angle / f64::from(k);
+                *sum += *term;
+            }
+        }
+        sum
+    }
+
+    /// Displacements, velocities and accelerations in the axes of the nodes where the model has turned by `angle`, of a mode in
+    /// axes at rest.
+    pub(super) fn in_nodes(&self, mode: &Mode, angle: f64) -> [Vec<Complex64>; 3] {
+        let forward = |vector: &[Complex64]| {
+            let turned = self.apply(vector);
+            vector
+                .iter()
+                .zip(turned)
+                .map(|(value, turned)| mode.eigenvalue * value - self.rate * turned)
+                .collect()
+        };
+        let rates: Vec<Complex64> = forward(&mode.shape);
+        let accelerations: Vec<Complex64> = forward(&rates);
+        [mode.shape.clone(), rates, accelerations].map(|vector| self.turned(angle, &vector))
+    }
+
+    /// A times G for a matrix on `pattern`, added to `sum` with a factor.
+    fn multiply(
+        &self,
+        (pattern, values): (&Pattern, &[f64]),
+        factor: f64,
+        sum: &mut BTreeMap<(usize, usize), f64>,
+    ) {
+        for (column, own) in self.columns.iter().enumerate() {
+            for &(middle, entry) in own {
+                for at in pattern.column_starts()[middle]..pattern.column_starts()[middle + 1] {
+                    let value = factor * values[at] * entry;
+                    if value != 0.0 {
+                        *sum.entry((column, pattern.row_indices()[at])).or_default() += value;
+                    }
+                }
+            }
+        }
+    }
+
+    fn squared(&self) -> Self {
+        let columns = self.columns.iter().map(|column| {
+            let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
+            for &(middle, value) in column {
+                for &(row, entry) in &self.columns[middle] {
+                    *sum.entry(row).or_default() += entry * value;
+                }
+            }
+            sum.into_iter().collect()
+        });
+        Self { columns: columns.collect(), rate: self.rate }
+    }
+}
+
+impl<'a> LinearModel<'a> {
+    /// The same model in axes at rest, with the multi-blade coordinates of its rotor: its modes have the frequencies that are
+    /// seen from there. They are true only if [`departure_of`](Self::departure_of) says so.
+    ///
+    /// # Errors
+    /// If the rotor has no such coordinates.
+    pub fn in_axes_at_rest(&self) -> Result<LinearModel<'a>, NoMultiblade> {
+        let generator = generator(self)?;
+        let pattern = self.pattern();
+        let (mut damping, mut stiffness) = (BTreeMap::new(), BTreeMap::new());
+        let rate = generator.rate;
+        generator.multiply((&pattern, &self.parts.mass), -2.0 * rate, &mut damping);
+        generator.multiply((&pattern, &self.parts.damping), -rate, &mut stiffness);
+        generator.squared().multiply((&pattern, &self.parts.mass), rate * rate, &mut stiffness);
+        let own = (0..pattern.size())
+            .flat_map(|column| pattern.column(column).iter().map(move |&row| (row, column)));
+        let added = damping.keys().chain(stiffness.keys()).map(|&(column, row)| (row, column));
+        let wide = Pattern::from_entries(pattern.size(), own.chain(added));
+        let widened = |values: &[f64], added: &BTreeMap<(usize, usize), f64>| {
+            let mut wider = vec![0.0; wide.entries()];
+            let mut add = |row: usize, column: usize, value: f64| {
+                if let Some(at) = wide.position(row, column) {
+                    wider[at] += value;
+                }
+            };
+            for column in 0..pattern.size() {
+                for at in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
+                    add(pattern.row_indices()[at], column, values[at]);
+                }
+            }
+            for (&(column, row), &value) in added {
+                add(row, column, value);
+            }
+            wider
+        };
+        let nothing = BTreeMap::new();
+        let mut parts = Linearization::new(self.system);
+        parts.mass = widened(&self.parts.mass, &nothing);
+        parts.damping = widened(&self.parts.damping, &damping);
+        parts.stiffness = widened(&self.parts.stiffness, &stiffness);
+        parts.gram = widened(&self.parts.gram, &nothing);
+        parts.constraint = widened(&self.parts.constraint, &nothing);
+        let groups = self.structure().groups.clone();
+        let structure = Structure { pattern: Arc::new(wide), groups };
+        Ok(self.with_generator(parts, structure, generator))
+    }
+
+    /// How much of a mode in axes at rest goes round with the rotation or against it: 1 for a circle in its sense, 0 for none.
+    pub(super) fn sense_at_rest(&self, generator: &Generator, mode: &Mode) -> f64 {
+        let count = self.coordinate_count();
+        let pattern = self.pattern();
+        let weighed = |vector: &[Complex64]| {
+            let mut sum = vec![Complex64::default(); count];
+            for (column, value) in vector.iter().enumerate() {
+                for at in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
+                    let row = pattern.row_indices()[at];
+                    if row < count {
+                        sum[row] += value * self.parts.mass[at];
+                    }
+                }
+            }
+            sum
+        };
+        let product = |a: &[Complex64], b: &[Complex64]| -> Complex64 {
+            a.iter().zip(b).map(|(a, b)| a.conj() * b).sum()
+        };
+        let whole = product(&mode.shape, &weighed(&mode.shape)).re;
+        let round = product(&mode.shape, &weighed(&generator.apply(&mode.shape))).im;
+        if whole > 0.0 { round / whole } else { 0.0 }
+    }
+}
+
+/// The axis of rotation: a place on it, its direction, and the rate; and which nodes turn.
+struct Axis {
+    place: Vector3,
+    direction: Vector3,
+    rate: f64,
+    turns: Vec<bool>,
+    length: f64,
+}
+
+impl Axis {
+    fn of(model: &LinearModel<'_>) -> Result<Self, NoMultiblade> {
+        let spin = model.spin();
+        let rate = spin.norm();
+        let (at, length) = (model.kinematics(), model.length());
+        if rate == 0.0 {
+            return Err(NoMultiblade::SeveralAxes);
+        }
+        let direction = spin / rate;
+        let mut place = None;
+        let mut turns = Vec::with_capacity(at.nodes.len());
+        for node in &at.nodes {
+            let own = node.angular_velocity();
+            if own.norm() <= SAME * rate {
+                turns.push(false);
+                continue;
+            }
+            let velocity = node.frame.rotation.apply(&node.twist.fixed_rows::<3>(0).into_owned());
+            if (own - spin).norm() > SAME * rate || velocity.dot(&direction).abs() > SAME * rate * length {
+                return Err(NoMultiblade::SeveralAxes);
+            }
+            // ω × (x - c) = v
+            let center = node.frame.position + direction.cross(&velocity) / rate;
+            let known: &Vector3 = place.get_or_insert(center);
+            let apart = center - known;
+            if (apart - direction * apart.dot(&direction)).norm() > SAME * length {
+                return Err(NoMultiblade::SeveralAxes);
+            }
+            turns.push(true);
+        }
+        let place = place.unwrap_or_else(Vector3::zeros);
+        Ok(Self { place, direction, rate, turns, length })
+    }
+
+    /// The rotation about the axis by an angle.
+    fn rotation(&self, angle: f64) -> Motion {
+        let rotation = Rotation::exponential(&(self.direction * angle));
+        Motion::new(rotation, self.place - rotation.apply(&self.place))
+    }
+
+    fn is_on(&self, place: &Vector3) -> bool {
+        let apart = place - self.place;
+        (apart - self.direction * apart.dot(&self.direction)).norm() <= SAME * self.length
+    }
+
+    /// The node at which each node that turns beside the axis is after the `blades`-th part of a turn; none if there is no
+    /// such node.
+    fn images(&self, at: &Kinematics, blades: usize) -> Option<Vec<Option<NodeId>>> {
+        let part = self.rotation(std::f64::consts::TAU / blades as f64);
+        // By the place along the axis and the distance from it, so that few are compared.
+        let mut near: BTreeMap<i64, Vec<NodeId>> = BTreeMap::new();
+        let cell = |place: &Vector3| {
+            let height = (place - self.place).dot(&self.direction);
+            (height / (SAME * self.length).max(f64::MIN_POSITIVE) * 1e-2).round() as i64
+        };
+        for node in self.beside(at) {
+            near.entry(cell(&at.nodes[node].frame.position)).or_default().push(node);
+        }
+        let mut images = vec![None; at.nodes.len()];
+        let mut taken = vec![false; at.nodes.len()];
+        for node in self.beside(at) {
+            let moved = part * at.nodes[node].frame;
+            let own = cell(&moved.position);
+            let candidates = (own - 1..=own + 1).filter_map(|cell| near.get(&cell)).flatten();
+            let image = candidates.copied().find(|&other| {
+                let change = at.nodes[other].frame.relative_to(&moved).logarithm();
+                !taken[other]
+                    && (0..6).all(|k| change[k].abs() <= SAME * if k < 3 { self.length } else { 1.0 })
+            })?;
+            taken[image] = true;
+            images[node] = Some(image);
+        }
+        Some(images)
+    }
+
+    fn beside<'k>(&'k self, at: &'k Kinematics) -> impl Iterator<Item = NodeId> + 'k {
+        let turning = (0..at.nodes.len()).filter(|&node| self.turns[node]);
+        turning.filter(|&node| !self.is_on(&at.nodes[node].frame.position))
+    }
+}
+
+/// The generator for a rotor that looks the same after the N-th part of a turn, for the largest N there is.
+fn generator(model: &LinearModel<'_>) -> Result<Generator, NoMultiblade> {
+    let axis = Axis::of(model)?;
+    let at = model.kinematics();
+    let mut columns = vec![Vec::new(); model.coordinate_count()];
+    on_the_axis(model, &axis, &mut columns);
+    let generator = |columns| Ok(Generator { columns, rate: axis.rate });
+    if axis.beside(at).next().is_none() {
+        return generator(columns);
+    }
+    let Some((blades, images)) =
+        (2..=MOST_BLADES).rev().find_map(|blades| Some((blades, axis.images(at, blades)?)))
+    else {
+        return Err(NoMultiblade::NotPeriodic);
+    };
+    if blades < 3 {
+        return Err(NoMultiblade::TwoBlades);
+    }
+    let layout = model.system().layout();
+    for first in axis.beside(at) {
+        let orbit = orbit(first, blades, &|node| images[node]);
+        let Some(orbit) = orbit.filter(|orbit| orbit.iter().all(|&node| node >= first)) else { continue };
+        let rows: Vec<[u32; 6]> = orbit.iter().map(|&node| *layout.rows_of_node(node)).collect();
+        for k in 0..6 {
+            let own: Vec<usize> =
+                rows.iter().filter(|rows| rows[k] != LOCKED).map(|rows| rows[k] as usize).collect();
+            around(&own, blades, &mut columns);
+        }
+    }
+    // Coordinates of joints between nodes that go over into each other.
+    let joints = model.system().joints();
+    let image_of = |node: NodeId| {
+        images[node].or((!axis.turns[node] || axis.is_on(&at.nodes[node].frame.position)).then_some(node))
+    };
+    let image = |joint: usize| {
+        let [base, tip] = [0, 1].map(|side| image_of(joints[joint].frames[side].node));
+        let (base, tip) = (base?, tip?);
+        let like = |other: &&usize| {
+            let other = &joints[**other];
+            other.kind == joints[joint].kind && other.frames[0].node == base && other.frames[1].node == tip
+        };
+        let all: Vec<usize> = (0..joints.len()).collect();
+        all.iter().find(like).copied()
+    };
+    for first in (0..joints.len()).filter(|&joint| !joints[joint].coordinates.is_empty()) {
+        let Some(orbit) = orbit(first, blades, &image) else { continue };
+        if orbit
+            .iter()
+            .any(|&joint| joint < first || joints[joint].coordinates.len() != joints[first].coordinates.len())
+        {
+            continue;
+        }
+        for k in 0..joints[first].coordinates.len() {
+            let own: Vec<usize> =
+                orbit.iter().map(|&joint| layout.row_of_coordinate(joints[joint].coordinates[k])).collect();
+            around(&own, blades, &mut columns);
+        }
+    }
+    generator(columns)
+}
+
+/// What `first` comes through in `blades` parts of a turn, if it comes back; none for what stays where it is.
+fn orbit(first: usize, blades: usize, image: &dyn Fn(usize) -> Option<usize>) -> Option<Vec<usize>> {
+    let mut orbit = vec![first];
+    for _ in 1..blades {
+        orbit.push(image(*orbit.last()?)?);
+    }
+    let comes_back = image(*orbit.last()?)? == first;
+    let mut sorted = orbit.clone();
+    sorted.sort_unstable();
+    sorted.dedup();
+    (comes_back && sorted.len() == blades).then_some(orbit)
+}
+
+/// Vectors of nodes on the axis turn.
+fn on_the_axis(model: &LinearModel<'_>, axis: &Axis, columns: &mut [Vec<(usize, f64)>]) {
+    let layout = model.system().layout();
+    for (node, motion) in model.kinematics().nodes.iter().enumerate() {
+        if !axis.turns[node] || !axis.is_on(&motion.frame.position) {
+            continue;
+        }
+        let rows = layout.rows_of_node(node);
+        let own = motion.frame.rotation.apply_inverse(&axis.direction);
+        let turning = own.cross_matrix();
+        for first in [0, 3] {
+            for (i, j) in (0..3).flat_map(|i| (0..3).map(move |j| (i, j))) {
+                let (row, column) = (rows[first + i], rows[first + j]);
+                if row != LOCKED && column != LOCKED && turning[(i, j)] != 0.0 {
+                    columns[column as usize].push((row as usize, turning[(i, j)]));
+                }
+            }
+        }
+    }
+}
+
+/// Values at equal angles, in the order of the rotation, move on over the angle by their Fourier series.
+fn around(rows: &[usize], blades: usize, columns: &mut [Vec<(usize, f64)>]) {
+    if rows.len() != blades {
+        return;
+    }
+    let part = std::f64::consts::TAU / blades as f64;
+    for (b, &row) in rows.iter().enumerate() {
+        for (c, &column) in rows.iter().enumerate() {
+            let angle = (b as f64 - c as f64) * part;
+            let harmonics = 1..=(blades - 1) / 2;
+            let sum: f64 = harmonics.map(|n| n as f64 * (n as f64 * angle).sin()).sum();
+            let value = 2.0 / blades as f64 * sum;
+            if value != 0.0 {
+                columns[column].push((row, value));
+            }
+        }
+    }
+}
