@@ -463,6 +463,9 @@ impl Maker {
                 let _ = writeln!(moved, "{key} = \"{}*{function}\"", self.draw.between(-size, size));
             }
         }
+        if moved.is_empty() {
+            moved.push_str("x = \"0.1*sin(6*t)^2\"\n");
+        }
         self.tables.push(format!(
             "[joints.moved]\nkind = \"prescribed_motion\"\nbase = \"ground\"\ntip = \"{name}\"\n{moved}"
         ));
