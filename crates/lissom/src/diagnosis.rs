@@ -190,7 +190,10 @@ impl Located for PathRunError {
 
 impl Located for PathSessionError {
     fn whereabouts(&self) -> Whereabouts<'_> {
-        if let Self::Start(error) = self { error.whereabouts() } else { Whereabouts::default() }
+        match self {
+            Self::Start(error) | Self::NotLoaded { error, .. } => error.whereabouts(),
+            _ => Whereabouts::default(),
+        }
     }
 }
 

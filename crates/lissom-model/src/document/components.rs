@@ -25,7 +25,9 @@ pub(super) fn read(
         "springs" => &registry.springs,
         _ => &registry.loads,
     };
-    each_of_kind(context, table, registry, |reader, name, word| {
+    let named = named(context, table, kinds);
+    let forms = named.as_ref().unwrap_or(registry);
+    each_of_kind(context, table, forms, |reader, name, word| {
         let entry = kinds.iter().find(|entry| entry.name == word)?;
         let (parameters, parameter_spans) = reader.parameters(entry.parameters);
         let signal = reader.signal(entry.parameters);
@@ -40,6 +42,25 @@ pub(super) fn read(
         let name = Located::new(name.to_owned(), reader.name);
         let attachment = attachment?;
         Some(Component { name, kind, attachment, parameters, parameter_spans, signal, friction, on_tip })
+    })
+}
+
+/// The kinds that entries of `table` name, alone: the forms of all take longer to make than the entries to read, which counts in
+/// sweeps. None where an entry names no kind or an unknown one, so that the complaint can name all.
+fn named(context: &Context<'_>, table: &str, kinds: &[KindEntry]) -> Option<Registry> {
+    let mut named: Vec<KindEntry> = Vec::new();
+    for (_, _, node) in context.entries(table) {
+        let Value::Table(entry) = &node.value else { return None };
+        let Value::Text(word) = &entry.get("kind")?.node.value else { return None };
+        if !named.iter().any(|kind| kind.name == word) {
+            named.push(*kinds.iter().find(|kind| kind.name == word)?);
+        }
+    }
+    let none = Registry::default();
+    Some(match table {
+        "joints" => Registry { joints: named, ..none },
+        "springs" => Registry { springs: named, ..none },
+        _ => Registry { loads: named, ..none },
     })
 }
 

@@ -257,8 +257,12 @@ where
     'a: 'c,
 {
     let mut all = Vec::new();
+    let entries = context.entries(table);
+    if entries.is_empty() {
+        return all;
+    }
     let Some(form) = variants(table, &Registry::default()).all.into_iter().next() else { return all };
-    for (name, span, node) in context.entries(table) {
+    for (name, span, node) in entries {
         let words = format!("{} `{name}`", singular(table));
         let reader = Reader::open(context, node, (words, span), form.keys.clone());
         all.extend(reader.and_then(|reader| read(&reader, name)));
@@ -277,9 +281,13 @@ where
     'a: 'c,
 {
     let mut all = Vec::new();
+    let entries = context.entries(table);
+    if entries.is_empty() {
+        return all;
+    }
     // All forms of a table are made once for its entries: they take longer than an entry.
     let forms = variants(table, registry);
-    for (name, span, node) in context.entries(table) {
+    for (name, span, node) in entries {
         let words = format!("{} `{name}`", singular(table));
         all.extend(
             of_form(context, &forms, (node, words, span))

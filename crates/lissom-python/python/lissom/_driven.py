@@ -56,6 +56,7 @@ def driven(
         "version": __version__,
         "analysis": "driven from Python",
         "stopped": "end" if error is None else "failed",
+        "stopped_by": sim.stopped_by,
         "time": sim.time,
         "records": len(times),
         "sample": sample,
