@@ -1,6 +1,6 @@
 """What calls from Python cost beyond the work they ask for: `python benches/python_calls.py`, with the package installed.
 
-Every figure is the least of several rounds, on the smallest model there is. Ends with 1 if a call of `sim.step()` costs 3 µs or more.
+Every figure is processor time, the least of several rounds, on the smallest model there is. Ends with 1 if a call of `sim.step()` costs 3 µs or more.
 """
 
 from __future__ import annotations
@@ -21,9 +21,10 @@ def least(work: Callable[[], float]) -> float:
 
 
 def timed(work: Callable[[], object]) -> float:
-    began = time.perf_counter()
+    """Time of the processor [s], so that other programs on the machine disturb it little."""
+    began = time.process_time()
     work()
-    return time.perf_counter() - began
+    return time.process_time() - began
 
 
 #: What a call of `sim.step()` may cost beyond its step [s].
