@@ -202,9 +202,7 @@ impl Channel {
                     out.extend_from_slice(axes.apply_inverse(&part).as_slice());
                 }
             }
-            Source::Drive(index) => {
-                out.push(-state.multipliers[system.drives()[*index].multiplier]);
-            }
+            Source::Drive(index) => out.push(-state.multipliers[system.drives()[*index].multiplier]),
             Source::Coupling(index) => {
                 let coupling = &system.couplings()[*index];
                 out.extend(coupling.forces(at, state.multipliers[coupling.multiplier]));
@@ -218,10 +216,8 @@ impl Channel {
                 out.extend(coordinates.iter().map(of));
             }
             Source::Coordinates(coordinates) => {
-                for &coordinate in coordinates {
-                    let motion = &at.coordinates[coordinate];
-                    out.extend([motion.value, motion.rate]);
-                }
+                let motions = coordinates.iter().map(|&coordinate| &at.coordinates[coordinate]);
+                out.extend(motions.flat_map(|motion| [motion.value, motion.rate]));
             }
             Source::Spring(element, _) => {
                 out.extend(system.spring_motion(*element, at).unwrap_or([f64::NAN; 3]));
@@ -505,7 +501,6 @@ pub(crate) fn components(
             });
             each.unzip()
         }
-        (OutputKind::Relative | OutputKind::RelativeAcceleration, _) => (Vec::new(), Vec::new()),
         (OutputKind::Spring, Source::Spring(_, Quantity::Angle)) => {
             words(&["rotation", "rate", "moment"], &["rad", "rad/s", "N m"])
         }
@@ -515,7 +510,9 @@ pub(crate) fn components(
             let of = |k: usize| ["x", "y", "z"].map(|axis| (format!("{axis}{k}"), "m"));
             (0..places.len()).flat_map(of).unzip()
         }
-        (OutputKind::Line, _) => (Vec::new(), Vec::new()),
+        (OutputKind::Relative | OutputKind::RelativeAcceleration | OutputKind::Line, _) => {
+            (Vec::new(), Vec::new())
+        }
         (OutputKind::Momentum, _) => {
             words(&["p1", "p2", "p3", "l1", "l2", "l3"], &["N s", "N s", "N s", "N m s", "N m s", "N m s"])
         }

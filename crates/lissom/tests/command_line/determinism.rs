@@ -12,7 +12,8 @@ fn reversed(text: &str) -> String {
             blocks.push(String::new());
         }
         let last = blocks.len() - 1;
-        blocks[last] += &format!("{line}\n");
+        blocks[last].push_str(line);
+        blocks[last].push('\n');
     }
     // What stands before the first table belongs to none.
     blocks[1..].reverse();
