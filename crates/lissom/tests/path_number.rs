@@ -163,6 +163,83 @@ fn a_column_that_grows_buckles_at_the_length_that_its_load_says() {
     assert!(error.contains("critical point at load factor"), "{error}");
 }
 
+/// A four-bar whose crank is driven and cannot go round.
+const FOUR_BAR: &str = r#"
+lissom = 1
+[parameters]
+angle = 0.0
+[bodies.crank]
+mass = 1
+inertia = [1, 1, 1]
+position = [0, 0.5, 0]
+[bodies.coupler]
+mass = 1
+inertia = [1, 1, 1]
+position = [0.5, 1, 0]
+[bodies.rocker]
+mass = 1
+inertia = [1, 1, 1]
+position = [1, 0.5, 0]
+[joints.a]
+kind = "revolute"
+base = "ground"
+tip = "crank"
+at = [0, 0, 0]
+axis = [0, 0, 1]
+[joints.b]
+kind = "spherical"
+base = "crank"
+tip = "coupler"
+at = [0, 1, 0]
+[joints.c]
+kind = "universal"
+base = "coupler"
+tip = "rocker"
+at = [1, 1, 0]
+axis = [0, 0, 1]
+second_axis = [0, 1, 0]
+[joints.d]
+kind = "revolute"
+base = "ground"
+tip = "rocker"
+at = [1.2, 0, 0]
+axis = [0, 0, 1]
+[joints.drive]
+kind = "prescribed_rotation"
+joint = "a"
+rotation = "angle"
+[outputs.rocker]
+kind = "position"
+of = "rocker"
+[analysis]
+kind = "path"
+vary = "parameters.angle"
+end = 3
+steps = 100
+"#;
+
+#[test]
+fn the_range_that_a_drive_can_reach_ends_at_limit_points() {
+    // Coupler and rocker in one line: the pin of the crank is as far from the fixed pivot as both are long.
+    let (crank, ground, coupler, rocker) = (1.0_f64, 1.2_f64, 1.0_f64, 1.04_f64.sqrt());
+    let cosine = (crank * crank + ground * ground - (coupler + rocker).powi(2)) / (2.0 * crank * ground);
+    let [highest, lowest] = [1.0, -1.0].map(|side| side * cosine.acos() - std::f64::consts::FRAC_PI_2);
+    let (record, report) = follow(FOUR_BAR, &[]);
+    // It turns back before the end that was asked for, and says so.
+    assert!(matches!(report.end, PathEnd::Failed(_)), "{:?}", report.end);
+    assert!(report.critical.len() >= 2, "{:?}", report.critical);
+    assert!(report.critical.iter().all(|point| point.kind == CriticalKind::Limit));
+    near(report.critical[0].load_factor, highest, 1e-9);
+    near(report.critical[1].load_factor, lowest, 1e-9);
+    let angles = record.column("parameters.angle", "").unwrap();
+    assert!(angles.iter().all(|&angle| (lowest - 1e-9..=highest + 1e-9).contains(&angle)));
+    // The bars keep their lengths.
+    let at = |component: &str| record.column("rocker", component).unwrap();
+    for (x, y) in at("x").iter().zip(at("y")) {
+        near((x - 1.2).hypot(*y), (0.04_f64 + 0.25).sqrt(), 1e-9);
+    }
+}
+
 #[test]
 fn numbers_that_cannot_be_varied_are_refused() {
     let refuse = |set: &[(&str, &str)]| start(TRUSS, set).err().unwrap_or_default();
