@@ -103,7 +103,8 @@ const PROBLEMS: &[Problem] = &[
         components: &[],
         steps: &[4, 8, 16, 32, 64, 128, 256, 512, 1024, 2048],
         tolerances: TOLERANCES,
-        reference: 1e-8,
+        // All bars lie in one line once: round-off decides there which runs at 1e-8 come through.
+        reference: 3e-8,
     },
     Problem {
         title: "tip crank",
