@@ -240,7 +240,7 @@ mod tests {
             acts_on: crate::registry::ActsOn::TwoNodes(crate::registry::FrameRule::Axis),
         };
         const SCHEME: ChoiceEntry =
-            ChoiceEntry { name: "radau-iia", summary: "Third order.", parameters: &[] };
+            ChoiceEntry { name: "radau-iia", summary: "Third order.", parameters: &[], tolerance: None };
         let registry = Registry { joints: vec![KIND], schemes: vec![SCHEME], ..Registry::default() };
         let text = manual(&registry);
         for top in tops() {

@@ -58,6 +58,8 @@ pub struct ChoiceEntry {
     pub summary: &'static str,
     /// Parameters of its own in the table `[analysis]`.
     pub parameters: &'static [Parameter],
+    /// The `tolerance` of Newton's iterations where it needs one of its own.
+    pub tolerance: Option<f64>,
 }
 
 /// All the tables.

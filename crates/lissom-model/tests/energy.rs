@@ -119,3 +119,23 @@ fn places_and_velocities_of_a_flexible_chain_are_of_second_order() {
         assert!(orders.iter().all(|&order| order >= 1.9), "{orders:?}");
     }
 }
+
+#[test]
+fn newtons_tolerance_is_the_users() {
+    let run = |overrides: &[(&str, &str)]| {
+        let (mut simulation, steps) = start(&[&[("analysis.end", "0.5")], overrides].concat());
+        let first = total(&simulation);
+        let mut most = first;
+        for _ in 0..steps {
+            simulation.step().unwrap_or_else(|error| panic!("{error}"));
+            most = most.max(total(&simulation));
+        }
+        (simulation.totals().newton_iterations, most - first)
+    };
+    let [(by_default, none), (exact, _), (coarse, grown)] =
+        [&[][..], &[("analysis.tolerance", "1e-12")], &[("analysis.tolerance", "1e-3")]].map(run);
+    println!("{by_default} iterations, {exact} with 1e-12, {coarse} with 1e-3, which gains {grown:e}");
+    assert!(by_default == exact && 4 * coarse < 3 * exact);
+    // The promise holds for exact solutions only.
+    assert!(none < 1e-12 * SCALE && grown < 1e-3 * SCALE);
+}

@@ -346,19 +346,20 @@ step = 2e-3
 #[test]
 fn curved_relations_keep_energy_and_hold() {
     let reference = run(TIED, &[set("analysis.step", "2e-4"), set("analysis.scheme", "radau-iia")]);
-    let near = |record: &Record, tolerance: f64, what: &str| {
+    let near = |record: &Record, tolerance: f64, most: f64, what: &str| {
         let (a, b) = (last(record, "one", "angle"), last(&reference, "one", "angle"));
         assert!((a - b).abs() < tolerance, "{what}: {a} {b}");
         for (one, two) in column(record, "one", "angle").iter().zip(column(record, "two", "angle")) {
             let violation = two - 0.8 * one.sin() - 0.2 * one * one + 0.1 * one * two;
-            assert!(violation.abs() < 1e-11, "{what}: {violation}");
+            assert!(violation.abs() < most, "{what}: {violation}");
         }
     };
     for scheme in SCHEMES {
-        near(&run(TIED, &[set("analysis.scheme", scheme)]), 2e-3, scheme);
+        near(&run(TIED, &[set("analysis.scheme", scheme)]), 2e-3, 1e-11, scheme);
     }
     let chosen = TIED.replace("step = 2e-3", "relative_tolerance = 1e-5");
-    near(&run(&chosen, &[]), 1e-3, "chosen steps");
+    // Newton's iterations stop at a hundredth of what the steps may err.
+    near(&run(&chosen, &[]), 1e-3, 1e-10, "chosen steps");
     for step in ["1e-3", "1e-2", "5e-2"] {
         let overrides = [
             set("analysis.scheme", "energy-decaying"),

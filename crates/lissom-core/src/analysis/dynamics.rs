@@ -89,9 +89,6 @@ pub struct Totals {
     pub yielded_at: Option<usize>,
 }
 
-/// Tolerance of schemes whose promise holds for the exact solution of their equations: with 1e-9 a free beam gains 9e-12
-/// of its energy in a step of 0.1 ms.
-const EXACT: f64 = 1e-12;
 /// Where round-off keeps such a scheme from that, a last correction below this is a solution all the same: what it does
 /// to the energy is seen by the ledger.
 const SUFFICIENT: f64 = 1e-9;
@@ -387,11 +384,6 @@ impl Simulation {
             work,
             watch,
         };
-        let mut limits = self.settings.limits;
-        if equations.scheme.tableau.is_some() {
-            // The energy is as good as the solution: to round-off.
-            limits.tolerance = limits.tolerance.min(EXACT);
-        }
         equations.restart();
         let is_exact = equations.scheme.tableau.is_some();
         let sufficient = |result: Result<Outcome, Failure>| match result {
@@ -400,7 +392,7 @@ impl Simulation {
             }
             other => other,
         };
-        let result = sufficient(newton::solve(&mut equations, &limits, &mut self.memory));
+        let result = sufficient(newton::solve(&mut equations, &self.settings.limits, &mut self.memory));
         self.scaled = equations.scaled;
         let outcome = result.map_err(|failure| {
             self.memory = Memory::default();

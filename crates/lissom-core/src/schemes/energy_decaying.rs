@@ -15,10 +15,15 @@
 use super::radau_iia::collocation;
 use super::{Scheme, SchemeError, SchemeKind, Tableau, within};
 
+/// The energy is bounded by the exact solution of the equations: with 1e-9 a free beam gains 9e-12 of its energy in a step of
+/// 0.1 ms.
+const TOLERANCE: f64 = 1e-12;
+
 /// Registry entry.
 pub const KIND: SchemeKind = SchemeKind {
     name: "energy-decaying",
     summary: "Energy decaying: third order, energy never increases, damping set by the spectral radius.",
+    tolerance: Some(TOLERANCE),
     build: |parameters| with_spectral_radius(parameters.spectral_radius.unwrap_or(0.0)),
 };
 

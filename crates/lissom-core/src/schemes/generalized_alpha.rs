@@ -19,6 +19,7 @@ use super::{
 pub const KIND: SchemeKind = SchemeKind {
     name: "generalized-alpha",
     summary: "Generalized-α: second order, numerical damping set by the spectral radius.",
+    tolerance: None,
     build: |parameters| with_spectral_radius(parameters.spectral_radius.unwrap_or(0.8)),
 };
 
@@ -26,6 +27,7 @@ pub const KIND: SchemeKind = SchemeKind {
 pub const HHT_KIND: SchemeKind = SchemeKind {
     name: "hht",
     summary: "HHT-α: second order, numerical damping set by α in -1/3 … 0.",
+    tolerance: None,
     build: |parameters: &SchemeParameters| hht(parameters.alpha.unwrap_or(-0.1)),
 };
 

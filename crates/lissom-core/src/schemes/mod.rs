@@ -180,6 +180,8 @@ pub struct SchemeKind {
     pub name: &'static str,
     /// One sentence.
     pub summary: &'static str,
+    /// Tolerance of Newton's iterations where the user names none and the scheme needs its own.
+    pub tolerance: Option<f64>,
     /// Makes the scheme.
     pub build: fn(&SchemeParameters) -> Result<Scheme, SchemeError>,
 }

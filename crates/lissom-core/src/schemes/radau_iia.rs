@@ -26,6 +26,7 @@ const PLANNED_SHARE: f64 = 0.25;
 pub const KIND: SchemeKind = SchemeKind {
     name: "radau-iia",
     summary: "Two-stage Radau IIA: third order, strongly damping.",
+    tolerance: None,
     build: |_| Ok(two_stages()),
 };
 

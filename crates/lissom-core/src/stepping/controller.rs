@@ -4,7 +4,7 @@
 //! factor = 0.8 ε^(-1/3)        for estimates of order h³ [Hairer, Nørsett and Wanner 1993, II.4]
 //! ```
 //!
-//! ε is the estimated error over the tolerance. The size is kept where it could grow a little only.
+//! ε is the estimated error over the tolerance. The size is kept where it could change a little only.
 
 use serde::{Deserialize, Serialize};
 
@@ -15,8 +15,9 @@ const SAFETY: f64 = 0.8;
 /// A step changes by these factors at most.
 const LARGEST_CHANGE: f64 = 5.0;
 const SMALLEST_CHANGE: f64 = 0.2;
-/// The step size is kept where it could grow by less than this: what was learned of it goes on to serve.
-const KEPT: f64 = 1.2;
+/// The step size is kept where the factor lies between these: what was learned of it goes on to serve. At the lower one the
+/// estimate is at 0.83 of the tolerance.
+const KEPT: std::ops::Range<f64> = 0.85..1.2;
 
 /// What the user asks of step-size control.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -64,7 +65,7 @@ impl Controller {
         let largest = if self.has_failed { 1.0 } else { LARGEST_CHANGE };
         let factor = (SAFETY * error.powf(-1.0 / ORDER)).clamp(SMALLEST_CHANGE, largest);
         self.has_failed = false;
-        let wanted = taken * if (1.0..KEPT).contains(&factor) { 1.0 } else { factor };
+        let wanted = taken * if KEPT.contains(&factor) { 1.0 } else { factor };
         // A step cut short to end where it must says that at least its size is possible.
         self.size = if taken < self.size { wanted.max(self.size.min(taken * factor)) } else { wanted };
         self.size = self.size.min(max_step);

@@ -485,7 +485,7 @@ fn analyses(registry: &Registry) -> Vec<Variant> {
                 "tolerance",
                 Shape::Positive,
                 "",
-                "of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/10000",
+                "of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`",
             ),
             optional("max_iterations", Shape::Count(1, 10_000), "", "of Newton's iteration, default 40"),
             optional(

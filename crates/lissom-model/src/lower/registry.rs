@@ -40,11 +40,17 @@ pub fn registry() -> Registry {
                     "generalized-alpha" => &[SPECTRAL_RADIUS],
                     _ => &[],
                 },
+                tolerance: kind.tolerance,
             })
             .collect(),
         solvers: lissom_core::solvers::KINDS
             .iter()
-            .map(|kind| ChoiceEntry { name: kind.name, summary: kind.summary, parameters: &[] })
+            .map(|kind| ChoiceEntry {
+                name: kind.name,
+                summary: kind.summary,
+                parameters: &[],
+                tolerance: None,
+            })
             .collect(),
     }
 }

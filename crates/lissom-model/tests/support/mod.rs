@@ -14,7 +14,7 @@ const fn kind(
 }
 
 const fn choice(name: &'static str, parameters: &'static [Parameter]) -> ChoiceEntry {
-    ChoiceEntry { name, summary: "A choice for tests.", parameters }
+    ChoiceEntry { name, summary: "A choice for tests.", parameters, tolerance: None }
 }
 
 const ANGLE: &[Parameter] =

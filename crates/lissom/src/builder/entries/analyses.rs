@@ -102,7 +102,7 @@ keys! {
     penalty: f64 = "penalty";
     /// Linear solver.
     solver: words::Solver = "solver";
-    /// Of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/10000.
+    /// Of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`.
     tolerance: f64 = "tolerance";
     /// Of Newton's iteration, default 40.
     max_iterations: usize = "max_iterations";
