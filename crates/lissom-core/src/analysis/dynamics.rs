@@ -5,6 +5,7 @@ use std::sync::Arc;
 use lissom_solver::{FactorError, FactorReport, SolverKind};
 use serde::{Deserialize, Serialize};
 
+use super::compliance::Compliance;
 use super::conditioning::TangentValues;
 use super::equations::StepEquations;
 use super::equilibrium;
@@ -209,6 +210,12 @@ impl Simulation {
         work.without = settings.limits.without;
         work.threads = Threads::new(&system, settings.threads);
         work.factorization.set_threads(settings.threads);
+        let singular = SingularPositions::new(&system, &state.kinematics, representative.length);
+        if let Some(multiplier) = singular.first_repeating() {
+            let count = system.layout().coordinate_count();
+            let compliance = Compliance::new(&system.structure().pattern, count);
+            work.yielding = Some((compliance, count + multiplier));
+        }
         work.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
         let projection = settings
             .scheme
@@ -229,7 +236,6 @@ impl Simulation {
             .map_err(|error| InitialError::Wrapped(Box::new(error)))?;
         let interval = settings.scheme.dynamic.then_some(settings.step_size);
         let ledger = Ledger::new(&system, &state.kinematics, &representative, interval);
-        let singular = SingularPositions::new(&system, &state.kinematics, representative.length);
         let is_chosen = settings.control.is_some();
         let controller = (is_chosen && settings.scheme.dynamic).then(|| Controller::new(settings.step_size));
         let load_control =

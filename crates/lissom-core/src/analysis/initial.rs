@@ -13,6 +13,7 @@ use lissom_solver::{FactorError, LinearSolver, SolverKind};
 use super::compliance::Compliance;
 use super::step_error::pivot_hint;
 use crate::joints::attached::Increments;
+use crate::judge::singular::SingularPositions;
 use crate::scaling::Representative;
 use crate::system::{
     Augmentation, Chart, Kinematics, LOCKED, Layout, Linearization, MotionChange, Point, State, System,
@@ -98,7 +99,10 @@ impl Initial {
             values: vec![0.0; system.structure().pattern.entries()],
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
             radian: representative.length,
-            yields: false,
+            // Pivots of repeated equations are round-off, which may be larger than what elimination takes for zero.
+            yields: SingularPositions::new(system, &state.kinematics, representative.length)
+                .first_repeating()
+                .is_some(),
             still: vec![MotionChange::none(); state.kinematics.nodes.len()],
             unchanged: vec![0.0; state.kinematics.coordinates.len()],
         }

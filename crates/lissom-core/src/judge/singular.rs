@@ -78,6 +78,15 @@ impl SingularPositions {
         Self { loops, known, gradient, pivots, length }
     }
 
+    /// The first multiplier whose equation repeats those before it, where watching began.
+    pub(crate) fn first_repeating(&self) -> Option<usize> {
+        let repeating = |(found, known): (&Loop, &Known)| {
+            let equation = known.references.iter().position(|reference| *reference == 0.0)?;
+            Some(found.multipliers[equation])
+        };
+        self.loops.iter().zip(&self.known).filter_map(repeating).min()
+    }
+
     /// Whether there is anything to look at.
     pub(crate) fn is_empty(&self) -> bool {
         self.loops.is_empty()
