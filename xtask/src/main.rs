@@ -19,6 +19,7 @@ mod refine;
 mod report;
 mod runs;
 mod scenes;
+mod stale;
 mod transform;
 mod verify;
 mod warnings;
@@ -161,6 +162,9 @@ struct VerifyArguments {
     /// Print every row
     #[arg(long, short)]
     verbose: bool,
+    /// Fail where `verification/REPORT.md` tells other digits than these runs come to
+    #[arg(long)]
+    fresh: bool,
 }
 
 fn main() -> ExitCode {

@@ -11,7 +11,7 @@ use crate::VerifyArguments;
 use crate::case::{Case, CaseError};
 use crate::outcome::{Outcome, Row, Verdict};
 use crate::runs::Runs;
-use crate::{book, compare, curves, digits, invariants, refine, report, warnings};
+use crate::{book, compare, curves, digits, invariants, refine, report, stale, warnings};
 
 /// A verification that cannot be carried out.
 #[derive(Debug, thiserror::Error)]
@@ -74,8 +74,14 @@ pub(crate) fn verify(arguments: &VerifyArguments) -> Result<bool, VerifyError> {
         book::verification::renew(&root)?;
     }
     let failed = outcomes.iter().filter(|outcome| outcome.has_failed()).count();
+    let path = folder.join("REPORT.md");
+    let report = std::fs::read_to_string(&path).map_err(VerifyError::file(&path))?;
+    let old = stale::differences(&report, &cases, &outcomes);
+    for words in &old {
+        println!("OLD in verification/REPORT.md, which `cargo xtask verify` makes anew: {words}");
+    }
     println!("{} cases in {:.1} s, {failed} failed", outcomes.len(), elapsed.as_secs_f64());
-    Ok(failed == 0 && other_digits.is_empty())
+    Ok(failed == 0 && other_digits.is_empty() && (old.is_empty() || !arguments.fresh))
 }
 
 /// Folders of the cases, in order.
