@@ -63,12 +63,20 @@ pub struct Results {
     modes: Vec<modes::Mode>,
     columns: Vec<Value>,
     history: Option<String>,
+    #[serde(skip)]
+    effort: packed::Effort,
 }
 
 impl Results {
     /// Nothing yet, of the model called `name`.
     pub fn new(name: &str) -> Self {
         Self { name: name.to_owned(), ..Self::default() }
+    }
+
+    /// For a page on this machine that waits: what is added from now on is packed sooner and less.
+    #[must_use]
+    pub fn packed_soon(self) -> Self {
+        Self { effort: packed::Effort::Soon, ..self }
     }
 
     /// With one line about the model.
@@ -106,7 +114,7 @@ impl Results {
     pub fn with_motion(mut self, scene: Value, motion: &[u8]) -> Result<Self, MotionError> {
         let motion = Motion::from_bytes(motion)?;
         self.scene = scene;
-        self.motion = Some(packed::Motion::of(&motion));
+        self.motion = Some(packed::Motion::of(&motion, self.effort));
         Ok(self)
     }
 
@@ -144,7 +152,7 @@ impl Results {
             );
             self.notices.push(Notice::warning(text));
         }
-        self.history = Some(packed::table(record, stride));
+        self.history = Some(packed::table(record, stride, self.effort));
         self
     }
 

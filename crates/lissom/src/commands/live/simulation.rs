@@ -15,12 +15,13 @@ use lissom::{Document, FileError, Model, Override, Record, Session, Writer, summ
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::lower;
 use lissom_model::scene::Scene;
+use serde::Serialize;
 use serde_json::{Value, json};
 
 /// How often the file is looked at.
-const LOOK: Duration = Duration::from_millis(30);
+const LOOK: Duration = Duration::from_millis(5);
 /// A file that was changed so shortly before may still be being written.
-const SETTLED: Duration = Duration::from_millis(15);
+const SETTLED: Duration = Duration::from_millis(10);
 /// A mistake in a file is told if the file has stayed as it is for so long: half of it may not have been written yet.
 const SURE: Duration = Duration::from_millis(200);
 /// The same for a file that is empty, as it is for a moment while it is saved.
@@ -67,12 +68,30 @@ impl Shared {
         self.changed.notify_all();
     }
 
-    fn tell(&self, mut message: Value) {
+    fn tell(&self, mut message: Message) {
         let mut state = self.lock();
         state.version += 1;
-        message["version"] = json!(state.version);
-        state.told = message.to_string().into();
+        message.version = state.version;
+        state.told = message.to_json().into();
         self.changed.notify_all();
+    }
+}
+
+/// What a page is told.
+#[derive(Default, Serialize)]
+struct Message {
+    version: u64,
+    notice: Option<Notice>,
+    /// Nothing if the model is wrong.
+    result: Option<Results>,
+    parameters: Option<Vec<Value>>,
+    /// How long reading and simulating took [s].
+    seconds: f64,
+}
+
+impl Message {
+    fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("plain numbers and texts can always be said in JSON")
     }
 }
 
@@ -99,7 +118,7 @@ pub(super) fn start(model: PathBuf, set: Vec<Override>, shared: &Arc<Shared>) {
             let text = Model::read(&model);
             let is_current = || Seen::of(&model, &included, &shared) == now;
             let message = simulate(text, &set, &now.parameters, &mut bases, &is_current);
-            let is_mistake = message.as_ref().is_some_and(|message| message["result"].is_null());
+            let is_mistake = message.as_ref().is_some_and(|message| message.result.is_none());
             let sure = if now.has_empty_file() { SURE_TO_BE_EMPTY } else { SURE };
             while is_mistake && now.modified.is_some() && now.is_younger_than(sure) && is_current() {
                 std::thread::sleep(LOOK);
@@ -161,11 +180,11 @@ fn simulate(
     sliders: &BTreeMap<String, f64>,
     bases: &mut BTreeMap<String, f64>,
     is_current: &dyn Fn() -> bool,
-) -> Option<Value> {
+) -> Option<Message> {
     let began = Instant::now();
     let failed = |text: String, is_code: bool| {
         let notice = if is_code { Notice::error(text).with_code() } else { Notice::error(text) };
-        Some(json!({ "notice": notice, "result": null, "parameters": null }))
+        Some(Message { notice: Some(notice), ..Message::default() })
     };
     let model = match model {
         Ok(model) => model,
@@ -185,12 +204,12 @@ fn simulate(
         .collect();
     match results(&model, &overrides, is_current) {
         Ok(None) => None,
-        Ok(Some(results)) => Some(json!({
-            "notice": null,
-            "result": serde_json::from_str::<Value>(&results.to_json()).unwrap_or_default(),
-            "parameters": parameters,
-            "seconds": began.elapsed().as_secs_f64(),
-        })),
+        Ok(result) => Some(Message {
+            result,
+            parameters: Some(parameters),
+            seconds: began.elapsed().as_secs_f64(),
+            ..Message::default()
+        }),
         Err(Fault { text, is_code }) => failed(text, is_code),
     }
 }
@@ -246,7 +265,7 @@ fn results(
     }
     summary::of_run(&mut summary, &session, &report);
     let facts: Value = serde_json::from_str(&summary.to_json()).unwrap_or_default();
-    let mut results = Results::new(model.name()).with_summary(&facts).with_record(&record);
+    let mut results = Results::new(model.name()).packed_soon().with_summary(&facts).with_record(&record);
     if !document.warnings.is_empty() {
         results = results.with_notice(Notice::warning(document.warnings.render(false)).with_code());
     }
@@ -277,7 +296,7 @@ fn path(
     }
     let summary = session.summary(lissom::path::of_request(model.name(), overrides, document), &report);
     let facts: Value = serde_json::from_str(&summary.to_json()).unwrap_or_default();
-    let mut results = Results::new(model.name()).with_summary(&facts).with_record(&record);
+    let mut results = Results::new(model.name()).packed_soon().with_summary(&facts).with_record(&record);
     if !document.warnings.is_empty() {
         results = results.with_notice(Notice::warning(document.warnings.render(false)).with_code());
     }
