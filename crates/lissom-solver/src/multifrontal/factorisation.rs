@@ -8,8 +8,8 @@ use std::ops::Range;
 use super::contributions::{add_all, add_columns, add_lower, add_transposed};
 use super::elimination_tree::NONE;
 use super::fronts::{Front, Part, Symbolic};
-use super::kernels::{absolute_products, solve_panel, subtract_product};
-use super::small::SmallFront;
+use super::kernels::{Product, absolute_products, solve_panel};
+use super::small::{self, SmallFront};
 use super::square::SquareWork;
 use crate::pattern::Pattern;
 use crate::report::{FactorError, Monitor};
@@ -217,11 +217,11 @@ impl<S: Scalar> Work<'_, S> {
         let mut monitor = Monitor::new();
         let mut largest = 0.0_f64;
         for front in &symbolic.fronts[self.part.fronts.clone()] {
-            let of_front = if front.is_small() {
+            let of_front = if const { small::is_for::<S>(FUSED) } && front.is_small() {
                 self.factor_small::<V>(simd, (symbolic, front), values, &mut monitor)?
             } else {
                 self.assemble(symbolic, front, values);
-                self.eliminate::<FUSED, ROWS>(symbolic, front, &mut monitor)?
+                self.eliminate::<V, FUSED, ROWS>(simd, (symbolic, front), &mut monitor)?
             };
             largest = if of_front > largest { of_front } else { largest };
         }
@@ -320,10 +320,10 @@ impl<S: Scalar> Work<'_, S> {
     /// Elimination of the pivots, then the contribution to the parent, children's included: of symmetric matrices
     /// its lower triangle.
     #[inline(always)]
-    fn eliminate<const FUSED: bool, const ROWS: usize>(
+    fn eliminate<V: pulp::Simd, const FUSED: bool, const ROWS: usize>(
         &mut self,
-        symbolic: &Symbolic,
-        front: &Front,
+        simd: V,
+        (symbolic, front): (&Symbolic, &Front),
         monitor: &mut Monitor,
     ) -> Result<f64, FactorError> {
         let (pivots, boundary) = (front.pivots, front.boundary);
@@ -336,7 +336,7 @@ impl<S: Scalar> Work<'_, S> {
         let (square, panels) = pieces.split_at_mut(front.square_length());
         let (lower, upper) = panels.split_at_mut(front.panel_length());
         bench.square.terms[..pivots].copy_from_slice(&self.terms[steps.clone()]);
-        let mut largest = bench.square.factor::<FUSED, ROWS>(square, unknowns, monitor)?;
+        let mut largest = bench.square.factor::<V, FUSED, ROWS>(simd, square, unknowns, monitor)?;
         if symbolic.is_symmetric {
             for (pivot, &reciprocal) in self.pivots[steps.clone()].iter_mut().zip(&bench.square.reciprocals) {
                 *pivot = S::one() / reciprocal;
@@ -349,13 +349,14 @@ impl<S: Scalar> Work<'_, S> {
         let (stride, square_stride) = (front.panel_stride(), front.square_stride());
         let reciprocals = Some(&bench.square.reciprocals[..pivots]);
         let transposed = (&bench.square.transposed[..], square_stride);
-        solve_panel::<S, FUSED, ROWS>((lower, stride), transposed, reciprocals, pivots, stride);
+        solve_panel::<S, V, FUSED, ROWS>(simd, (lower, stride), transposed, reciprocals, pivots, stride);
         let upper: &[S] = if symbolic.is_symmetric {
             let scaled = &mut bench.scaled[..front.panel_length()];
             scale_columns(scaled, lower, stride, &self.pivots[steps]);
             scaled
         } else {
-            solve_panel::<S, FUSED, ROWS>((upper, stride), (square, square_stride), None, pivots, stride);
+            let square = (&*square, square_stride);
+            solve_panel::<S, V, FUSED, ROWS>(simd, (upper, stride), square, None, pivots, stride);
             upper
         };
         let terms = &mut bench.front_terms[..stride];
@@ -370,12 +371,12 @@ impl<S: Scalar> Work<'_, S> {
         let contribution = &mut own[front.contribution_range()];
         let strip = if symbolic.is_symmetric { STRIP } else { boundary };
         for begin in (0..boundary).step_by(strip) {
-            subtract_product::<S, FUSED, false, ROWS>(
-                (&mut contribution[begin * stride + begin..], stride),
-                (&lower[begin..], stride),
-                (&upper[begin..], stride),
-                (stride - begin, strip.min(boundary - begin), pivots),
-            );
+            simd.vectorize(Product::<S, FUSED, false, ROWS> {
+                c: (&mut contribution[begin * stride + begin..], stride),
+                a: (&lower[begin..], stride),
+                b: (&upper[begin..], stride),
+                shape: (stride - begin, strip.min(boundary - begin), pivots),
+            });
         }
         for child in &symbolic.children[front.children.clone()] {
             let runs = &symbolic.runs[child.to_boundary.clone()];

@@ -52,12 +52,14 @@ pub(super) struct Front {
     pub(super) contribution: usize,
     /// First place of its boundary, if the places follow one another.
     pub(super) span: Option<usize>,
+    /// Whether it is eliminated by [`super::small`].
+    small: bool,
 }
 
 impl Front {
     /// Whether it is eliminated by [`super::small`].
     pub(super) fn is_small(&self) -> bool {
-        self.pivots <= LARGEST && self.boundary <= LARGEST
+        self.small
     }
     /// Of the columns of a small front at work.
     pub(super) fn small_stride(&self) -> usize {
@@ -159,6 +161,8 @@ pub(super) struct Symbolic {
     pub(super) factor_entries: usize,
     /// Whether it is for LDLᵀ, with one panel to a front.
     pub(super) is_symmetric: bool,
+    /// Whether small fronts are eliminated by [`super::small`], and not as large ones are.
+    has_small: bool,
 }
 
 /// The first step of every group, by its place in the order of elimination, and the steps of every front.
@@ -168,8 +172,8 @@ struct Numbering {
 }
 
 impl Symbolic {
-    /// For LU, with two panels to a front, or for LDLᵀ, with one.
-    pub(super) fn new(structure: &Structure, panels: usize) -> Symbolic {
+    /// For LU, with two panels to a front, or for LDLᵀ, with one; with small fronts apart, or all like large ones.
+    pub(super) fn new(structure: &Structure, panels: usize, has_small: bool) -> Symbolic {
         let graph = GroupGraph::new(structure);
         let order = minimum_degree_order(structure);
         let tree = EliminationTree::new(&graph, &order);
@@ -189,6 +193,7 @@ impl Symbolic {
             factor_length: 0,
             factor_entries: 0,
             is_symmetric: panels == 1,
+            has_small,
         };
         let groups = symbolic.number_steps(structure, &order, (&nodes, &parts), &tree);
         for (part, fronts) in parts.iter().enumerate() {
@@ -290,10 +295,11 @@ impl Symbolic {
     }
 
     fn add_front(&mut self, (steps, panels): (Range<usize>, usize), rows: usize, children: &[usize]) {
+        let (pivots, boundary) = (steps.len(), self.boundaries.len() - rows);
         let mut front = Front {
             first: steps.start,
-            pivots: steps.len(),
-            boundary: self.boundaries.len() - rows,
+            pivots,
+            boundary,
             panels,
             factors: self.factor_length,
             rows: rows..self.boundaries.len(),
@@ -302,6 +308,7 @@ impl Symbolic {
             stack: 0,
             contribution: 0,
             span: None,
+            small: self.has_small && pivots <= LARGEST && boundary <= LARGEST,
         };
         for &child in children {
             self.add_child(&front, child);

@@ -5,11 +5,15 @@ use num_complex::Complex64;
 use pulp::{Arch, Simd, WithSimd};
 
 use super::factorisation::FactorPart;
+use super::small;
 use super::{Backward, Forward, Largest};
 use crate::report::{FactorError, Monitor};
 
 /// What takes the time of factorisations and solves.
 pub trait Kernels: Sized {
+    /// Whether small fronts are eliminated by [`super::small`].
+    fn eliminates_small(processor: Arch) -> bool;
+
     /// Factors a subtree, or the top; gives the monitor and the largest magnitude in U.
     fn factor_part(processor: Arch, part: FactorPart<'_, Self>) -> Result<(Monitor, f64), FactorError>;
 
@@ -43,6 +47,10 @@ fn of_four<Op: WithSimd>(processor: Arch, op: Op) -> Op::Output {
 macro_rules! compile {
     ($field:ty, $dispatch:ident) => {
         impl Kernels for $field {
+            fn eliminates_small(processor: Arch) -> bool {
+                small::is_for::<$field>(!matches!(processor, Arch::Scalar))
+            }
+
             #[inline(never)]
             fn factor_part(
                 processor: Arch,

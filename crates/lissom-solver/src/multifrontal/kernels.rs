@@ -7,6 +7,8 @@
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
+use pulp::{Simd, WithSimd};
+
 use super::fronts::PADDING;
 use crate::scalar::{Scalar, array, array_mut};
 
@@ -65,6 +67,25 @@ fn strips<S: Scalar, const FUSED: bool, const ADD: bool, const ROWS: usize, cons
         column += COLUMNS;
     }
     column
+}
+
+/// [`subtract_product`], compiled once for all that call it.
+pub(super) struct Product<'a, S, const FUSED: bool, const ADD: bool, const ROWS: usize> {
+    pub(super) c: (&'a mut [S], usize),
+    pub(super) a: (&'a [S], usize),
+    pub(super) b: (&'a [S], usize),
+    pub(super) shape: (usize, usize, usize),
+}
+
+impl<S: Scalar, const FUSED: bool, const ADD: bool, const ROWS: usize> WithSimd
+    for Product<'_, S, FUSED, ADD, ROWS>
+{
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, _: V) {
+        subtract_product::<S, FUSED, ADD, ROWS>(self.c, self.a, self.b, self.shape);
+    }
 }
 
 /// `C -= A Bᵀ` with `ADD`, `C = -A Bᵀ` without, where `C` has `rows` (padded) times `columns` entries and `A`
@@ -140,10 +161,28 @@ fn solve_columns<S: Scalar, const FUSED: bool, const ROWS: usize>(
     }
 }
 
-/// `X = X R⁻¹` in the columns `begin..end` of a panel of `rows` (padded) rows, where `Rᵀ` is the lower triangle of
-/// the square `triangle`, its diagonal given by its reciprocals, or one.
+/// `X = X R⁻¹` in some columns of a panel of `rows` (padded) rows, where `Rᵀ` is the lower triangle of the square
+/// `triangle`, its diagonal given by its reciprocals, or one. Compiled once for all that call it.
+pub(super) struct BlockSolution<'a, S, const FUSED: bool, const ROWS: usize> {
+    pub(super) x: (&'a mut [S], usize),
+    pub(super) triangle: (&'a [S], usize),
+    pub(super) reciprocals: Option<&'a [S]>,
+    /// The first column, and the one behind the last.
+    pub(super) columns: (usize, usize),
+    pub(super) rows: usize,
+}
+
+impl<S: Scalar, const FUSED: bool, const ROWS: usize> WithSimd for BlockSolution<'_, S, FUSED, ROWS> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<V: Simd>(self, _: V) {
+        solve_block::<S, FUSED, ROWS>(self.x, self.triangle, self.reciprocals, self.columns, self.rows);
+    }
+}
+
 #[inline(always)]
-pub(super) fn solve_block<S: Scalar, const FUSED: bool, const ROWS: usize>(
+fn solve_block<S: Scalar, const FUSED: bool, const ROWS: usize>(
     (x, x_stride): (&mut [S], usize),
     triangle: (&[S], usize),
     reciprocals: Option<&[S]>,
@@ -170,7 +209,8 @@ pub(super) fn solve_block<S: Scalar, const FUSED: bool, const ROWS: usize>(
 
 /// `X = X R⁻¹` for a whole panel of `columns` columns, block after block.
 #[inline(always)]
-pub(super) fn solve_panel<S: Scalar, const FUSED: bool, const ROWS: usize>(
+pub(super) fn solve_panel<S: Scalar, V: Simd, const FUSED: bool, const ROWS: usize>(
+    simd: V,
     (x, x_stride): (&mut [S], usize),
     (triangle, t_stride): (&[S], usize),
     reciprocals: Option<&[S]>,
@@ -185,20 +225,20 @@ pub(super) fn solve_panel<S: Scalar, const FUSED: bool, const ROWS: usize>(
         let end = columns.min(begin + BLOCK);
         if begin > 0 {
             let (done, rest) = x.split_at_mut(begin * x_stride);
-            subtract_product::<S, FUSED, true, ROWS>(
-                (rest, x_stride),
-                (done, x_stride),
-                (&triangle[begin..], t_stride),
-                (rows, end - begin, begin),
-            );
+            simd.vectorize(Product::<S, FUSED, true, ROWS> {
+                c: (rest, x_stride),
+                a: (done, x_stride),
+                b: (&triangle[begin..], t_stride),
+                shape: (rows, end - begin, begin),
+            });
         }
-        solve_block::<S, FUSED, ROWS>(
-            (&mut *x, x_stride),
-            (triangle, t_stride),
+        simd.vectorize(BlockSolution::<S, FUSED, ROWS> {
+            x: (&mut *x, x_stride),
+            triangle: (triangle, t_stride),
             reciprocals,
-            (begin, end),
+            columns: (begin, end),
             rows,
-        );
+        });
         begin = end;
     }
 }

@@ -63,10 +63,15 @@ impl<S: Scalar> Multifrontal<S> {
 
     /// For LU, with two panels to a front, or for LDLᵀ, with one.
     fn of_panels(structure: &Structure, panels: usize) -> Self {
-        let symbolic = Symbolic::new(structure, panels);
+        Self::on(pulp::Arch::new(), structure, panels)
+    }
+
+    /// For that processor.
+    fn on(processor: pulp::Arch, structure: &Structure, panels: usize) -> Self {
+        let symbolic = Symbolic::new(structure, panels, S::eliminates_small(processor));
         let pattern = Arc::clone(&structure.pattern);
         Multifrontal {
-            processor: pulp::Arch::new(),
+            processor,
             numeric: Numeric::new(&symbolic, &pattern),
             vector: vec![S::zero(); symbolic.unknowns.len()],
             front_vectors: symbolic.parts.iter().map(FrontVectors::new).collect(),
@@ -239,8 +244,7 @@ mod tests {
         let values: Vec<S> = model.values(&structure.pattern, 1, 1.0);
         let b: Vec<S> = right_hand_side(model.size, 2);
         for processor in processors() {
-            let mut solver = Multifrontal::<S>::new(&structure);
-            solver.processor = processor;
+            let mut solver = Multifrontal::<S>::on(processor, &structure, 2);
             solver.factor(&values).expect("a regular matrix");
             for transposed in [false, true] {
                 let mut x = b.clone();

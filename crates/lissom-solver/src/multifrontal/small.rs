@@ -19,6 +19,12 @@ use crate::scalar::{Scalar, array, array_mut};
 /// Pivots and boundary unknowns of the largest front that is eliminated so. A multiple of [`PADDING`].
 pub(super) const LARGEST: usize = 24;
 
+/// Whether small fronts are eliminated here. Complex ones are not on x86 processors without AVX2, but like large ones: hardly
+/// any is left, and the kernels take long to be compiled.
+pub(super) const fn is_for<S: Scalar>(fused: bool) -> bool {
+    fused || !S::COMPLEX || !cfg!(target_arch = "x86_64")
+}
+
 /// How many of the pivots that are left are eliminated together: three, because most groups have a multiple of three unknowns,
 /// or four where one would be left over.
 fn together(left: usize) -> usize {

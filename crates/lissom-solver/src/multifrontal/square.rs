@@ -7,8 +7,10 @@
 
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
+use pulp::Simd;
+
 use super::fronts::PADDING;
-use super::kernels::{BLOCK, absolute_products, solve_block, subtract_product};
+use super::kernels::{BLOCK, BlockSolution, Product, absolute_products, subtract_product};
 use crate::report::{FactorError, Monitor};
 use crate::scalar::{Scalar, array, array_mut};
 
@@ -38,8 +40,9 @@ impl<S: Scalar> SquareWork<S> {
     /// Replaces the square by `L11` and `U11`, leaving the reciprocals of the pivots on its diagonal. Expects
     /// the `terms` of the rows to be loaded. Returns the largest magnitude in `U11`.
     #[inline(always)]
-    pub(super) fn factor<const FUSED: bool, const ROWS: usize>(
+    pub(super) fn factor<V: Simd, const FUSED: bool, const ROWS: usize>(
         &mut self,
+        simd: V,
         square: &mut [S],
         unknowns: &[u32],
         monitor: &mut Monitor,
@@ -52,7 +55,7 @@ impl<S: Scalar> SquareWork<S> {
             let end = pivots.min(begin + BLOCK);
             self.factor_block::<FUSED>(square, stride, (begin, end));
             if end < pivots {
-                self.eliminate_block::<FUSED, ROWS>(square, (begin, end), pivots);
+                self.eliminate_block::<V, FUSED, ROWS>(simd, square, (begin, end), pivots);
             }
             let from = begin * stride + begin;
             let panels = (&square[from..], &self.transposed[from..]);
@@ -179,8 +182,9 @@ impl<S: Scalar> SquareWork<S> {
 
     /// Rows of U to the right of the block, columns of L below it, and what they do to the rest.
     #[inline(always)]
-    fn eliminate_block<const FUSED: bool, const ROWS: usize>(
+    fn eliminate_block<V: Simd, const FUSED: bool, const ROWS: usize>(
         &mut self,
+        simd: V,
         square: &mut [S],
         (begin, end): (usize, usize),
         pivots: usize,
@@ -204,19 +208,29 @@ impl<S: Scalar> SquareWork<S> {
             copy[..width].copy_from_slice(&transposed[column * stride + begin..][..width]);
         }
         let reciprocals = &self.reciprocals[begin..end];
-        let lower = (&mut block[end..], stride);
-        solve_block::<S, FUSED, ROWS>(lower, (&triangle, BLOCK), Some(reciprocals), (0, width), rows);
+        simd.vectorize(BlockSolution::<S, FUSED, ROWS> {
+            x: (&mut block[end..], stride),
+            triangle: (&triangle, BLOCK),
+            reciprocals: Some(reciprocals),
+            columns: (0, width),
+            rows,
+        });
         for (column, copy) in triangle.chunks_exact_mut(BLOCK).enumerate().take(width) {
             copy[..width].copy_from_slice(&block[column * stride + begin..][..width]);
         }
-        let upper = (&mut transposed[end..], stride);
-        solve_block::<S, FUSED, ROWS>(upper, (&triangle, BLOCK), None, (0, width), rows);
-        subtract_product::<S, FUSED, true, ROWS>(
-            (&mut rest[end..], stride),
-            (&block[end..], stride),
-            (&transposed[end..], stride),
-            (rows, pivots - end, width),
-        );
+        simd.vectorize(BlockSolution::<S, FUSED, ROWS> {
+            x: (&mut transposed[end..], stride),
+            triangle: (&triangle, BLOCK),
+            reciprocals: None,
+            columns: (0, width),
+            rows,
+        });
+        simd.vectorize(Product::<S, FUSED, true, ROWS> {
+            c: (&mut rest[end..], stride),
+            a: (&block[end..], stride),
+            b: (&transposed[end..], stride),
+            shape: (rows, pivots - end, width),
+        });
     }
 
     /// Writes U right of the inner diagonal blocks back to the square.

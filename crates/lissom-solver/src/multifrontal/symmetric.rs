@@ -9,7 +9,7 @@
 use super::factorisation::Numeric;
 use super::fronts::{Part, Symbolic};
 use super::triangular::{self, FrontVectors};
-use super::{Multifrontal, Way, small_solves};
+use super::{Multifrontal, Way, small, small_solves};
 use crate::report::{FactorError, FactorReport};
 use crate::scalar::Scalar;
 use crate::solver::LinearSolver;
@@ -64,7 +64,7 @@ pub(super) fn backward<S: Scalar, const FUSED: bool>(
     vectors: &mut FrontVectors<S>,
 ) {
     for front in symbolic.fronts[part.fronts.clone()].iter().rev() {
-        if front.is_small() {
+        if const { small::is_for::<S>(FUSED) } && front.is_small() {
             let (square, lower, _) = small_solves::pieces(front, &numeric.factors);
             small_solves::backward::<S, FUSED, true>(
                 (symbolic, part),

@@ -4,7 +4,7 @@
 #![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 
 use super::fronts::{Front, PADDING, Part, Symbolic, padded};
-use super::small_solves;
+use super::{small, small_solves};
 use crate::scalar::{Scalar, array, array_mut};
 
 /// Columns of a panel that are read side by side.
@@ -55,7 +55,7 @@ pub(super) fn forward<S: Scalar, const FUSED: bool>(
             fetch(if next.is_small() { &[] } else { square });
             fetch(lower);
         }
-        if front.is_small() {
+        if const { small::is_for::<S>(FUSED) } && front.is_small() {
             let (_, lower, _) = small_solves::pieces(front, factors);
             small_solves::forward::<S, FUSED>((symbolic, part), front, lower, x);
             continue;
@@ -91,7 +91,7 @@ pub(super) fn backward<S: Scalar, const FUSED: bool>(
             fetch(square);
             fetch(upper);
         }
-        if front.is_small() {
+        if const { small::is_for::<S>(FUSED) } && front.is_small() {
             let (square, _, upper) = small_solves::pieces(front, factors);
             small_solves::backward::<S, FUSED, false>(
                 (symbolic, part),
@@ -180,7 +180,7 @@ pub(super) fn forward_transposed<S: Scalar, const FUSED: bool>(
     vectors: &mut FrontVectors<S>,
 ) {
     for front in &symbolic.fronts[part.fronts.clone()] {
-        if front.is_small() {
+        if const { small::is_for::<S>(FUSED) } && front.is_small() {
             let (_, _, upper) = small_solves::pieces(front, factors);
             small_solves::forward_transposed::<S, FUSED>((symbolic, part), front, upper, x);
             continue;
@@ -210,7 +210,7 @@ pub(super) fn backward_transposed<S: Scalar, const FUSED: bool>(
     vectors: &mut FrontVectors<S>,
 ) {
     for front in symbolic.fronts[part.fronts.clone()].iter().rev() {
-        if front.is_small() {
+        if const { small::is_for::<S>(FUSED) } && front.is_small() {
             let (square, lower, _) = small_solves::pieces(front, factors);
             small_solves::backward_transposed::<S, FUSED>(
                 (symbolic, part),
