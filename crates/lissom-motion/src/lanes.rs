@@ -123,6 +123,11 @@ impl<S: Simd> Real for Lanes<S> {
     }
 
     #[inline(always)]
+    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
+        self.simd.vectorize(work)
+    }
+
+    #[inline(always)]
     fn one_by_one<const K: usize, const M: usize, const N: usize>(
         arguments: [Self; K],
         function: fn([f64; K]) -> [[f64; N]; M],

@@ -39,6 +39,13 @@ pub trait Real:
         arguments: [Self; K],
         function: fn([f64; K]) -> [[f64; N]; M],
     ) -> [[Self; N]; M];
+
+    /// Does what is asked in a function of its own, for long formulas with many callers that are seldom evaluated; `self`
+    /// only tells the kind.
+    #[inline(always)]
+    fn apart<T>(self, work: impl FnOnce() -> T) -> T {
+        work()
+    }
 }
 
 impl Real for f64 {

@@ -288,42 +288,46 @@ impl<J: Joint> JointBatch for Batch<J> {
 
     fn pack(&mut self, joints: &[AttachedJoint]) {
         self.processor = processor_for(self.joints.len());
-        let of = |chunk: &[u32], lane: usize| &joints[chunk[lane.min(chunk.len() - 1)] as usize];
         let numbers: Vec<[f64; MOST_NUMBERS]> = self.joints.iter().map(Joint::numbers).collect();
-        self.packs = self
-            .indices
-            .chunks(WIDTH)
-            .zip(numbers.chunks(WIDTH))
-            .map(|(chunk, numbers)| {
-                let all: [&AttachedJoint; WIDTH] = std::array::from_fn(|lane| of(chunk, lane));
-                let offsets = [0, 1].map(|side| {
-                    let poses = all.map(|joint| Pose::from(&joint.frames[side].offset).components());
-                    std::array::from_fn(|k| poses.map(|pose| pose[k]))
-                });
-                let is_turned = all
-                    .iter()
-                    .flat_map(|joint| &joint.frames)
-                    .any(|frame| frame.offset.rotation != lissom_motion::Rotation::IDENTITY);
-                Pack {
-                    count: chunk.len(),
-                    nodes: [0, 1].map(|side| all.map(|joint| joint.frames[side].node)),
-                    offsets,
-                    is_turned,
-                    numbers: std::array::from_fn(|k| {
-                        std::array::from_fn(|lane| numbers[lane.min(numbers.len() - 1)][k])
-                    }),
-                    coordinates: std::array::from_fn(|k| {
-                        all.map(|joint| joint.coordinates.get(k).map_or(0, |&coordinate| coordinate as u32))
-                    }),
-                    equations: all.map(|joint| (joint.first_multiplier as u32, joint.equations() as u32)),
-                }
-            })
-            .collect();
+        self.packs = packs(&self.indices, joints, &numbers);
     }
 
     fn as_any_mut(&mut self) -> &mut dyn Any {
         self
     }
+}
+
+/// Lays out what is constant of joints of any kind, given by their indices among all.
+fn packs(indices: &[u32], joints: &[AttachedJoint], numbers: &[[f64; MOST_NUMBERS]]) -> Vec<Pack> {
+    let of = |chunk: &[u32], lane: usize| &joints[chunk[lane.min(chunk.len() - 1)] as usize];
+    indices
+        .chunks(WIDTH)
+        .zip(numbers.chunks(WIDTH))
+        .map(|(chunk, numbers)| {
+            let all: [&AttachedJoint; WIDTH] = std::array::from_fn(|lane| of(chunk, lane));
+            let offsets = [0, 1].map(|side| {
+                let poses = all.map(|joint| Pose::from(&joint.frames[side].offset).components());
+                std::array::from_fn(|k| poses.map(|pose| pose[k]))
+            });
+            let is_turned = all
+                .iter()
+                .flat_map(|joint| &joint.frames)
+                .any(|frame| frame.offset.rotation != lissom_motion::Rotation::IDENTITY);
+            Pack {
+                count: chunk.len(),
+                nodes: [0, 1].map(|side| all.map(|joint| joint.frames[side].node)),
+                offsets,
+                is_turned,
+                numbers: std::array::from_fn(|k| {
+                    std::array::from_fn(|lane| numbers[lane.min(numbers.len() - 1)][k])
+                }),
+                coordinates: std::array::from_fn(|k| {
+                    all.map(|joint| joint.coordinates.get(k).map_or(0, |&coordinate| coordinate as u32))
+                }),
+                equations: all.map(|joint| (joint.first_multiplier as u32, joint.equations() as u32)),
+            }
+        })
+        .collect()
 }
 
 impl Pack {
@@ -360,17 +364,23 @@ impl Pack {
         }
     }
 
-    #[inline(always)]
-    fn gather<J: Joint>(&self, lanes: usize, point: &Point<'_>, gathered: &mut Gathered) {
-        let increments = &point.increments;
+    /// Those of the nodes. Compiled once for joints of all kinds.
+    #[inline(never)]
+    fn gather_changes(&self, lanes: usize, point: &Point<'_>, changes: &mut [[Block; 12]; 2]) {
         for side in 0..2 {
             let of = |lane: usize| {
-                let change = &increments.nodes[self.nodes[side][lane]];
+                let change = &point.increments.nodes[self.nodes[side][lane]];
                 let (turn, shift) = (change.turn.as_slice(), &change.shift);
                 std::array::from_fn(|k| if k < 9 { turn[k] } else { shift[k - 9] })
             };
-            gather(self.count, lanes, of, &mut gathered.changes[side]);
+            gather(self.count, lanes, of, &mut changes[side]);
         }
+    }
+
+    #[inline(always)]
+    fn gather<J: Joint>(&self, lanes: usize, point: &Point<'_>, gathered: &mut Gathered) {
+        let increments = &point.increments;
+        self.gather_changes(lanes, point, &mut gathered.changes);
         for k in 0..J::COORDINATES.len() {
             for lane in 0..lanes {
                 gathered.coordinates[k][lane] = increments.coordinates[self.coordinates[k][lane] as usize];

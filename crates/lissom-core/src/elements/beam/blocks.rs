@@ -9,7 +9,7 @@ use pulp::{Simd, WithSimd};
 
 use super::Beam;
 use super::forces::{Constants, forces};
-use super::stiffness::stiffness;
+use super::stiffness::{stiffness, times_from_right, transpose_times_rows};
 use crate::elements::blocks::{Blocks, block_of, nodes_of};
 use crate::lanes::{Frames, Part, Screws, gather_frames, gather_twists, parts};
 use crate::system::{Kinematics, NodeId};
@@ -284,8 +284,8 @@ impl<const N: usize> BeamBlock<N> {
                 for m in 0..N {
                     if let Some(offsets) = &self.offsets {
                         let (own, other) = (part.frame(&offsets[i]), part.frame(&offsets[m]));
-                        let seen = other.adjoint_inverse().times_from_right(&matrices[i][m]);
-                        matrices[i][m] = own.adjoint_inverse().transpose_times_rows(&seen);
+                        let seen = times_from_right(other.adjoint_inverse(), &matrices[i][m]);
+                        matrices[i][m] = transpose_times_rows(own.adjoint_inverse(), &seen);
                     }
                     for row in 0..6 {
                         part.store(matrices[i][m][row], &mut results[i][row][m]);

@@ -34,7 +34,7 @@ fn rate_by_coordinates<const N: usize>(
     // ∂ε̇/∂d = ∂(T ḋ')/∂d + ∂²(T d')/∂d² ḋ, and ∂ε̇/∂d' = Ṫ.
     let by_d = tangent_derivative(d, &rate_slope) + second_derivative_times(d, d_slope, &rate);
     let by_slope = tangent_rate(d, &rate);
-    std::array::from_fn(|k| shape[k] * by_d + slope[k] * by_slope + strains[k] * changes[k])
+    std::array::from_fn(|k| shape[k] * by_d + slope[k] * by_slope + product(&strains[k], &changes[k]))
 }
 
 impl<const N: usize> Linearization<N> {
@@ -81,16 +81,16 @@ impl<const N: usize> Linearization<N> {
         // The reference node has no coordinates of its own.
         for i in (0..N).filter(|&i| i != Beam::<N>::REFERENCE) {
             self.conjugate[i] += slope[i] * along + shape[i] * across;
-            let left = weight * strains[i].transpose() * station.law.stiffness;
+            let left = product(&(weight * strains[i].transpose()), &station.law.stiffness);
             for k in (0..N).filter(|&k| k != Beam::<N>::REFERENCE) {
                 let stiffness = &mut self.stiffness[i][k];
-                *stiffness += left * strains[k]
+                *stiffness += product(&left, &strains[k])
                     + slope[i] * shape[k] * turn
                     + shape[i] * slope[k] * turn.transpose()
                     + shape[i] * shape[k] * bend;
                 if let Some(viscous) = &viscous {
-                    *stiffness += station.law.damping * left * viscous[k];
-                    self.damping[i][k] += station.law.damping * left * strains[k];
+                    *stiffness += product(&(station.law.damping * left), &viscous[k]);
+                    self.damping[i][k] += product(&(station.law.damping * left), &strains[k]);
                 }
             }
         }
@@ -105,13 +105,14 @@ impl<const N: usize> Linearization<N> {
             let force = inverse_tangent_transpose_times(&self.relative[i], &self.conjugate[i]);
             geometric[i] = coadjoint_matrix(&force);
             for k in (0..N).filter(|&k| k != Beam::<N>::REFERENCE) {
-                let mut change = inverse[i].transpose() * self.stiffness[i][k];
+                let mut change = product(&inverse[i].transpose(), &self.stiffness[i][k]);
                 if i == k {
                     change += inverse_tangent_transpose_derivative(&self.relative[i], &self.conjugate[i]);
                 }
-                stiffness[i][k] = change * inverse[k];
+                stiffness[i][k] = product(&change, &inverse[k]);
                 if self.damped {
-                    damping[i][k] = inverse[i].transpose() * self.damping[i][k] * inverse[k];
+                    let change = product(&inverse[i].transpose(), &self.damping[i][k]);
+                    damping[i][k] = product(&change, &inverse[k]);
                 }
             }
         }
@@ -138,14 +139,14 @@ fn spread<const N: usize>(
         let mut sum = Matrix6::zeros();
         for i in (0..N).filter(|&i| i != r) {
             let change = if i == k { blocks[i][k] - geometric[i] } else { blocks[i][k] };
-            sum -= adjoints[i].transpose() * change;
+            sum -= product(&adjoints[i].transpose(), &change);
         }
         blocks[r][k] = sum;
     }
     for i in 0..N {
         let mut sum = Matrix6::zeros();
         for k in (0..N).filter(|&k| k != r) {
-            sum -= blocks[i][k] * adjoints[k];
+            sum -= product(&blocks[i][k], &adjoints[k]);
         }
         blocks[i][r] = sum;
     }
@@ -153,14 +154,20 @@ fn spread<const N: usize>(
         for k in 0..N {
             let mut block = blocks[i][k];
             if let Some(offset) = &beam.offsets[i] {
-                block = offset.inverse().adjoint().transpose() * block;
+                block = product(&offset.inverse().adjoint().transpose(), &block);
             }
             if let Some(offset) = &beam.offsets[k] {
-                block *= offset.inverse().adjoint();
+                block = product(&block, &offset.inverse().adjoint());
             }
             add_block(out, 6 * N, (6 * i, 6 * k), &block);
         }
     }
+}
+
+/// A product of matrices, compiled once: it has 216 multiplications, and many callers.
+#[inline(never)]
+fn product(left: &Matrix6, right: &Matrix6) -> Matrix6 {
+    left * right
 }
 
 /// Ṫ for the rate ḋ.
@@ -186,6 +193,9 @@ fn rate_changes<const N: usize>(beam: &Beam<N>, at: &Kinematics, relative: &Rela
     std::array::from_fn(|k| {
         let seen = Motion::exponential(&relative[k]).adjoint_inverse_times(&reference);
         inverse_tangent_derivative(&relative[k], &twists[k])
-            - inverse_tangent(&relative[k]) * lie_bracket_matrix(&seen) * tangent(&relative[k])
+            - product(
+                &product(&inverse_tangent(&relative[k]), &lie_bracket_matrix(&seen)),
+                &tangent(&relative[k]),
+            )
     })
 }

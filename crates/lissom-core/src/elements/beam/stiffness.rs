@@ -28,8 +28,8 @@ pub(super) fn stiffness<R: Real, const N: usize>(
     for i in 0..N {
         if i != reference {
             let motion = frames[i].relative_to(frames[reference]);
-            relative[i] = motion.logarithm();
-            relative_stressed[i] = stressed[i].relative_to(stressed[reference]).logarithm();
+            relative[i] = logarithm(motion);
+            relative_stressed[i] = logarithm(stressed[i].relative_to(stressed[reference]));
             adjoints[i] = motion.adjoint_inverse();
         }
     }
@@ -52,16 +52,11 @@ fn by_coordinates<R: Real, const N: usize>(
     let mut conjugate = [zero; N];
     for k in 0..N - 1 {
         let d_slope = combine_slopes(constants, k, relative);
-        let curved = CurvedTangent::new(combine_shapes(constants, k, relative));
-        let strain = combine_shapes(constants, k, stressed)
-            .tangent_times(combine_slopes(constants, k, stressed))
-            - constants.natural(k);
+        let stressed_shape = combine_shapes(constants, k, stressed);
+        let strain = strain(stressed_shape, combine_slopes(constants, k, stressed)) - constants.natural(k);
         let stress = constants.stress(k, strain);
-        let along = curved.operator.transpose_times(stress);
-        let across = curved.operator.derivative_transpose_times(d_slope, stress);
-        let turn = curved.operator.transpose_derivative(stress);
-        let bend = curved.hessian(d_slope, stress);
-        let (by_slope, by_shape) = (curved.operator.matrix(), curved.operator.derivative(d_slope));
+        let AtStation { along, across, turn, bend, by_slope, by_shape } =
+            at_station(combine_shapes(constants, k, relative), d_slope, stress);
         let law = constants.law(k);
         let mut strains = [by_slope; N];
         let mut stresses = [law; N];
@@ -70,13 +65,13 @@ fn by_coordinates<R: Real, const N: usize>(
                 let (slope, shape) = (constants.slope(k, i), zero.rotation.x.like(constants.shape(k, i)));
                 conjugate[i] = conjugate[i].plus_scaled(along, slope).plus_scaled(across, shape);
                 strains[i] = by_slope.scaled_by(slope).plus_scaled(by_shape, shape);
-                stresses[i] = strains[i].times_from_right(&law);
+                stresses[i] = times_from_right(strains[i], &law);
             }
         }
         for i in 0..N {
             for m in 0..N {
                 if i != reference && m != reference {
-                    add_rows(&mut blocks[i][m], &strains[i].transpose_times_rows(&stresses[m]));
+                    add_rows(&mut blocks[i][m], &transpose_times_rows(strains[i], &stresses[m]));
                     let (own, other) = (constants.shape(k, i), constants.shape(k, m));
                     turn.scaled_by(constants.slope(k, i).scaled(other))
                         .plus_scaled(turn.transposed(), constants.slope(k, m).scaled(own))
@@ -89,6 +84,84 @@ fn by_coordinates<R: Real, const N: usize>(
     (blocks, conjugate)
 }
 
+// What follows has long formulas, which are compiled once for beams of any number of nodes.
+
+#[inline(always)]
+fn logarithm<R: Real>(motion: Pose<R>) -> Screw<R> {
+    motion.position.x.apart(
+        #[inline(always)]
+        || motion.logarithm(),
+    )
+}
+
+/// T(d) d'.
+#[inline(always)]
+fn strain<R: Real>(d: Screw<R>, d_slope: Screw<R>) -> Screw<R> {
+    d.rotation.x.apart(
+        #[inline(always)]
+        || d.tangent_times(d_slope),
+    )
+}
+
+#[inline(always)]
+fn inverse_tangent<R: Real>(d: Screw<R>) -> TangentOperator<R> {
+    d.rotation.x.apart(
+        #[inline(always)]
+        || TangentOperator::inverse(d),
+    )
+}
+
+/// `W M` of rows W and a twist matrix M.
+#[inline(always)]
+pub(super) fn times_from_right<R: Real>(matrix: DualMatrix<R>, rows: &Rows<R>) -> Rows<R> {
+    rows[0].rotation.x.apart(
+        #[inline(always)]
+        || matrix.times_from_right(rows),
+    )
+}
+
+/// `Mᵀ W` of a twist matrix M and rows W.
+#[inline(always)]
+pub(super) fn transpose_times_rows<R: Real>(matrix: DualMatrix<R>, rows: &Rows<R>) -> Rows<R> {
+    rows[0].rotation.x.apart(
+        #[inline(always)]
+        || matrix.transpose_times_rows(rows),
+    )
+}
+
+/// What all nodes need of a station, at T(d) and d', with the stress σ.
+struct AtStation<R> {
+    /// Tᵀ σ.
+    along: Screw<R>,
+    /// (∂(T d')/∂d)ᵀ σ.
+    across: Screw<R>,
+    /// ∂(Tᵀ σ)/∂d.
+    turn: DualMatrix<R>,
+    /// ∂²(σᵀ T d')/∂d∂d.
+    bend: DualMatrix<R>,
+    /// Strains by d' and by d.
+    by_slope: DualMatrix<R>,
+    by_shape: DualMatrix<R>,
+}
+
+#[inline(always)]
+fn at_station<R: Real>(d: Screw<R>, d_slope: Screw<R>, stress: Screw<R>) -> AtStation<R> {
+    d.rotation.x.apart(
+        #[inline(always)]
+        || {
+            let curved = CurvedTangent::new(d);
+            AtStation {
+                along: curved.operator.transpose_times(stress),
+                across: curved.operator.derivative_transpose_times(d_slope, stress),
+                turn: curved.operator.transpose_derivative(stress),
+                bend: curved.hessian(d_slope, stress),
+                by_slope: curved.operator.matrix(),
+                by_shape: curved.operator.derivative(d_slope),
+            }
+        },
+    )
+}
+
 /// From ∂g_i/∂d_k to ∂F_i/∂η_k; gives X(F_i).
 #[inline(always)]
 fn by_relative_variations<R: Real, const N: usize>(
@@ -97,10 +170,10 @@ fn by_relative_variations<R: Real, const N: usize>(
     conjugate: &[Screw<R>; N],
 ) -> [DualMatrix<R>; N] {
     let reference = Beam::<N>::REFERENCE;
-    let mut inverse = [TangentOperator::inverse(relative[reference + 1]); N];
+    let mut inverse = [inverse_tangent(relative[reference + 1]); N];
     for i in 0..N {
         if i != reference && i != reference + 1 {
-            inverse[i] = TangentOperator::inverse(relative[i]);
+            inverse[i] = inverse_tangent(relative[i]);
         }
     }
     let mut geometric = [DualMatrix::coadjoint(conjugate[0]); N];
@@ -109,11 +182,11 @@ fn by_relative_variations<R: Real, const N: usize>(
             geometric[i] = DualMatrix::coadjoint(inverse[i].transpose_times(conjugate[i]));
             for m in 0..N {
                 if m != reference {
-                    let mut change = inverse[i].matrix().transpose_times_rows(&blocks[i][m]);
+                    let mut change = transpose_times_rows(inverse[i].matrix(), &blocks[i][m]);
                     if i == m {
                         inverse[i].transpose_derivative(conjugate[i]).add_to(&mut change);
                     }
-                    blocks[i][m] = inverse[m].matrix().times_from_right(&change);
+                    blocks[i][m] = times_from_right(inverse[m].matrix(), &change);
                 }
             }
         }
@@ -137,14 +210,14 @@ fn spread<R: Real, const N: usize>(
                 if i == m {
                     (-geometric[i]).add_to(&mut change);
                 }
-                subtract_rows(&mut blocks[reference][m], &adjoints[i].transpose_times_rows(&change));
+                subtract_rows(&mut blocks[reference][m], &transpose_times_rows(adjoints[i], &change));
             }
         }
     }
     for i in 0..N {
         for m in 0..N {
             if m != reference {
-                let seen = adjoints[m].times_from_right(&blocks[i][m]);
+                let seen = times_from_right(adjoints[m], &blocks[i][m]);
                 subtract_rows(&mut blocks[i][reference], &seen);
             }
         }
