@@ -54,5 +54,5 @@ pub use report::{FactorError, FactorReport, TINY_PIVOT};
 pub use scalar::Scalar;
 pub use singular_values::{condition_number, singular_values};
 pub use skyline::Skyline;
-pub use solver::{KINDS, LinearSolver, SolverKind, kind};
+pub use solver::{KINDS, LinearSolver, SEVERAL, SolverKind, kind};
 pub use structure::{Group, Structure, StructureError};

@@ -7,6 +7,9 @@ use crate::scalar::Scalar;
 use crate::structure::Structure;
 use crate::{dense, multifrontal, pivoting, skyline};
 
+/// So many right-hand sides are solved for at once.
+pub const SEVERAL: usize = 8;
+
 /// Factors matrices of one structure, again and again, and solves with the last one factored.
 pub trait LinearSolver<S: Scalar>: Send {
     /// Name of its kind.
@@ -34,6 +37,23 @@ pub trait LinearSolver<S: Scalar>: Send {
     /// # Panics
     /// If the right-hand side has the wrong length.
     fn solve_transposed(&mut self, right_hand_side: &mut [S]);
+
+    /// Solves `A x = b` in place for several right-hand sides, which stand side by side.
+    ///
+    /// # Panics
+    /// If there are not as many rows as unknowns.
+    fn solve_several(&mut self, right_hand_sides: &mut [[S; SEVERAL]]) {
+        let mut own = vec![S::zero(); right_hand_sides.len()];
+        for lane in 0..SEVERAL {
+            for (value, row) in own.iter_mut().zip(&*right_hand_sides) {
+                *value = row[lane];
+            }
+            self.solve(&mut own);
+            for (row, value) in right_hand_sides.iter_mut().zip(&own) {
+                row[lane] = *value;
+            }
+        }
+    }
 
     /// Count of stored numbers in L and U.
     fn factor_entries(&self) -> usize;

@@ -1,20 +1,22 @@
 //! Derivatives of an output by numbers of the model file, along the steps of a run.
 
+mod course;
+mod ways;
+
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use lissom_core::analysis::{InitialError, StepError};
 use lissom_model::document::AnalysisKind;
-use lissom_model::numbers::number_at;
 use lissom_model::output::Summary;
 use lissom_model::{Document, Report};
 use serde_json::{Value, json};
 
 use crate::model::{Model, Override};
 use crate::session::{Session, SessionError};
+use course::Course;
+use ways::{Question, Ways};
 
-/// How far neighbouring models are from the model, relative to the number. Differences of both sides err by its square.
-const APART: f64 = 1e-4;
 /// Newton's tolerance, at least: what it leaves is divided by the distance of the neighbours.
 const TOLERANCE: f64 = 1e-12;
 
@@ -148,6 +150,8 @@ pub struct Derivative {
     pub number: f64,
     /// Derivative of the measure by it.
     pub value: f64,
+    /// Whether the state's derivatives were carried along the steps; otherwise neighbouring models took the same steps.
+    pub is_carried: bool,
 }
 
 /// Derivatives of a measure of an output.
@@ -161,25 +165,10 @@ pub struct GradientReport {
     pub derivatives: Vec<Derivative>,
     /// Steps of the run.
     pub steps: usize,
-    /// Corrections of neighbouring models over all steps.
+    /// Corrections of derivatives over all steps, and of neighbouring models.
     pub corrections: usize,
     /// How long it took.
     pub wall: Duration,
-}
-
-/// Models whose number is a little smaller and a little larger.
-struct Neighbours {
-    path: String,
-    number: f64,
-    sessions: [Session; 2],
-}
-
-/// One column along the run: times, values, and derivatives by number.
-#[derive(Default)]
-struct Course {
-    times: Vec<f64>,
-    values: Vec<f64>,
-    derivatives: Vec<Vec<f64>>,
 }
 
 /// Derivatives of `target` by the numbers at `paths` of `model`, with `overrides` put in place.
@@ -203,35 +192,27 @@ pub fn gradient(
     let Some(column) = known.iter().position(|name| *name == target.column) else {
         return Err(GradientError::Column { name: target.column.clone(), known: known.join(", ") });
     };
-    let mut neighbours = paths
-        .iter()
-        .map(|path| Neighbours::new(model, overrides, target, (&document, &session), path))
-        .collect::<Result<Vec<_>, _>>()?;
-    let mut course = Course::default();
-    let mut corrections = 0;
-    course.note(&session, &neighbours, column);
+    let question = Question { model, overrides, target, document: &document, session: &session };
+    let mut ways = Ways::new(&question, paths)?;
+    let mut course = Course::new(target.measure);
+    course.note(&session, column, &mut |column| ways.derivatives(&session, column));
     while !session.is_finished() {
         session.advance()?;
-        if !session.simulation_mut().renew_at_solution()? {
-            return Err(GradientError::InParts(session.progress().time));
-        }
-        for Neighbours { sessions, .. } in &mut neighbours {
-            for neighbour in sessions {
-                corrections += neighbour.simulation_mut().follow(session.simulation_mut())?;
-            }
-        }
-        course.note(&session, &neighbours, column);
+        ways.advance(&mut session)?;
+        course.note(&session, column, &mut |column| ways.derivatives(&session, column));
     }
-    let (value, time, derivatives) = course.measure(target.measure);
+    let (value, time, derivatives) = course.measured();
+    let steps = course.steps();
+    let (numbers, corrections) = ways.into_numbers();
     Ok(GradientReport {
         value,
         time,
-        derivatives: neighbours
+        derivatives: numbers
             .into_iter()
             .zip(derivatives)
-            .map(|(Neighbours { path, number, .. }, value)| Derivative { path, number, value })
+            .map(|((path, number, is_carried), value)| Derivative { path, number, value, is_carried })
             .collect(),
-        steps: course.times.len() - 1,
+        steps,
         corrections,
         wall: began.elapsed(),
     })
@@ -266,103 +247,11 @@ fn prepared(model: &Model, overrides: &[Override], target: &Target) -> Result<Do
     Ok(document)
 }
 
-impl Neighbours {
-    fn new(
-        model: &Model,
-        overrides: &[Override],
-        target: &Target,
-        (document, session): (&Document, &Session),
-        path: &str,
-    ) -> Result<Self, GradientError> {
-        if path.split('.').next().is_some_and(|table| table.trim() == "analysis") {
-            let words =
-                format!("`{path}` is of the analysis, not of the model: there is no derivative by it");
-            return Err(GradientError::Number(words));
-        }
-        let number =
-            number_at(model.text(), overrides, &document.parameters, path).map_err(GradientError::Number)?;
-        if number == 0.0 {
-            let words = format!(
-                "the number at `{path}` is zero, which tells no size: give it a small value, or a parameter beside it"
-            );
-            return Err(GradientError::Number(words));
-        }
-        let neighbour = |side: f64| {
-            let mut changed = overrides.to_vec();
-            changed.push((path.to_owned(), format!("{:?}", number * (1.0 + side * APART))));
-            let neighbour = Session::new(&prepared(model, &changed, target)?)?;
-            let unknowns = |session: &Session| {
-                let layout = session.simulation().system().layout();
-                (layout.coordinate_count(), layout.size(), session.columns().len())
-            };
-            if unknowns(&neighbour) == unknowns(session)
-                && neighbour.simulation().system().pattern() == session.simulation().system().pattern()
-            {
-                Ok(neighbour)
-            } else {
-                Err(GradientError::Unlike(path.to_owned()))
-            }
-        };
-        Ok(Self { path: path.to_owned(), number, sessions: [neighbour(-1.0)?, neighbour(1.0)?] })
-    }
-
-    /// Derivative of a column by the number, now.
-    fn derivative(&self, column: usize) -> f64 {
-        let [below, above] = [0, 1].map(|side| {
-            let mut values = Vec::new();
-            self.sessions[side].values(&mut values);
-            values[column]
-        });
-        let apart = self.number * (1.0 + APART) - self.number * (1.0 - APART);
-        (above - below) / apart
-    }
-}
-
-impl Course {
-    fn note(&mut self, session: &Session, neighbours: &[Neighbours], column: usize) {
-        let mut values = Vec::new();
-        session.values(&mut values);
-        self.times.push(session.progress().time);
-        self.values.push(values[column]);
-        self.derivatives.resize(neighbours.len(), Vec::new());
-        for (derivatives, neighbours) in self.derivatives.iter_mut().zip(neighbours) {
-            derivatives.push(neighbours.derivative(column));
-        }
-    }
-
-    /// Value, its time, and its derivatives.
-    fn measure(&self, measure: Measure) -> (f64, Option<f64>, Vec<f64>) {
-        let last = self.values.len() - 1;
-        let at = |index: usize| {
-            let derivatives = self.derivatives.iter().map(|of| of[index]).collect();
-            (self.values[index], Some(self.times[index]), derivatives)
-        };
-        match measure {
-            Measure::End | Measure::Time(_) => at(last),
-            Measure::Max => {
-                let first = (0..=last).rev().max_by(|&a, &b| self.values[a].total_cmp(&self.values[b]));
-                at(first.unwrap_or(last))
-            }
-            Measure::Rms => {
-                let duration = self.times[last] - self.times[0];
-                let mean = |of: &dyn Fn(usize) -> f64| {
-                    let part = |k: usize| 0.5 * (self.times[k + 1] - self.times[k]) * (of(k) + of(k + 1));
-                    (0..last).map(part).sum::<f64>() / duration
-                };
-                let value = mean(&|k| self.values[k].powi(2)).sqrt();
-                let derivatives =
-                    self.derivatives.iter().map(|of| mean(&|k| self.values[k] * of[k]) / value).collect();
-                (value, None, derivatives)
-            }
-        }
-    }
-}
-
 impl GradientReport {
     /// The table `gradient.csv`: path, number, derivative.
     pub fn csv(&self) -> String {
         let mut text = "path,number,derivative\n".to_owned();
-        for Derivative { path, number, value } in &self.derivatives {
+        for Derivative { path, number, value, .. } in &self.derivatives {
             // Writing to a string cannot fail.
             let _ = writeln!(text, "{path},{number:?},{value:?}");
         }
@@ -377,8 +266,10 @@ impl GradientReport {
         tell("of", json!(of));
         tell("value", json!(self.value));
         tell("time", json!(self.time));
-        let derivative =
-            |of: &Derivative| json!({ "path": of.path, "number": of.number, "derivative": of.value });
+        let derivative = |of: &Derivative| {
+            let way = if of.is_carried { "carried" } else { "neighbours" };
+            json!({ "path": of.path, "number": of.number, "derivative": of.value, "way": way })
+        };
         tell("derivatives", self.derivatives.iter().map(derivative).collect());
         tell("steps", json!(self.steps));
         tell("corrections", json!(self.corrections));

@@ -1,7 +1,8 @@
 //! The factored tangent: real for schemes of one stage, complex for coupled pairs.
 
+use lissom_motion::Block;
 use lissom_solver::{
-    FactorError, FactorReport, LinearSolver, Pattern, SolverKind, Structure, condition_estimate,
+    FactorError, FactorReport, LinearSolver, Pattern, SEVERAL, SolverKind, Structure, condition_estimate,
 };
 use num_complex::Complex64;
 
@@ -146,6 +147,28 @@ impl Factorization {
                 for (value, (a, b)) in right_hand_side.iter().zip(first.iter_mut().zip(second.iter_mut())) {
                     *a = (right[0] * value).re;
                     *b = (right[1] * value).re;
+                }
+            }
+            _ => unreachable!("a factorisation is made for its scheme's coupling"),
+        }
+    }
+
+    /// The same for several right-hand sides at once: one in each lane.
+    pub(crate) fn solve_several(&mut self, coupling: &Coupling, stages: &mut [Vec<Block>]) {
+        match (self, coupling) {
+            (Self::Single { solver, .. }, Coupling::Single(_)) => solver.solve_several(&mut stages[0]),
+            (Self::Pair { solver, .. }, Coupling::Pair { left, right, .. }) => {
+                let (first, second) = stages.split_at_mut(1);
+                let (first, second) = (&mut first[0], &mut second[0]);
+                let mixed = |(a, b): (&Block, &Block)| {
+                    std::array::from_fn(|lane| left[0] * a[lane] + left[1] * b[lane])
+                };
+                let mut right_hand_sides: Vec<[Complex64; SEVERAL]> =
+                    first.iter().zip(second.iter()).map(mixed).collect();
+                solver.solve_several(&mut right_hand_sides);
+                for (value, (a, b)) in right_hand_sides.iter().zip(first.iter_mut().zip(second.iter_mut())) {
+                    *a = value.map(|value| (right[0] * value).re);
+                    *b = value.map(|value| (right[1] * value).re);
                 }
             }
             _ => unreachable!("a factorisation is made for its scheme's coupling"),

@@ -5,6 +5,7 @@ pub mod assembly;
 pub(crate) mod compliance;
 pub mod conditioning;
 mod corrections;
+mod differentiation;
 pub mod dynamics;
 mod equations;
 pub mod equilibrium;
@@ -27,6 +28,7 @@ mod whereabouts;
 mod workspace;
 
 pub use conditioning::{Condition, ConditionMethod};
+pub use differentiation::Sensitivities;
 pub(crate) use dynamics::warn;
 pub use dynamics::{Settings, Simulation, StepReport, Totals};
 pub use held_values::InputError;

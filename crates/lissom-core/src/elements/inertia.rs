@@ -12,7 +12,7 @@ use lissom_motion::{Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times
 use super::blocks::Blocks;
 use super::inertia_blocks::InertiaBlocks;
 use super::step_stages::{STAGES, StepStages};
-use super::{Element, Energy, MOST_UNKNOWNS, Tangents, add_block};
+use super::{Element, Energy, MOST_UNKNOWNS, Tangents, add_block, is_same};
 use crate::registry::Function;
 use crate::system::state::split;
 use crate::system::{Kinematics, NodeId};
@@ -106,6 +106,15 @@ impl Element for Inertia {
 
     fn blocks(elements: &[Self]) -> Option<Box<dyn Blocks>> {
         Some(Box::new(InertiaBlocks::new(elements)))
+    }
+
+    fn derivative(neighbours: &[(&Self, f64)]) -> Option<Self> {
+        let (first, _) = neighbours.first()?;
+        let is_alike = |other: &Self| first.node == other.node && is_same(&first.gravity, &other.gravity);
+        neighbours.iter().all(|(other, _)| is_alike(other)).then(|| Self {
+            mass: neighbours.iter().map(|(other, weight)| other.mass * *weight).sum(),
+            ..(*first).clone()
+        })
     }
 
     /// Gravity is corrected along the momenta P_j, so that its work is exactly the change of potential energy:

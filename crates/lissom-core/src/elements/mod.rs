@@ -117,6 +117,12 @@ impl Tangents {
     }
 }
 
+/// Whether two parts of neighbouring models hold the same numbers. What is shown for debugging shows them all, and each
+/// to the last bit.
+pub(crate) fn is_same<T: std::fmt::Debug + ?Sized>(one: &T, other: &T) -> bool {
+    format!("{one:?}") == format!("{other:?}")
+}
+
 /// Adds `block` to the local matrix at local rows from `row` and columns from `column`.
 pub(crate) fn add_block<const R: usize, const C: usize>(
     matrix: &mut [f64],
@@ -132,7 +138,7 @@ pub(crate) fn add_block<const R: usize, const C: usize>(
 }
 
 /// An element. SI in, SI out.
-pub trait Element: Send + Sync + 'static {
+pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     /// Nodes it acts on, in local order.
     fn nodes(&self) -> &[NodeId];
 
@@ -162,6 +168,16 @@ pub trait Element: Send + Sync + 'static {
         for (at, out) in step.stages.iter().zip(out) {
             self.forces(at, &mut out[..size]);
         }
+    }
+
+    /// Where forces are proportional to what a number of the model changes, as to a stiffness or a mass: an element whose
+    /// forces are their derivative by the number, from this element in neighbouring models with the weights of a
+    /// difference. Default: there is none, and differences of forces stand for it.
+    fn derivative(_neighbours: &[(&Self, f64)]) -> Option<Self>
+    where
+        Self: Sized,
+    {
+        None
     }
 
     /// Adds the derivatives of `forces`. `out` is zero on entry. Rare.

@@ -15,7 +15,7 @@ use super::threads::Threads;
 use crate::elements::blocks::Blocks;
 use crate::elements::sides::Sides;
 use crate::elements::step_stages::{STAGES, StepStages};
-use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
+use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents, is_same};
 use crate::joints::derivatives::IncrementTangent;
 use crate::lanes::processor_for;
 
@@ -74,7 +74,23 @@ pub(crate) trait AnyBatch: Send + Sync {
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)>;
     /// The two nodes of an element that are turned most against each other, and the cosine of half that angle.
     fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])>;
+    /// What of these elements differs from those of neighbouring models, which come with the weights of a difference; none
+    /// where that cannot be told.
+    fn changed(&self, neighbours: &[(&dyn AnyBatch, f64)], layout: &Layout) -> Option<Changed>;
+    /// Adds the forces of some items alone.
+    fn forces_of(&self, items: &[usize], at: &Kinematics, out: &mut [f64]);
+    fn as_any(&self) -> &dyn Any;
     fn as_any_mut(&mut self) -> &mut dyn Any;
+}
+
+/// What of the elements of a kind differs between two models.
+pub(crate) enum Changed {
+    /// Nothing.
+    Nothing,
+    /// Elements whose forces are the derivative by the number.
+    Derivative(Box<dyn AnyBatch>),
+    /// These items, whose forces are to be compared.
+    Items(Vec<usize>),
 }
 
 /// Whom an element belongs to: its first node that is not the ground, or its first coordinate.
@@ -321,6 +337,49 @@ impl<E: Element> AnyBatch for Batch<E> {
     fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
         let pairs = self.items.iter().filter_map(|item| item.least_aligned(at));
         pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
+    }
+
+    fn changed(&self, neighbours: &[(&dyn AnyBatch, f64)], layout: &Layout) -> Option<Changed> {
+        let mut others: Vec<(&Self, f64)> = Vec::with_capacity(neighbours.len());
+        for (other, weight) in neighbours {
+            let other = other.as_any().downcast_ref::<Self>()?;
+            if other.rows != self.rows {
+                return None;
+            }
+            others.push((other, *weight));
+        }
+        let neighbours = others;
+        let is_changed = |&item: &usize| {
+            neighbours.iter().any(|(other, _)| !is_same(&self.items[item], &other.items[item]))
+        };
+        let items: Vec<usize> = (0..self.items.len()).filter(is_changed).collect();
+        if items.is_empty() {
+            return Some(Changed::Nothing);
+        }
+        let derivative = |&item: &usize| {
+            let of: Vec<(&E, f64)> =
+                neighbours.iter().map(|(other, weight)| (&other.items[item], *weight)).collect();
+            E::derivative(&of)
+        };
+        let Some(derivatives) = items.iter().map(derivative).collect::<Option<Vec<E>>>() else {
+            return Some(Changed::Items(items));
+        };
+        let mut batch = Self { items: derivatives, ..Self::new() };
+        batch.connect(layout);
+        Some(Changed::Derivative(Box::new(batch)))
+    }
+
+    fn forces_of(&self, items: &[usize], at: &Kinematics, out: &mut [f64]) {
+        for &item in items {
+            let rows = self.item_rows(item);
+            let mut local = [0.0; MOST_UNKNOWNS];
+            self.items[item].forces(at, &mut local[..rows.len()]);
+            scatter(rows, &local, out);
+        }
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
     }
 
     fn as_any_mut(&mut self) -> &mut dyn Any {

@@ -14,7 +14,7 @@ use std::sync::Arc;
 use lissom_solver::Pattern;
 
 use super::System;
-use super::batch::{AnyBatch, Chart, Owner, power, scatter, through, work};
+use super::batch::{AnyBatch, Changed, Chart, Owner, power, scatter, through, work};
 use super::layout::Layout;
 use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
@@ -377,6 +377,18 @@ impl AnyBatch for Arc<Feedback> {
 
     fn least_aligned(&self, _: &Kinematics) -> Option<(f64, [NodeId; 2])> {
         None
+    }
+
+    fn changed(&self, _: &[(&dyn AnyBatch, f64)], _: &Layout) -> Option<Changed> {
+        None
+    }
+
+    fn forces_of(&self, _: &[usize], at: &Kinematics, out: &mut [f64]) {
+        self.add_forces(at, out);
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
     }
 
     fn as_any_mut(&mut self) -> &mut dyn Any {

@@ -11,6 +11,7 @@ mod factorisation;
 mod fronts;
 mod instances;
 mod kernels;
+mod several;
 mod small;
 mod small_solves;
 mod square;
@@ -28,6 +29,7 @@ pub use symmetric::Symmetric;
 
 use factorisation::Numeric;
 use fronts::Symbolic;
+use several::Several;
 use sweeps::{Factors, Sweep};
 use triangular::FrontVectors;
 
@@ -35,7 +37,7 @@ use crate::entries::{first_not_finite, largest_magnitude};
 use crate::pattern::Pattern;
 use crate::report::{FactorError, FactorReport};
 use crate::scalar::Scalar;
-use crate::solver::LinearSolver;
+use crate::solver::{LinearSolver, SEVERAL};
 use crate::structure::Structure;
 
 pub(crate) const NAME: &str = "sparse";
@@ -48,6 +50,8 @@ pub struct Multifrontal<S> {
     numeric: Numeric<S>,
     vector: Vec<S>,
     front_vectors: Vec<FrontVectors<S>>,
+    /// The same for several right-hand sides, with room for a front; empty until they are asked for.
+    several: [Vec<[S; SEVERAL]>; 2],
     /// How many subtrees each thread has; none with a single one.
     crews: Vec<usize>,
 }
@@ -75,6 +79,7 @@ impl<S: Scalar> Multifrontal<S> {
             numeric: Numeric::new(&symbolic, &pattern),
             vector: vec![S::zero(); symbolic.unknowns.len()],
             front_vectors: symbolic.parts.iter().map(FrontVectors::new).collect(),
+            several: [Vec::new(), Vec::new()],
             crews: Vec::new(),
             symbolic,
             pattern,
@@ -147,6 +152,16 @@ impl<S: Scalar> LinearSolver<S> for Multifrontal<S> {
 
     fn solve_transposed(&mut self, right_hand_side: &mut [S]) {
         self.triangular(right_hand_side, Way::Transposed);
+    }
+
+    fn solve_several(&mut self, right_hand_sides: &mut [[S; SEVERAL]]) {
+        assert_eq!(right_hand_sides.len(), self.pattern.size(), "one row for each unknown");
+        let Self { processor, symbolic, numeric, several, .. } = self;
+        let room = symbolic.parts.iter().map(|part| part.largest_pivots + part.largest_boundary);
+        let [vector, front] = several;
+        vector.resize(symbolic.unknowns.len(), [S::zero(); SEVERAL]);
+        front.resize(room.max().unwrap_or(0), [S::zero(); SEVERAL]);
+        processor.dispatch(Several { symbolic, numeric, right_hand_sides, vector, front });
     }
 
     fn factor_entries(&self) -> usize {
@@ -251,6 +266,18 @@ mod tests {
                 solver.triangular(&mut x, if transposed { Way::Transposed } else { Way::Plain });
                 let error = backward_error(&structure.pattern, &values, &x, &b, transposed);
                 assert!(error < 1e-12, "{processor:?}: {error:e}");
+            }
+            let mut side_by_side: Vec<[S; SEVERAL]> = b
+                .iter()
+                .map(|&value| std::array::from_fn(|lane| value * S::from_real(lane as f64 - 2.5)))
+                .collect();
+            let asked = side_by_side.clone();
+            solver.solve_several(&mut side_by_side);
+            for lane in 0..SEVERAL {
+                let [x, b] =
+                    [&side_by_side, &asked].map(|of| of.iter().map(|row| row[lane]).collect::<Vec<S>>());
+                let error = backward_error(&structure.pattern, &values, &x, &b, false);
+                assert!(error < 1e-12, "{processor:?}, lane {lane}: {error:e}");
             }
         }
     }

@@ -86,7 +86,7 @@ fn told(heading: &str, of: &str, found: &GradientReport, folder: &Path) -> Strin
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "  {of} = {:.9e}{time}, {} steps, {} corrections of neighbouring models, {:.3} s",
+        "  {of} = {:.9e}{time}, {} steps, {} corrections, {:.3} s",
         found.value,
         found.steps,
         found.corrections,

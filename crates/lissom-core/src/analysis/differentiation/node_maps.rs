@@ -1,0 +1,139 @@
+//! How variations of a node at a stage follow from those at the start of the step and of the increments: what
+//! `node_motion` computes, differentiated.
+//!
+//! Legend: η, ν, α variations of place, twist and its derivative, at the start η₀, ν₀; z increment, V₀ twist at the start, t time
+//! since then; ζ rate and κ curvature of the increment, A = Ad(exp(-z)), E = exp(V₀ t), T tangent operator, U = A V₀.
+//!
+//! ```text
+//! from the start:  η = Ad(exp(-ψ)) η₀ + T(ψ) (t ν₀ + δz),  ψ = V₀ t + z,      ν = ν₀ + δζ,      α = δκ
+//! departures:      e = T(z) δz,      η = A (Ad(E⁻¹) η₀ + T(V₀ t) t ν₀) + e
+//!                  δU = A ν₀ + ad_U e,     δW = T δζ + ∂(T ζ)/∂z δz,     ν = δU + δW
+//!                  α = T δκ + ∂(T κ + Ṫ ζ)/∂z δz + ∂(Ṫ ζ)/∂ζ δζ + ad_U δW - ad_W δU
+//! ```
+
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use lissom_motion::{
+    Block, Matrix6, Motion, ScrewTangent, Vector6, WIDTH, lie_bracket_matrix, tangent, tangent_hessian,
+};
+
+use super::variation::NOTHING;
+use crate::schemes::Increments;
+
+/// Six components of a node, side by side.
+pub(super) type Six = [Block; 6];
+
+/// A node's motion at a stage.
+pub(super) struct NodeStage {
+    /// V₀.
+    pub(super) twist: Vector6,
+    /// t [s].
+    pub(super) ahead: f64,
+    /// z, ζ, κ.
+    pub(super) increment: Vector6,
+    pub(super) rate: Vector6,
+    pub(super) curvature: Vector6,
+}
+
+/// Variations that those at the stage follow given.
+pub(super) struct Given {
+    pub(super) place: Six,
+    pub(super) twist: Six,
+    pub(super) increment: Six,
+    pub(super) rate: Six,
+    pub(super) curvature: Six,
+}
+
+/// The linear map of a node at a stage.
+#[derive(Clone, Debug)]
+pub(super) struct NodeMap {
+    /// Place by η₀, ν₀ and δz.
+    place: [Matrix6; 3],
+    /// Rate by ν₀, δz and δζ, and acceleration by ν₀, δz, δζ and δκ, of departures.
+    departure: Option<Box<([Matrix6; 3], [Matrix6; 4])>>,
+}
+
+impl NodeMap {
+    pub(super) fn new(increments: Increments, stage: &NodeStage) -> Self {
+        let NodeStage { twist, ahead, increment, rate, curvature } = stage;
+        let straight = twist * *ahead;
+        if increments == Increments::FromStart {
+            let psi = straight + increment;
+            let by_increment = tangent(&psi);
+            return Self { place: [carry(&psi), by_increment * *ahead, by_increment], departure: None };
+        }
+        let back = carry(increment);
+        let operator = ScrewTangent::new(increment);
+        let by_increment = operator.matrix();
+        let carried = back * twist;
+        let bracket = lie_bracket_matrix(&carried);
+        let gained = operator.times(rate);
+        let by_gain = lie_bracket_matrix(&gained);
+        // δU by ν₀ and δz, δW by δz and δζ.
+        let (seen, turned) = (back, bracket * by_increment);
+        let (bent, grown) = (operator.derivative(rate), by_increment);
+        let rates = [seen, turned + bent, grown];
+        // Ṫ ζ = (∂(T b)/∂z) ζ at b = ζ.
+        let unit = |k: usize| Vector6::from_fn(|i, _| f64::from(u8::from(i == k)));
+        let mut by_place = operator.derivative(curvature);
+        let mut by_rate = bent;
+        for k in 0..6 {
+            let hessian = tangent_hessian(increment, rate, &unit(k));
+            let row = (hessian * rate).transpose() + by_place.row(k);
+            by_place.set_row(k, &row);
+            let column = operator.rate_times(rate, &unit(k)) + by_rate.column(k);
+            by_rate.set_column(k, &column);
+        }
+        let accelerations = [
+            -by_gain * seen,
+            by_place + bracket * bent - by_gain * turned,
+            by_rate + bracket * grown,
+            by_increment,
+        ];
+        let places = [back * carry(&straight), back * tangent(&straight) * *ahead, by_increment];
+        Self { place: places, departure: Some(Box::new((rates, accelerations))) }
+    }
+
+    /// Variations of place, twist and acceleration at the stage.
+    #[inline(always)]
+    pub(super) fn apply(&self, given: &Given) -> [Six; 3] {
+        let mut place = [NOTHING; 6];
+        for (matrix, six) in self.place.iter().zip([&given.place, &given.twist, &given.increment]) {
+            add_product(matrix, six, &mut place);
+        }
+        let Some(departure) = &self.departure else {
+            let mut rate = given.twist;
+            for (sum, value) in rate.iter_mut().flatten().zip(given.rate.iter().flatten()) {
+                *sum += value;
+            }
+            return [place, rate, given.curvature];
+        };
+        let (rates, accelerations) = &**departure;
+        let (mut rate, mut acceleration) = ([NOTHING; 6], [NOTHING; 6]);
+        let parts = [&given.twist, &given.increment, &given.rate, &given.curvature];
+        for (matrix, six) in rates.iter().zip(parts) {
+            add_product(matrix, six, &mut rate);
+        }
+        for (matrix, six) in accelerations.iter().zip(parts) {
+            add_product(matrix, six, &mut acceleration);
+        }
+        [place, rate, acceleration]
+    }
+}
+
+/// Ad(exp(-ψ)).
+fn carry(psi: &Vector6) -> Matrix6 {
+    Motion::exponential(psi).inverse().adjoint()
+}
+
+#[inline(always)]
+fn add_product(matrix: &Matrix6, six: &Six, out: &mut Six) {
+    for (k, value) in six.iter().enumerate() {
+        for (i, sum) in out.iter_mut().enumerate() {
+            let entry = matrix[(i, k)];
+            for lane in 0..WIDTH {
+                sum[lane] += entry * value[lane];
+            }
+        }
+    }
+}

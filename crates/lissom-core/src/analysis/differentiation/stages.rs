@@ -1,0 +1,323 @@
+//! The stages of a step as their derivatives see them: residuals of the linear equations, corrections, and what comes of them
+//! at the end of the step.
+
+use lissom_motion::{Block, Vector6, WIDTH};
+
+use super::node_maps::{Given, NodeMap, NodeStage, Six};
+use super::products::Products;
+use super::variation::NOTHING;
+use super::{Lanes, relative_weights};
+use crate::analysis::dynamics::Simulation;
+use crate::analysis::equations::StepEquations;
+use crate::analysis::phase::Unwatched;
+use crate::schemes::Combination;
+use crate::system::{Chart, LOCKED, Linearization, NodeId, Reach, System};
+
+/// Variations at a stage, by row.
+#[derive(Clone, Debug, Default)]
+struct AtStage {
+    place: Vec<Block>,
+    rate: Vec<Block>,
+    acceleration: Vec<Block>,
+}
+
+/// What is known of the stages of a step, and room to work in.
+pub(super) struct Stages {
+    moving: Vec<NodeId>,
+    parts: Linearization,
+    products: Vec<Products>,
+    /// By stage and moving node.
+    maps: Vec<Vec<NodeMap>>,
+    /// Derivatives of the residuals by the numbers, by stage.
+    explicit: Vec<Vec<Block>>,
+    residuals: Vec<Vec<Block>>,
+    at: Vec<AtStage>,
+    scratch: [Vec<f64>; 2],
+    weights: Vec<f64>,
+    processor: pulp::Arch,
+}
+
+impl Stages {
+    pub(super) fn new(system: &System, count: usize) -> Self {
+        let layout = system.layout();
+        let rows = vec![NOTHING; layout.coordinate_count()];
+        let all = vec![NOTHING; layout.size()];
+        let is_moving = |&node: &NodeId| layout.node_rows[node].iter().any(|&row| row != LOCKED);
+        let at = AtStage { place: rows.clone(), rate: rows.clone(), acceleration: rows };
+        Self {
+            moving: (0..layout.node_count()).filter(is_moving).collect(),
+            parts: Linearization::new(system),
+            products: vec![Products::default(); count],
+            maps: vec![Vec::new(); count],
+            explicit: vec![all.clone(); count],
+            residuals: vec![all; count],
+            at: vec![at; count],
+            scratch: [vec![0.0; layout.size()], vec![0.0; layout.size()]],
+            weights: Vec::new(),
+            processor: pulp::Arch::new(),
+        }
+    }
+
+    /// Takes note of the last step of `base`, whose tangent has been made at its solution.
+    pub(super) fn enter(&mut self, base: &mut Simulation) {
+        self.weights = relative_weights(base);
+        let Simulation { system, settings, work, previous, scaled, representative, .. } = base;
+        let (layout, scheme, size) = (system.layout(), &settings.scheme, scaled.step_size());
+        let pattern = &system.structure().pattern;
+        let equations = StepEquations {
+            system,
+            scheme,
+            scaled: *scaled,
+            scaling: (&settings.scaling, representative),
+            start: previous,
+            work,
+            watch: &mut Unwatched,
+        };
+        for (index, stage) in scheme.stages.iter().enumerate() {
+            system.linearize(&equations.point(index), Chart::Body, &mut self.parts);
+            self.products[index].enter(pattern, layout.coordinate_count(), &self.parts);
+            let work = &*equations.work;
+            let map = |&node: &NodeId| {
+                let rows = &layout.node_rows[node];
+                let own = |of: &dyn Fn(usize) -> f64| {
+                    Vector6::from_fn(|k, _| if rows[k] == LOCKED { 0.0 } else { of(rows[k] as usize) })
+                };
+                let combined = |combination: &Combination, unit: f64| {
+                    own(&|row| work.unit.combine(combination, &work.increments, row) / unit)
+                };
+                let stage = NodeStage {
+                    twist: previous.kinematics.nodes[node].twist,
+                    ahead: if scheme.dynamic { stage.abscissa * size } else { 0.0 },
+                    increment: own(&|row| work.increments[index][row]),
+                    rate: combined(&stage.rate, size),
+                    curvature: combined(&stage.curvature, size * size),
+                };
+                NodeMap::new(scheme.increments, &stage)
+            };
+            self.maps[index] = self.moving.iter().map(map).collect();
+        }
+    }
+
+    /// Derivatives of the residuals by numbers of the model, at given motion.
+    pub(super) fn reach(&mut self, base: &Simulation, reaches: &[Reach]) {
+        let [scratch, own] = &mut self.scratch;
+        let work = &base.work;
+        for (index, explicit) in self.explicit.iter_mut().enumerate() {
+            explicit.fill(NOTHING);
+            for (lane, reach) in reaches.iter().enumerate() {
+                own.fill(0.0);
+                reach.add(&work.motions[index].at, &work.multipliers[index], scratch, own);
+                for (block, value) in explicit.iter_mut().zip(&*own) {
+                    block[lane] = *value;
+                }
+            }
+        }
+    }
+
+    /// Residuals of the linear equations with what is known of increments and multipliers.
+    pub(super) fn evaluate(&mut self, base: &Simulation, lanes: &Lanes) {
+        let pattern = &base.system.structure().pattern;
+        for index in 0..self.residuals.len() {
+            self.vary(base, lanes, index);
+            let residual = &mut self.residuals[index];
+            residual.copy_from_slice(&self.explicit[index]);
+            let AtStage { place, rate, acceleration } = &self.at[index];
+            let multipliers = Some(&lanes.multipliers[index][..]);
+            self.products[index].add(
+                self.processor,
+                pattern,
+                [place, rate, acceleration],
+                multipliers,
+                residual,
+            );
+        }
+    }
+
+    /// Variations at a stage.
+    fn vary(&mut self, base: &Simulation, lanes: &Lanes, index: usize) {
+        self.processor.dispatch(Vary {
+            base,
+            lanes,
+            index,
+            moving: &self.moving,
+            maps: &self.maps[index],
+            out: &mut self.at[index],
+        });
+    }
+
+    /// Solves for corrections and applies them: their size in each lane.
+    pub(super) fn correct(&mut self, base: &mut Simulation, lanes: &mut Lanes) -> Block {
+        let layout = base.system.layout();
+        let (count, work) = (layout.coordinate_count(), &mut *base.work);
+        let factor = base.scaled.multiplier_factor();
+        // The tangent has the augmented term, which vanishes with the violations.
+        for (residual, multipliers) in self.residuals.iter().zip(&mut lanes.multipliers) {
+            for ((value, violation), weight) in
+                multipliers.iter_mut().zip(&residual[count..]).zip(&self.weights)
+            {
+                for lane in 0..WIDTH {
+                    value[lane] -= weight * violation[lane];
+                }
+            }
+        }
+        if let Some((compliance, _)) = &work.yielding {
+            let [room, violations] = &mut self.scratch;
+            let scale = factor * base.scaled.scale();
+            for (residual, multipliers) in self.residuals.iter_mut().zip(&lanes.multipliers) {
+                for lane in 0..WIDTH {
+                    let known = room.iter_mut().zip(multipliers);
+                    known.for_each(|(value, block)| *value = block[lane]);
+                    let own = violations.iter_mut().zip(&residual[count..]);
+                    own.for_each(|(value, block)| *value = block[lane]);
+                    let rows = layout.multiplier_rows().len();
+                    compliance.relax(scale, &room[..rows], &mut violations[..rows]);
+                    let back = residual[count..].iter_mut().zip(&*violations);
+                    back.for_each(|(block, value)| block[lane] = *value);
+                }
+            }
+        }
+        for residual in &mut self.residuals {
+            multiply(residual, &work.row_factors);
+        }
+        work.factorization.solve_several(&base.settings.scheme.coupling, &mut self.residuals);
+        let mut sizes = NOTHING;
+        for (index, residual) in self.residuals.iter_mut().enumerate() {
+            if let Some(equilibration) = &work.equilibration {
+                multiply(residual, equilibration.factors());
+            }
+            for ((value, correction), size) in
+                lanes.increments[index].iter_mut().zip(&*residual).zip(&work.sizes)
+            {
+                for lane in 0..WIDTH {
+                    value[lane] -= correction[lane];
+                    sizes[lane] = larger(sizes[lane], size * correction[lane]);
+                }
+            }
+            for (value, correction) in lanes.multipliers[index].iter_mut().zip(&residual[count..]) {
+                for lane in 0..WIDTH {
+                    value[lane] -= factor * correction[lane];
+                }
+            }
+        }
+        sizes
+    }
+
+    /// Variations at the end of the step.
+    pub(super) fn leave(&mut self, base: &Simulation, lanes: &mut Lanes) {
+        let last = self.residuals.len() - 1;
+        self.vary(base, lanes, last);
+        let scheme = &base.settings.scheme;
+        let size = base.scaled.step_size();
+        let memory: Vec<Block> = (0..base.system.layout().coordinate_count())
+            .map(|row| combine(&scheme.algorithmic, lanes, row, size).map(|value| value / (size * size)))
+            .collect();
+        lanes.now.algorithmic = memory;
+        std::mem::swap(&mut lanes.now.place, &mut self.at[last].place);
+        std::mem::swap(&mut lanes.now.rate, &mut self.at[last].rate);
+        std::mem::swap(&mut lanes.now.acceleration, &mut self.at[last].acceleration);
+        lanes.now.multipliers.copy_from_slice(&lanes.multipliers[last]);
+    }
+}
+
+struct Vary<'a> {
+    base: &'a Simulation,
+    lanes: &'a Lanes,
+    index: usize,
+    moving: &'a [NodeId],
+    maps: &'a [NodeMap],
+    out: &'a mut AtStage,
+}
+
+impl pulp::WithSimd for Vary<'_> {
+    type Output = ();
+
+    #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+    #[inline(always)]
+    fn with_simd<V: pulp::Simd>(self, _: V) {
+        let Vary { base, lanes, index, moving, maps, out } = self;
+        let (layout, scheme) = (base.system.layout(), &base.settings.scheme);
+        let (stage, size) = (&scheme.stages[index], base.scaled.step_size());
+        let (now, own) = (&lanes.now, &lanes.increments[index]);
+        let rate = |row: usize| combine(&stage.rate, lanes, row, size).map(|value| value / size);
+        let curvature =
+            |row: usize| combine(&stage.curvature, lanes, row, size).map(|value| value / (size * size));
+        for (map, &node) in maps.iter().zip(moving) {
+            let rows = &layout.node_rows[node];
+            let six = |values: &[Block]| -> Six {
+                std::array::from_fn(|k| if rows[k] == LOCKED { NOTHING } else { values[rows[k] as usize] })
+            };
+            let of = |value: &dyn Fn(usize) -> Block| -> Six {
+                std::array::from_fn(|k| if rows[k] == LOCKED { NOTHING } else { value(rows[k] as usize) })
+            };
+            let given = Given {
+                place: six(&now.place),
+                twist: six(&now.rate),
+                increment: six(own),
+                rate: of(&rate),
+                curvature: of(&curvature),
+            };
+            let reached = map.apply(&given);
+            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+                let row = row as usize;
+                [out.place[row], out.rate[row], out.acceleration[row]] =
+                    [reached[0][k], reached[1][k], reached[2][k]];
+            }
+        }
+        let straight = if scheme.dynamic { 1.0 } else { 0.0 };
+        for &row in &layout.coordinate_rows {
+            let row = row as usize;
+            let (rates, curvatures) = (rate(row), curvature(row));
+            for lane in 0..WIDTH {
+                let ahead = straight * now.rate[row][lane];
+                out.place[row][lane] = now.place[row][lane] + stage.abscissa * size * ahead + own[row][lane];
+                out.rate[row][lane] = ahead + rates[lane];
+                out.acceleration[row][lane] = curvatures[lane];
+            }
+        }
+    }
+}
+
+/// The largest derivative of an increment in each lane.
+pub(super) fn largest_found(base: &Simulation, lanes: &Lanes) -> Block {
+    let mut largest = NOTHING;
+    for increments in &lanes.increments {
+        for (value, size) in increments.iter().zip(&base.work.sizes) {
+            for lane in 0..WIDTH {
+                largest[lane] = larger(largest[lane], size * value[lane]);
+            }
+        }
+    }
+    largest
+}
+
+/// A scheme's linear combination of increments and of the start of a step of unit length.
+#[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+#[inline(always)]
+fn combine(combination: &Combination, lanes: &Lanes, row: usize, size: f64) -> Block {
+    let now = &lanes.now;
+    let mut sum = NOTHING;
+    for lane in 0..WIDTH {
+        sum[lane] = combination.rate * size * now.rate[row][lane]
+            + size
+                * size
+                * (combination.algorithmic * now.algorithmic[row][lane]
+                    + combination.curvature * now.acceleration[row][lane]);
+        for (weight, increments) in combination.increments.iter().zip(&lanes.increments) {
+            sum[lane] += weight * increments[row][lane];
+        }
+    }
+    sum
+}
+
+fn multiply(values: &mut [Block], factors: &[f64]) {
+    for (block, factor) in values.iter_mut().zip(factors) {
+        for value in block {
+            *value *= factor;
+        }
+    }
+}
+
+/// The larger magnitude; not a number if one is not.
+fn larger(most: f64, value: f64) -> f64 {
+    if value.abs() <= most || most.is_nan() { most } else { value.abs() }
+}

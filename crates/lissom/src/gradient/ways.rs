@@ -1,0 +1,242 @@
+//! Two ways to the derivatives of a state: carried along the steps as linear unknowns, or as differences of two neighbouring
+//! models that take the same steps.
+
+use lissom_core::analysis::{Sensitivities, Simulation};
+use lissom_core::system::State;
+use lissom_model::Document;
+use lissom_model::numbers::number_at;
+
+use super::{GradientError, Target, prepared};
+use crate::model::{Model, Override};
+use crate::session::Session;
+
+/// How far neighbouring models that take the same steps are from the model, relative to the number. Differences of both sides
+/// err by its square, and by round-off of a solution over it.
+const APART: f64 = 1e-4;
+/// The same where only starts and what the number changes directly are compared, with differences of fourth order: round-off
+/// has little of so large a distance.
+const AROUND: f64 = 2e-3;
+/// The same of second order, where models at that distance do not exist.
+const NEAR: f64 = 3e-5;
+/// The largest displacement of a state over which a column is differentiated [-, rad], how much smaller the next is, and how
+/// many there are.
+const LARGEST: f64 = 1e-3;
+const SMALLER: f64 = 0.125;
+const TRIED: i32 = 5;
+/// A step that is shorter than the others by more than this part is of another size.
+const WHOLE: f64 = 1e-9;
+
+/// What is asked, of which model.
+pub(super) struct Question<'a> {
+    pub(super) model: &'a Model,
+    pub(super) overrides: &'a [Override],
+    pub(super) target: &'a Target,
+    pub(super) document: &'a Document,
+    /// The model at its start.
+    pub(super) session: &'a Session,
+}
+
+/// Models whose number is a little smaller and a little larger, each with its weight in their difference.
+struct Neighbours {
+    path: String,
+    number: f64,
+    sessions: Vec<(Session, f64)>,
+    /// Its index among the derivatives that are carried; none where they take the steps themselves.
+    carried: Option<usize>,
+}
+
+/// All numbers, each on its way.
+pub(super) struct Ways {
+    numbers: Vec<Neighbours>,
+    sensitivities: Option<Sensitivities>,
+    corrections: usize,
+    /// Room for displaced states.
+    state: State,
+}
+
+impl Question<'_> {
+    fn number(&self, path: &str) -> Result<f64, GradientError> {
+        if path.split('.').next().is_some_and(|table| table.trim() == "analysis") {
+            let words =
+                format!("`{path}` is of the analysis, not of the model: there is no derivative by it");
+            return Err(GradientError::Number(words));
+        }
+        let number = number_at(self.model.text(), self.overrides, &self.document.parameters, path)
+            .map_err(GradientError::Number)?;
+        if number == 0.0 {
+            let words = format!(
+                "the number at `{path}` is zero, which tells no size: give it a small value, or a parameter beside it"
+            );
+            return Err(GradientError::Number(words));
+        }
+        Ok(number)
+    }
+
+    /// Models around the number at `path`, with the weights of a difference of second order over this distance, relative to
+    /// the number; or of fourth order.
+    fn neighbours(
+        &self,
+        path: &str,
+        number: f64,
+        (distance, is_fourth): (f64, bool),
+    ) -> Result<Vec<(Session, f64)>, GradientError> {
+        let apart = number * distance;
+        let sides: &[(f64, f64)] = if is_fourth {
+            &[(-1.0, -8.0 / 12.0), (1.0, 8.0 / 12.0), (-2.0, 1.0 / 12.0), (2.0, -1.0 / 12.0)]
+        } else {
+            &[(-1.0, -0.5), (1.0, 0.5)]
+        };
+        let neighbour = |&(side, weight): &(f64, f64)| {
+            let mut changed = self.overrides.to_vec();
+            changed.push((path.to_owned(), format!("{:?}", number + side * apart)));
+            let neighbour = Session::new(&prepared(self.model, &changed, self.target)?)?;
+            let unknowns = |session: &Session| {
+                let layout = session.simulation().system().layout();
+                (layout.coordinate_count(), layout.size(), session.columns().len())
+            };
+            if unknowns(&neighbour) == unknowns(self.session)
+                && neighbour.simulation().system().pattern() == self.session.simulation().system().pattern()
+            {
+                Ok((neighbour, weight / apart))
+            } else {
+                Err(GradientError::Unlike(path.to_owned()))
+            }
+        };
+        sides.iter().map(neighbour).collect()
+    }
+
+    /// Whether all steps are of one size, as what schemes of one stage remember asks for.
+    fn has_even_steps(&self) -> bool {
+        let plan = self.session.plan();
+        let size = self.session.simulation().settings().step_size;
+        (plan.steps as f64 * size - (plan.end - plan.start)).abs() <= WHOLE * size
+    }
+}
+
+impl Ways {
+    pub(super) fn new(question: &Question<'_>, paths: &[String]) -> Result<Self, GradientError> {
+        let base = question.session.simulation();
+        let is_even = base.settings().scheme.stages.len() > 1 || question.has_even_steps();
+        let mut sensitivities = if is_even { Sensitivities::new(base) } else { None };
+        let mut count = 0;
+        let mut of = |path: &String| {
+            let number = question.number(path)?;
+            if let Some(sensitivities) = &mut sensitivities {
+                // What does not work at a distance may work nearby.
+                let sessions = question
+                    .neighbours(path, number, (AROUND, true))
+                    .or_else(|_| question.neighbours(path, number, (NEAR, false)))?;
+                let simulations: Vec<(&Simulation, f64)> =
+                    sessions.iter().map(|(session, weight)| (session.simulation(), *weight)).collect();
+                if sensitivities.add(base, &simulations) {
+                    count += 1;
+                    let carried = Some(count - 1);
+                    return Ok(Neighbours { path: path.clone(), number, sessions, carried });
+                }
+            }
+            let sessions = question.neighbours(path, number, (APART, false))?;
+            Ok(Neighbours { path: path.clone(), number, sessions, carried: None })
+        };
+        let numbers = paths.iter().map(&mut of).collect::<Result<Vec<_>, GradientError>>()?;
+        Ok(Self { numbers, sensitivities, corrections: 0, state: base.state().clone() })
+    }
+
+    /// Takes the step that `session` has taken last.
+    pub(super) fn advance(&mut self, session: &mut Session) -> Result<(), GradientError> {
+        let time = session.progress().time;
+        let base = session.simulation_mut();
+        let is_carried = self.numbers.iter().any(|number| number.carried.is_some());
+        let is_known = match &mut self.sensitivities {
+            Some(sensitivities) if is_carried => sensitivities.advance(base)?,
+            _ => base.renew_at_solution()?,
+        };
+        if !is_known {
+            return Err(GradientError::InParts(time));
+        }
+        for Neighbours { sessions, .. } in self.numbers.iter_mut().filter(|of| of.carried.is_none()) {
+            for (neighbour, _) in sessions {
+                self.corrections += neighbour.simulation_mut().follow(base)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Derivatives of a column by all numbers, where `session` stands.
+    pub(super) fn derivatives(&mut self, session: &Session, column: usize) -> Vec<f64> {
+        let Self { numbers, sensitivities, state, .. } = self;
+        let base = session.simulation();
+        let mut values = Vec::new();
+        let mut of = |number: &Neighbours| {
+            let mut across = |state: Option<&State>| {
+                let mut sum = 0.0;
+                for (session, weight) in &number.sessions {
+                    let state = state.unwrap_or(session.simulation().state());
+                    sum += weight * value_of(session, state, column, &mut values);
+                }
+                sum
+            };
+            let (Some(sensitivities), Some(index)) = (&*sensitivities, number.carried) else {
+                return across(None);
+            };
+            // What the column is made of may depend on the number itself: where it measures, and from where.
+            let directly = across(Some(base.state()));
+            let extent = sensitivities.extent(base, index);
+            if extent == 0.0 {
+                let share = NEAR * number.number;
+                return directly + along(session, sensitivities, index, share, column, state);
+            }
+            let shares = (0..TRIED).map(|k| LARGEST / extent * SMALLER.powi(k));
+            let found: Vec<f64> =
+                shares.map(|share| along(session, sensitivities, index, share, column, state)).collect();
+            directly + steadiest(&found)
+        };
+        numbers.iter().map(&mut of).collect()
+    }
+
+    /// Path and value of every number, and whether its derivatives were carried; and corrections of all.
+    pub(super) fn into_numbers(self) -> (Vec<(String, f64, bool)>, usize) {
+        let carried = self.sensitivities.as_ref().map_or(0, Sensitivities::corrections);
+        let of = |number: Neighbours| (number.path, number.number, number.carried.is_some());
+        (self.numbers.into_iter().map(of).collect(), self.corrections + carried)
+    }
+}
+
+/// Derivative of a column along that of the state, as a central difference.
+fn along(
+    session: &Session,
+    sensitivities: &Sensitivities,
+    index: usize,
+    share: f64,
+    column: usize,
+    state: &mut State,
+) -> f64 {
+    let mut values = Vec::new();
+    let [below, above] = [-share, share].map(|share| {
+        sensitivities.displace(session.simulation(), index, share, state);
+        values.clear();
+        value_of(session, state, column, &mut values)
+    });
+    (above - below) / (2.0 * share)
+}
+
+/// Of differences over ever smaller displacements, the one that differs least from the one before: the curvature of the
+/// column spoils the first, round-off the last.
+fn steadiest(found: &[f64]) -> f64 {
+    let pairs = found.windows(2).map(|pair| ((pair[1] - pair[0]).abs(), pair[1]));
+    pairs.min_by(|one, other| one.0.total_cmp(&other.0)).map_or(f64::NAN, |(_, value)| value)
+}
+
+/// The value of a column in a state.
+fn value_of(session: &Session, state: &State, column: usize, values: &mut Vec<f64>) -> f64 {
+    let mut first = 0;
+    for channel in session.channels() {
+        let count = channel.components.len();
+        if column < first + count {
+            values.clear();
+            channel.evaluate(session.simulation().system(), state, values);
+            return values[column - first];
+        }
+        first += count;
+    }
+    f64::NAN
+}
