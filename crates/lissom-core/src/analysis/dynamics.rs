@@ -211,11 +211,7 @@ impl Simulation {
         work.threads = Threads::new(&system, settings.threads);
         work.factorization.set_threads(settings.threads);
         let singular = SingularPositions::new(&system, &state.kinematics, representative.length);
-        if let Some(multiplier) = singular.first_repeating() {
-            let count = system.layout().coordinate_count();
-            let compliance = Compliance::new(&system.structure().pattern, count);
-            work.yielding = Some((compliance, count + multiplier));
-        }
+        work.yielding = yielding(&system, &singular);
         work.fall_back = lissom_solver::kind("pivoting").filter(|kind| kind.name != settings.solver.name);
         let projection = settings
             .scheme
@@ -224,13 +220,8 @@ impl Simulation {
             .map(|tableau| Projection::new(&system, &state, &representative, settings.solver, tableau));
         let remembers = settings.scheme.dynamic && matches!(settings.scheme.coupling, Coupling::Single(_));
         let method_memory = remembers.then(|| {
-            MethodMemory::new(
-                &system,
-                &state,
-                &representative,
-                pivoting_unless(&settings),
-                settings.step_size,
-            )
+            let solver = pivoting_unless(&settings);
+            MethodMemory::new(&system, &state, &representative, solver, settings.step_size)
         });
         judge::relative_turns(&system, &state.kinematics)
             .map_err(|error| InitialError::Wrapped(Box::new(error)))?;
@@ -561,6 +552,13 @@ fn compensate(start: &State, changes: &[MotionChange], next: &mut State) {
         frame.position = position;
         frame.rotation = frame.rotation.normalized();
     }
+}
+
+/// What lets constraints yield that repeat each other from the start, with the first unknown that does.
+fn yielding(system: &System, singular: &SingularPositions) -> Option<(Compliance, usize)> {
+    let multiplier = singular.first_repeating()?;
+    let count = system.layout().coordinate_count();
+    Some((Compliance::new(&system.structure().pattern, count), count + multiplier))
 }
 
 fn layout_has_constraints(system: &System) -> bool {
