@@ -7,7 +7,7 @@
 //!
 //! E kinetic, elastic and potential energy, W work of loads and drives (see
 //! `System::work_of_loads`). In statics weight is a load, for it may be
-//! applied in steps, and nothing takes energy away.
+//! applied in steps, and nothing takes energy away; the potential energy is that of all of it.
 
 use serde::{Deserialize, Serialize};
 
@@ -133,16 +133,20 @@ impl Ledger {
             ..*self
         };
         if weighs {
-            after.weigh(system.energy(end.at), is_motion);
+            // Weight that grows with the load parameter does its work by the trapezoidal rule, as other loads do.
+            let gravity = [start.at, end.at].map(|at| system.gravity_factor(at.time));
+            let of_weight = (!is_motion).then_some(0.5 * (gravity[0] + gravity[1]));
+            after.weigh(system.energy(end.at), of_weight);
         }
         after
     }
 
-    /// Takes note of the energy.
-    fn weigh(&mut self, energy: Energy, is_motion: bool) {
-        if !is_motion {
-            self.loads -= energy.potential - self.energy.potential;
+    /// Takes note of the energy; in statics with the part of the weight that acts as a load.
+    fn weigh(&mut self, energy: Energy, of_weight: Option<f64>) {
+        if let Some(part) = of_weight {
+            self.loads -= part * (energy.potential - self.energy.potential);
         }
+        let is_motion = of_weight.is_none();
         self.energy = energy;
         self.unweighed = 0;
         self.most = self.most.max(energy.kinetic + energy.strain);

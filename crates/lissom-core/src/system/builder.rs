@@ -401,7 +401,7 @@ impl Builder {
             joint_starts,
             joint_rows: joint_rows.concat(),
             inertias,
-            gravity: self.gravity.acceleration,
+            gravity: self.gravity,
             feedback,
         };
         Ok((system, state))

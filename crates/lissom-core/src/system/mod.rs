@@ -31,7 +31,7 @@ use lissom_motion::Vector3;
 use lissom_solver::Structure;
 
 use crate::elements::Energy;
-use crate::elements::inertia::Inertia;
+use crate::elements::inertia::{Gravity, Inertia};
 use crate::joints::attached::AttachedJoint;
 use crate::joints::blocks::{Batches, JointStarts};
 use crate::joints::coupling::Coupling;
@@ -81,7 +81,7 @@ pub struct System {
     pub(crate) joint_rows: Vec<u32>,
     pub(crate) joint_starts: Vec<usize>,
     pub(crate) inertias: Vec<Inertia>,
-    pub(crate) gravity: Vector3,
+    pub(crate) gravity: Gravity,
     /// Signals and what they act on.
     pub(crate) feedback: Arc<Feedback>,
 }
@@ -132,9 +132,14 @@ impl System {
         self.feedback.depends_on_motion() || self.layout.state_count() > 0
     }
 
-    /// Gravity [m/s²].
+    /// Gravity in full [m/s²].
     pub fn gravity(&self) -> &Vector3 {
-        &self.gravity
+        &self.gravity.acceleration
+    }
+
+    /// The part of gravity that acts at `time` [s].
+    pub(crate) fn gravity_factor(&self, time: f64) -> f64 {
+        self.gravity.factor.as_ref().map_or(1.0, |factor| factor.value(time))
     }
 
     /// Kinetic, elastic and potential energy [J].
