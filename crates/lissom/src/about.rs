@@ -2,6 +2,7 @@
 
 use lissom_core::analysis::Settings;
 use lissom_core::analysis::equilibrium::at_rest;
+use lissom_core::judge::Warning;
 use lissom_core::linear::{LinearModel, steady};
 use lissom_core::system::{State, System};
 use lissom_model::Document;
@@ -131,13 +132,16 @@ fn in_equilibrium<T, E: From<ModesError>>(
     }
     drop(model);
     settings.limits.tolerance = settings.limits.tolerance.min(TOLERANCE);
-    let (system, mut state, _) = at_rest(system, state, &settings).map_err(ModesError::from)?;
+    let (system, mut state, doubts) = at_rest(system, state, &settings).map_err(ModesError::from)?;
+    // Instability is told by the modes themselves.
+    let relaxed = doubts.iter().filter(|doubt| matches!(doubt, Warning::Relaxed { .. }));
+    let warnings = relaxed.map(|doubt| format!("{}: {doubt}", doubt.code())).collect();
     stop(&mut state);
     let model = linear(&system, &state, &settings)?;
     let hint =
         "give the model an analysis of kind `statics` in more load steps, and take the modes at its end";
     balanced(&model, "state that was found", STILL_BALANCED, hint)?;
-    then(Reached { model: &model, channels: &channels, warnings: Vec::new() })
+    then(Reached { model: &model, channels: &channels, warnings })
 }
 
 fn in_rotation<T, E: From<ModesError>>(

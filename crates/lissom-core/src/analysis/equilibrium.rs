@@ -7,6 +7,7 @@ use lissom_solver::SolverKind;
 
 use super::dynamics::{Settings, Simulation};
 use super::initial::InitialError;
+use super::relaxation::{may_help, relax};
 use crate::judge::Warning;
 use crate::linear::LinearModel;
 use crate::schemes::statics;
@@ -43,20 +44,22 @@ pub(crate) fn start_at_rest(
     if !(settings.from_equilibrium && settings.scheme.dynamic) {
         return Ok((system, state));
     }
-    let (system, state, doubt) = at_rest(system, state, settings)?;
-    warnings.extend(doubt);
+    let (system, state, doubts) = at_rest(system, state, settings)?;
+    warnings.extend(doubts);
     Ok((system, state))
 }
 
-/// Moves the places of `state` into equilibrium, in one load step. Tells if it is unstable.
+/// Moves the places of `state` into equilibrium, in one load step or, where that has no solution, by relaxation. Tells if it is
+/// unstable, and if it was found by relaxation.
 ///
 /// # Errors
-/// If the load step has no solution, as where a part is not held.
+/// If neither finds one, as where a part is not held.
 pub fn at_rest(
     system: Arc<System>,
     state: State,
     settings: &Settings,
-) -> Result<(Arc<System>, State, Option<Warning>), InitialError> {
+) -> Result<(Arc<System>, State, Vec<Warning>), InitialError> {
+    let time = state.kinematics.time;
     let mut moved = state.clone();
     // Loads act as they are at the end of the load step, which is the start of the motion.
     let step_size = 1.0;
@@ -71,11 +74,19 @@ pub fn at_rest(
         from_equilibrium: false,
         ..settings.clone()
     };
-    let mut simulation = Simulation::new(system, moved, settings)?;
-    simulation.step().map_err(|error| InitialError::NoEquilibrium(Box::new(error)))?;
-    let doubt =
-        simulation.warnings().iter().find(|warning| matches!(warning, Warning::Unstable { .. })).cloned();
+    let mut simulation = Simulation::new(system, moved, settings.clone())?;
+    let stepped = simulation.step();
+    let doubts =
+        simulation.warnings().iter().filter(|warning| matches!(warning, Warning::Unstable { .. })).cloned();
+    let doubts = doubts.collect();
     let (system, reached) = simulation.into_parts();
+    let (reached, doubts) = match stepped {
+        Ok(_) => (reached, doubts),
+        Err(error) => {
+            let relaxed = may_help(&error).then(|| relax(&system, &state, &settings, time)).flatten();
+            relaxed.ok_or_else(|| InitialError::NoEquilibrium(Box::new(error)))?
+        }
+    };
     let mut state = state;
     for (node, reached) in state.kinematics.nodes.iter_mut().zip(&reached.kinematics.nodes) {
         node.frame = reached.frame;
@@ -84,5 +95,5 @@ pub fn at_rest(
         own.value = reached.value;
     }
     state.position_remainders = reached.position_remainders;
-    Ok((system, state, doubt))
+    Ok((system, state, doubts))
 }

@@ -19,6 +19,7 @@ pub mod path;
 pub mod phase;
 mod predictor;
 mod projection;
+pub(crate) mod relaxation;
 mod sensitivity;
 mod singular_positions;
 pub(crate) mod snapshot_parts;

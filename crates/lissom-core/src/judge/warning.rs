@@ -33,6 +33,18 @@ pub enum Warning {
         /// Words on what went before, may be empty.
         onset: String,
     },
+    /// An equilibrium was found downhill, not along a path of equilibria.
+    #[error(
+        "the equilibrium at t = {time:.6e} was found by relaxation, because Newton's method found none from the places given: \
+         parts moved by up to {distance:.3e} m, downhill; of several equilibria it is one, and which one depends on where parts \
+         begin: begin near the one that is meant"
+    )]
+    Relaxed {
+        /// Time, or load parameter [s].
+        time: f64,
+        /// The longest way of a node [m].
+        distance: f64,
+    },
     /// An equilibrium path was left by a jump.
     #[error(
         "between t = {start:.6e} and {time:.6e} the model jumps: loads do {work:.3e} J more than it stores, so a limit \
@@ -164,6 +176,7 @@ impl Warning {
         match self {
             Self::EnergySurplus { .. } => "energy-surplus",
             Self::Unstable { .. } => "unstable-equilibrium",
+            Self::Relaxed { .. } => "relaxed-equilibrium",
             Self::Jump { .. } => "jump",
             Self::VelocityReplaced { .. } => "velocity-replaced",
             Self::StartsWithJolt { .. } => "starts-with-jolt",

@@ -6,6 +6,7 @@
 pub mod energy_decaying;
 pub mod generalized_alpha;
 pub mod radau_iia;
+pub(crate) mod relaxation;
 pub mod statics;
 
 use num_complex::Complex64;

@@ -181,6 +181,7 @@ impl Simulation {
         let rest = limit - now;
         let mut attempts = Attempts::default();
         let mut first_error = None;
+        let planned = choice;
         loop {
             let size = choice.propose(rest, control.max_step);
             let error = match self.attempt(size, watch) {
@@ -205,7 +206,10 @@ impl Simulation {
             // The first failure tells more than those of shorter steps.
             let first = first_error.get_or_insert(error);
             if !(may_help && choice.halve(size)) {
-                return Err(first.clone());
+                let size = planned.propose(rest, control.max_step);
+                self.relax_first_step(size, first)?;
+                choice = planned;
+                break;
             }
         }
         report.parts = 1;

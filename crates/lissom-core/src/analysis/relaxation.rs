@@ -1,0 +1,131 @@
+//! Equilibrium where Newton's method does not find it: by steps that inertia resists, longer and longer, each from rest.
+//!
+//! A cable without tension has nearly no stiffness across itself, so that the first correction of a load step is far too
+//! large however small the load. Steps of [`relaxation`] go downhill instead, under loads and drives as they are at one
+//! instant, until a step without inertia ends near where it begins.
+
+use std::sync::Arc;
+
+use super::dynamics::{Settings, Simulation, warn};
+use super::step_error::StepError;
+use crate::judge::Warning;
+use crate::newton::Memory;
+use crate::schemes::relaxation::relaxation;
+use crate::schemes::statics;
+use crate::system::{Kinematics, State, System};
+
+/// Steps until there is no equilibrium to be found.
+const MOST_STEPS: usize = 300;
+/// Steps that end less far than this from where they begin, relative to the representative length, are followed by one without
+/// inertia …
+const SLOW: f64 = 0.03;
+/// … which must end as near as this.
+const NEAR: f64 = 0.1;
+/// A model that has moved by so many lengths is not held.
+const FAR: f64 = 1e3;
+/// The first step, in units of the time √(m/k) of the stiffest parts.
+const FIRST: f64 = 10.0;
+/// The next step over the last, and the same after a step that had to be taken in parts.
+const LONGER: f64 = 2.0;
+const SHORTER: f64 = 0.125;
+
+/// Whether relaxation may find what a load step that ended so did not.
+pub(crate) fn may_help(error: &StepError) -> bool {
+    matches!(
+        error,
+        StepError::NotConverged { .. } | StepError::NotFinite { .. } | StepError::TurnsTooFar { .. }
+    )
+}
+
+/// The equilibrium downhill from the positions of `state`, under loads and drives as they are at `time` [s], and what is to be
+/// told of it; none if it is not found.
+pub(crate) fn relax(
+    system: &Arc<System>,
+    state: &State,
+    settings: &Settings,
+    time: f64,
+) -> Option<(State, Vec<Warning>)> {
+    let mut settings =
+        Settings { scheme: relaxation(), control: None, from_equilibrium: false, ..settings.clone() };
+    let mut reached = state.clone();
+    let mut next_step = None;
+    for _ in 0..MOST_STEPS {
+        settings.scheme = relaxation();
+        settings.step_size = next_step.unwrap_or(1.0);
+        let mut simulation = begin(system, &reached, &settings, time)?;
+        let representative = *simulation.representative();
+        let length = representative.length;
+        if next_step.is_none() {
+            let shortest = (representative.mass / representative.stiffness).sqrt();
+            settings.step_size = if shortest.is_finite() && shortest > 0.0 { FIRST * shortest } else { 1e-3 };
+            simulation = begin(system, &reached, &settings, time)?;
+        }
+        let step_size = settings.step_size;
+        let Ok(report) = simulation.step() else {
+            next_step = Some(SHORTER * step_size);
+            continue;
+        };
+        let moved = distance(&reached.kinematics, &simulation.state().kinematics);
+        if distance(&state.kinematics, &simulation.state().kinematics) >= FAR * length {
+            return None;
+        }
+        reached = simulation.state().clone();
+        next_step = Some(step_size * if report.parts == 1 { LONGER } else { 1.0 });
+        if moved > SLOW * length {
+            continue;
+        }
+        settings.scheme = statics::statics();
+        settings.step_size = 1.0;
+        let mut last = begin(system, &reached, &settings, time)?;
+        if last.step().is_ok() && distance(&reached.kinematics, &last.state().kinematics) <= NEAR * length {
+            let distance = distance(&state.kinematics, &last.state().kinematics);
+            let is_instability = |warning: &&Warning| matches!(warning, Warning::Unstable { .. });
+            let mut warnings: Vec<Warning> = last.warnings().iter().filter(is_instability).cloned().collect();
+            warnings.push(Warning::Relaxed { time, distance });
+            return Some((last.state().clone(), warnings));
+        }
+    }
+    None
+}
+
+impl Simulation {
+    /// Leaves the equilibrium that relaxation finds a step of `size` [s] after the start in `next`, where the first load step
+    /// ended with `error`.
+    pub(crate) fn relax_first_step(&mut self, size: f64, error: &StepError) -> Result<(), StepError> {
+        if self.settings.scheme.dynamic || self.totals.steps > 0 || !may_help(error) {
+            return Err(error.clone());
+        }
+        let time = self.state.kinematics.time + size;
+        let found = relax(&self.system, &self.state, &self.settings, time);
+        let Some((reached, doubts)) = found else { return Err(error.clone()) };
+        self.resize(size)?;
+        self.memory = Memory::default();
+        self.next = reached;
+        self.judge_step()?;
+        for doubt in doubts {
+            warn(&mut self.warnings, doubt);
+        }
+        Ok(())
+    }
+}
+
+/// A step of the settings' size that ends at `time` begins at rest.
+fn begin(system: &Arc<System>, state: &State, settings: &Settings, time: f64) -> Option<Simulation> {
+    let mut state = state.clone();
+    state.kinematics.time = time - settings.step_size;
+    state.time_remainder = 0.0;
+    for node in &mut state.kinematics.nodes {
+        node.twist.fill(0.0);
+        node.acceleration.fill(0.0);
+    }
+    for coordinate in &mut state.kinematics.coordinates {
+        (coordinate.rate, coordinate.acceleration) = (0.0, 0.0);
+    }
+    Simulation::new(Arc::clone(system), state, settings.clone()).ok()
+}
+
+/// The longest way of a node [m].
+fn distance(from: &Kinematics, to: &Kinematics) -> f64 {
+    let ways = from.nodes.iter().zip(&to.nodes).map(|(a, b)| (b.frame.position - a.frame.position).norm());
+    ways.fold(0.0, |most, way| if way.is_finite() { most.max(way) } else { f64::INFINITY })
+}

@@ -1,0 +1,28 @@
+//! Relaxation: inertia resists each step from rest, and nothing moves after it.
+//!
+//! With rate zero and q'' = z a step minimises ½ zᵀMz + V over the positions, V the potential [proximal point method, Rockafellar
+//! 1976]: the potential falls in every step, and where a step moves nothing there is equilibrium. The inertia makes the tangent
+//! definite where the stiffness is not, as that of a cable without tension.
+
+use super::{Combination, Coupling, Increments, Scheme, Stage, Weights};
+
+/// The scheme with rate zero and the increment as curvature.
+pub(crate) fn relaxation() -> Scheme {
+    Scheme {
+        name: "relaxation".to_owned(),
+        stages: vec![Stage {
+            abscissa: 1.0,
+            rate: Combination::default(),
+            curvature: Combination { increments: [1.0, 0.0], ..Combination::default() },
+            prediction: Combination::default(),
+        }],
+        algorithmic: Combination::default(),
+        increments: Increments::FromStart,
+        coupling: Coupling::Single(Weights { rate: 0.0, curvature: 1.0 }),
+        tableau: None,
+        memory_delay: 0.0,
+        error_constant: 0.0,
+        planned_share: 0.0,
+        dynamic: false,
+    }
+}
