@@ -170,6 +170,125 @@ fn the_deep_arch_has_its_limit() {
     near(limit.load_factor, 897.289_133_844_385, 1e-7);
 }
 
+/// What is left at the far end of the deep arch as a rod of the plane [shooting over x, y, tangent angle and moment]: place and
+/// moment of its hinge, for force and moment at its clamp, and the place of the apex.
+fn shoot_arch([horizontal, vertical, moment]: [f64; 3], load: f64) -> ([f64; 3], [f64; 2]) {
+    const STEPS: usize = 400;
+    let (radius, half) = (100.0, 107.5_f64.to_radians());
+    let step = radius * half / STEPS as f64;
+    let mut state = [-95.371_695_074_822_7, -30.070_579_950_427_312, half, moment];
+    let mut apex = [0.0; 2];
+    for part in 0..2 {
+        let up = if part == 0 { vertical } else { vertical + load };
+        let rates = |[_, _, angle, moment]: [f64; 4]| {
+            let (sine, cosine) = angle.sin_cos();
+            let along = 1.0 + (horizontal * cosine + up * sine) / 1e8;
+            let across = (up * cosine - horizontal * sine) / 1e8;
+            let (x, y) = (along * cosine - across * sine, along * sine + across * cosine);
+            [x, y, moment / 1e6 - 1.0 / radius, horizontal * y - up * x]
+        };
+        for _ in 0..STEPS {
+            let moved = |rate: [f64; 4], part: f64| std::array::from_fn(|i| state[i] + part * step * rate[i]);
+            let one = rates(state);
+            let two = rates(moved(one, 0.5));
+            let three = rates(moved(two, 0.5));
+            let four = rates(moved(three, 1.0));
+            for i in 0..4 {
+                state[i] += step / 6.0 * (one[i] + 2.0 * (two[i] + three[i]) + four[i]);
+            }
+        }
+        if part == 0 {
+            apex = [state[0], state[1]];
+        }
+    }
+    ([state[0] - 95.371_695_074_822_7, state[1] + 30.070_579_950_427_312, state[3] / 1e4], apex)
+}
+
+/// Newton's method from a guess: force and moment at the clamp, scaled to be of one size, and the place of the apex.
+fn solve_arch(mut guess: [f64; 3], load: f64) -> Option<[f64; 2]> {
+    let scales = [1e3, 1e3, 1e5];
+    for _ in 0..30 {
+        let (missed, apex) = shoot_arch(guess, load);
+        if missed.iter().all(|value| value.abs() < 1e-9) {
+            return Some(apex);
+        }
+        let columns: [[f64; 3]; 3] = std::array::from_fn(|k| {
+            let mut other = guess;
+            other[k] += 1e-6 * scales[k];
+            let (changed, _) = shoot_arch(other, load);
+            std::array::from_fn(|i| (changed[i] - missed[i]) / 1e-6)
+        });
+        let determinant = |m: &[[f64; 3]; 3]| {
+            m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1])
+                - m[1][0] * (m[0][1] * m[2][2] - m[0][2] * m[2][1])
+                + m[2][0] * (m[0][1] * m[1][2] - m[0][2] * m[1][1])
+        };
+        let whole = determinant(&columns);
+        for k in 0..3 {
+            let mut replaced = columns;
+            replaced[k] = missed;
+            guess[k] -= scales[k] * determinant(&replaced) / whole;
+        }
+    }
+    None
+}
+
+#[test]
+fn the_deep_arch_goes_on_beyond_its_limit() {
+    let text = ARCH
+        .replace("scale = \"limit*(1-(1-t)^2)\"\n", "")
+        .replace("steps = 120\nend = 1\n", "end = 1000\nstep = 50\nsteps = 150\n")
+        .replace("kind = \"statics\"", "kind = \"path\"")
+        .replace("[analysis]", "[outputs.clamp]\nkind = \"reaction\"\nof = \"left\"\n\n[analysis]");
+    let (record, report) = follow(&text, &[]);
+    let factors = record.column("load_factor", "").unwrap();
+    let column = |name: &str, part: &str| record.column(name, part).unwrap();
+    let (x, y) = (column("apex", "u1"), column("apex", "u2"));
+    let reaction = ["f1", "f2", "m3"].map(|part| column("clamp", part));
+    let top = (0..factors.len()).max_by(|&a, &b| factors[a].total_cmp(&factors[b])).unwrap();
+    let mut beyond = 0;
+    for row in (1..factors.len()).filter(|&row| row + 5 > top && row % 3 == 0) {
+        let found = [1.0, -1.0].iter().find_map(|sign| {
+            let guess = reaction.map(|values| sign * values[row]);
+            let apex = solve_arch(guess, factors[row])?;
+            let missed = (apex[0] - x[row]).hypot(apex[1] - 100.0 - y[row]);
+            (missed < 1.0).then_some(missed)
+        });
+        // Near limit points the load says little of the place, elsewhere seven digits.
+        let near_limit = report.critical.iter().any(|point| (point.load_factor - factors[row]).abs() < 2.0);
+        let missed = found.unwrap_or_else(|| panic!("no equilibrium at {} ({row})", factors[row]));
+        assert!(missed < if near_limit { 1e-2 } else { 1e-4 }, "{missed:e} m at {} ({row})", factors[row]);
+        beyond += usize::from(row > top);
+    }
+    assert!(beyond > 10, "{beyond} equilibria beyond the limit");
+    let least = factors[top..].iter().copied().fold(f64::INFINITY, f64::min);
+    assert!(least < 500.0, "down to {least}");
+}
+
+const BEND: &str = include_str!("../../../verification/bend-45/model.toml");
+
+/// Shooting of the rod in space, 17 digits, as in the verification of the same bend by load steps.
+#[test]
+fn the_bend_of_45_degrees_has_its_tip_along_the_path() {
+    let text = BEND
+        .replace("vector = [0, 0, 600.0]\nscale = \"t\"\n", "vector = [0, 0, 1]\n")
+        .replace("steps = 24\nend = 1\n", "end = 600\nstep = 50\n")
+        .replace("kind = \"statics\"", "kind = \"path\"");
+    for (end, exact) in [
+        ("300", [58.778_897_329_974_77, 22.244_679_426_675_795, 40.192_392_332_295_25]),
+        ("450", [52.238_261_846_722_55, 18.508_064_875_592_15, 48.503_491_531_814]),
+        ("600", [47.150_096_240_342_04, 15.684_689_478_979_672, 53.475_477_998_225_045]),
+    ] {
+        let (record, report) = follow(&text, &[("analysis.end", end)]);
+        assert!(matches!(report.end, PathEnd::Reached), "{:?}", report.end);
+        assert!(report.critical.is_empty(), "{:?}", report.critical);
+        for (part, exact) in ["x", "y", "z"].into_iter().zip(exact) {
+            let found = *record.column("tip", part).unwrap().last().unwrap();
+            assert!((found - exact).abs() < 1e-6, "{part} at {end} N: {found} for {exact}");
+        }
+    }
+}
+
 #[test]
 fn an_euler_column_bifurcates_at_its_load() {
     let text = r#"
