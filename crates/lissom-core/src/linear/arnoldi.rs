@@ -7,16 +7,17 @@
 //! One application of the operator is one solve with the saddle-point matrix at the shift σ:
 //! (σ²M + σD + K) x + Bᵀμ = -M w₂ - (D + σM) w₁, v = w₁ + σ x. Its eigenvalues are 1/(s - σ), and what belongs to infinite
 //! eigenvalues is gone after two applications, because positions and then velocities satisfy the constraints
-//! [Cliffe, Garratt and Spence 1994; Meerbergen and Spence 1997].
+//! [Cliffe, Garratt and Spence 1994; Meerbergen and Spence 1997]. At a real shift the operator, its basis and its matrix are
+//! real; eigenvectors alone are complex [Parlett and Saad 1987].
 
 use nalgebra::{DMatrix, Schur};
 use num_complex::Complex64;
 
-use super::krylov::{Krylov, Operator, product};
+use super::krylov::{Krylov, Operator, complex, product};
 use super::lanczos::{VIOLATED, round_off};
 use super::mode::{Completeness, Mode, ModeError, ModeOptions, Modes};
 use super::model::{LinearError, LinearModel};
-use super::shifted::{ComplexShift, small_square};
+use super::shifted::{GeneralShift, Shift, small_square};
 use crate::interrupt;
 use crate::joints::Quantity;
 
@@ -43,39 +44,123 @@ const EIGENVECTOR: f64 = 1e-2;
 const SAME: f64 = 1e-4;
 
 /// Positions and velocities, in units of the model's length and of a rate.
-struct Inverse<'m, 's, 'a> {
+struct Inverse<'m, 's, 'a, S> {
     model: &'m LinearModel<'a>,
-    solver: &'s mut ComplexShift<'a>,
-    shift: Complex64,
+    solver: &'s mut GeneralShift<'a, S>,
+    shift: S,
     rate: f64,
     units: Vec<f64>,
-    room: Vec<Complex64>,
-    right: Vec<Complex64>,
-    product: Vec<Complex64>,
+    room: Vec<S>,
+    right: Vec<S>,
+    product: Vec<S>,
 }
 
-impl Operator<Complex64> for Inverse<'_, '_, '_> {
+/// The field of a shift, in which the basis is.
+trait Field: Shift {
+    /// Another shift nearby.
+    fn beside(self, change: f64) -> Self;
+    /// The operator's image of a complex vector.
+    fn image(operator: &mut Inverse<'_, '_, '_, Self>, vector: &[Complex64], image: &mut [Complex64]);
+    /// Unitary vectors and a triangular matrix, which is theirs with the given one.
+    fn schur(matrix: &DMatrix<Self>) -> Option<(DMatrix<Complex64>, DMatrix<Complex64>)>;
+}
+
+impl Field for Complex64 {
+    fn beside(self, change: f64) -> Self {
+        self * Self::new(1.0 + change, change)
+    }
+
+    fn image(operator: &mut Inverse<'_, '_, '_, Self>, vector: &[Complex64], image: &mut [Complex64]) {
+        operator.apply(vector, image);
+    }
+
+    fn schur(matrix: &DMatrix<Self>) -> Option<(DMatrix<Complex64>, DMatrix<Complex64>)> {
+        let rounds = 100 * matrix.nrows().max(10);
+        Schur::try_new(matrix.clone(), f64::EPSILON, rounds).map(Schur::unpack)
+    }
+}
+
+impl Field for f64 {
+    fn beside(self, change: f64) -> Self {
+        self * (1.0 + change)
+    }
+
+    fn image(operator: &mut Inverse<'_, '_, '_, Self>, vector: &[Complex64], image: &mut [Complex64]) {
+        let mut parts = [vec![0.0; vector.len()], vec![0.0; vector.len()]];
+        let real: Vec<f64> = vector.iter().map(|value| value.re).collect();
+        let imaginary: Vec<f64> = vector.iter().map(|value| value.im).collect();
+        operator.apply(&real, &mut parts[0]);
+        operator.apply(&imaginary, &mut parts[1]);
+        for ((value, &re), &im) in image.iter_mut().zip(&parts[0]).zip(&parts[1]) {
+            *value = Complex64::new(re, im);
+        }
+    }
+
+    fn schur(matrix: &DMatrix<Self>) -> Option<(DMatrix<Complex64>, DMatrix<Complex64>)> {
+        let rounds = 100 * matrix.nrows().max(10);
+        let Some(schur) = Schur::try_new(matrix.clone(), f64::EPSILON, rounds) else {
+            return Complex64::schur(&matrix.map(Complex64::from));
+        };
+        let (vectors, triangle) = schur.unpack();
+        let (mut vectors, mut triangle) = (vectors.map(Complex64::from), triangle.map(Complex64::from));
+        make_triangular(&mut vectors, &mut triangle);
+        Some((vectors, triangle))
+    }
+}
+
+/// Turns the blocks of two on the diagonal of a real Schur form, the pairs of complex eigenvalues, into triangles.
+fn make_triangular(vectors: &mut DMatrix<Complex64>, triangle: &mut DMatrix<Complex64>) {
+    let order = triangle.nrows();
+    for k in 1..order {
+        let below = triangle[(k, k - 1)];
+        if below == Complex64::default() {
+            continue;
+        }
+        let (a, b, d) = (triangle[(k - 1, k - 1)], triangle[(k - 1, k)], triangle[(k, k)]);
+        // The eigenvector (λ - d, c) of [a b; c d].
+        let half = 0.5 * (a - d);
+        let root = (half * half + b * below).sqrt();
+        let eigenvalue = 0.5 * (a + d) + if (half.conj() * root).re >= 0.0 { root } else { -root };
+        let first = eigenvalue - d;
+        let norm = first.norm().hypot(below.norm());
+        let (cosine, sine) = (first / norm, below / norm);
+        for column in 0..order {
+            let (upper, lower) = (triangle[(k - 1, column)], triangle[(k, column)]);
+            triangle[(k - 1, column)] = cosine.conj() * upper + sine.conj() * lower;
+            triangle[(k, column)] = cosine * lower - sine * upper;
+        }
+        for matrix in [&mut *triangle, &mut *vectors] {
+            for row in 0..order {
+                let (left, right) = (matrix[(row, k - 1)], matrix[(row, k)]);
+                matrix[(row, k - 1)] = cosine * left + sine * right;
+                matrix[(row, k)] = cosine.conj() * right - sine.conj() * left;
+            }
+        }
+        triangle[(k, k - 1)] = Complex64::default();
+    }
+}
+
+impl<S: Field> Operator<S> for Inverse<'_, '_, '_, S> {
     fn size(&self) -> usize {
         2 * self.units.len()
     }
 
-    fn apply(&mut self, vector: &[Complex64], image: &mut [Complex64]) {
+    fn apply(&mut self, vector: &[S], image: &mut [S]) {
         let count = self.units.len();
         let parts = &self.model.parts;
         let pattern = self.model.pattern();
-        self.right.fill(Complex64::default());
+        self.right.fill(S::zero());
         let (shift, rate) = (self.shift, self.rate);
         let (positions, velocities) = vector.split_at(count);
-        for (values, of_velocities, of_positions) in [
-            (&parts.mass, Complex64::new(rate, 0.0), shift),
-            (&parts.damping, Complex64::default(), Complex64::new(1.0, 0.0)),
-        ] {
+        for (values, of_velocities, of_positions) in
+            [(&parts.mass, rate, shift), (&parts.damping, 0.0, S::one())]
+        {
             for row in 0..count {
-                self.room[row] =
-                    (of_velocities * velocities[row] + of_positions * positions[row]) / self.units[row];
+                self.room[row] = (velocities[row] * of_velocities + of_positions * positions[row])
+                    * self.units[row].recip();
             }
             multiply(&pattern, values, &self.room, &mut self.product);
-            for (sum, value) in self.right[..count].iter_mut().zip(&self.product) {
+            for (sum, &value) in self.right[..count].iter_mut().zip(&self.product) {
                 *sum -= value;
             }
         }
@@ -83,24 +168,26 @@ impl Operator<Complex64> for Inverse<'_, '_, '_> {
         for row in 0..count {
             let x = self.right[row] * self.units[row];
             image[row] = x;
-            image[count + row] = (positions[row] + shift * x) / rate;
+            image[count + row] = (positions[row] + shift * x) * rate.recip();
         }
     }
 
-    fn weigh(&mut self, vector: &[Complex64], weighted: &mut [Complex64]) {
+    fn is_weighted(&self) -> bool {
+        false
+    }
+
+    fn weigh(&mut self, vector: &[S], weighted: &mut [S]) {
         weighted.copy_from_slice(vector);
     }
 }
 
 /// product = A x for real values.
-fn multiply(
-    pattern: &lissom_solver::Pattern,
-    values: &[f64],
-    vector: &[Complex64],
-    product: &mut [Complex64],
-) {
-    product.fill(Complex64::default());
-    for (column, factor) in vector.iter().enumerate() {
+fn multiply<S: Shift>(pattern: &lissom_solver::Pattern, values: &[f64], vector: &[S], product: &mut [S]) {
+    product.fill(S::zero());
+    for (column, &factor) in vector.iter().enumerate() {
+        if factor == S::zero() {
+            continue;
+        }
         let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
         for (&row, &value) in pattern.row_indices()[range.clone()].iter().zip(&values[range]) {
             product[row] += factor * value;
@@ -117,15 +204,29 @@ struct Estimate {
 
 /// Finds the modes nearest to the shift.
 pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Modes, ModeError> {
-    let mut solver = ComplexShift::on(model.system, model.structure(), &model.representative);
-    let (shift, mut wanted) = match options.shift {
+    match options.shift {
         Some(frequency) if frequency > 0.0 => {
-            (Complex64::new(0.0, std::f64::consts::TAU * frequency), options.count + BEYOND)
+            let shift = Complex64::new(0.0, std::f64::consts::TAU * frequency);
+            let mut solver = GeneralShift::on(model.system, model.structure(), &model.representative);
+            find_near(model, options, (&mut solver, shift), options.count + BEYOND)
         }
-        // Conjugates and the second zero of each rigid mode are found as well.
-        _ => (first_shift(model, &mut solver)?, 2 * (options.count + BEYOND)),
-    };
-    let mut operator = inverse(model, &mut solver, shift)?;
+        _ => {
+            let mut solver = GeneralShift::on(model.system, model.structure(), &model.representative);
+            let shift = first_shift(model, &mut solver)?;
+            // Conjugates and the second zero of each rigid mode are found as well.
+            find_near(model, options, (&mut solver, shift), 2 * (options.count + BEYOND))
+        }
+    }
+}
+
+/// Finds the modes nearest to `shift`, among the `wanted` nearest eigenvalues or more.
+fn find_near<'a, S: Field>(
+    model: &LinearModel<'a>,
+    options: &ModeOptions,
+    (solver, shift): (&mut GeneralShift<'a, S>, S),
+    mut wanted: usize,
+) -> Result<Modes, ModeError> {
+    let mut operator = inverse(model, solver, shift)?;
     let mut krylov = Krylov::new(operator.size());
     let mut is_exhausted = krylov.start(&mut operator, BLOCK, 2) == 0;
     let mut modes: Vec<Mode>;
@@ -153,10 +254,9 @@ pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Mod
 }
 
 /// A real shift about as large as the smallest eigenvalues that are not zero.
-fn first_shift<'a>(model: &LinearModel<'a>, solver: &mut ComplexShift<'a>) -> Result<Complex64, ModeError> {
+fn first_shift<'a>(model: &LinearModel<'a>, solver: &mut GeneralShift<'a, f64>) -> Result<f64, ModeError> {
     let rate = small_square(&model.representative).sqrt();
-    let start = Complex64::new(rate, 0.0);
-    let mut operator = inverse(model, solver, start)?;
+    let mut operator = inverse(model, solver, rate)?;
     let mut krylov = Krylov::new(operator.size());
     krylov.start(&mut operator, BLOCK, 2);
     for _ in 0..5 * BLOCK {
@@ -172,14 +272,14 @@ fn first_shift<'a>(model: &LinearModel<'a>, solver: &mut ComplexShift<'a>) -> Re
         .filter(|&size| size > 0.0)
         .fold(f64::INFINITY, f64::min);
     // Nearer to zero the pivots of rigid modes vanish, and what they leave of the other eigenvalues is round-off.
-    Ok(if least.is_finite() { Complex64::new(least.max(rate), 0.0) } else { start })
+    Ok(if least.is_finite() { least.max(rate) } else { rate })
 }
 
-fn inverse<'m, 's, 'a>(
+fn inverse<'m, 's, 'a, S: Field>(
     model: &'m LinearModel<'a>,
-    solver: &'s mut ComplexShift<'a>,
-    shift: Complex64,
-) -> Result<Inverse<'m, 's, 'a>, ModeError> {
+    solver: &'s mut GeneralShift<'a, S>,
+    shift: S,
+) -> Result<Inverse<'m, 's, 'a, S>, ModeError> {
     let mut tried = shift;
     let mut result = solver.factor(&model.parts, tried);
     // An eigenvalue happens to be at the shift.
@@ -187,7 +287,7 @@ fn inverse<'m, 's, 'a>(
         if result.is_ok() {
             break;
         }
-        tried = shift * Complex64::new(1.0 + change, change);
+        tried = shift.beside(change);
         result = solver.factor(&model.parts, tried);
     }
     result.map_err(|error| model.stopped(&error))?;
@@ -199,15 +299,15 @@ fn inverse<'m, 's, 'a>(
             Quantity::Angle => model.representative.length,
         })
         .collect();
-    let room = vec![Complex64::default(); layout.size()];
-    let rate = tried.norm();
+    let room = vec![S::zero(); layout.size()];
+    let rate = tried.size();
     Ok(Inverse { model, solver, shift: tried, rate, units, right: room.clone(), product: room.clone(), room })
 }
 
 /// Builds the basis until the `wanted` largest eigenvalues have converged, or there are no more.
-fn search(
-    krylov: &mut Krylov<Complex64>,
-    operator: &mut Inverse<'_, '_, '_>,
+fn search<S: Field>(
+    krylov: &mut Krylov<S>,
+    operator: &mut Inverse<'_, '_, '_, S>,
     wanted: usize,
     is_exhausted: &mut bool,
 ) -> Result<Vec<Estimate>, ModeError> {
@@ -218,7 +318,8 @@ fn search(
             *is_exhausted = krylov.start(operator, BLOCK, 2) == 0;
         }
         since += 1;
-        if !*is_exhausted && since < BETWEEN.max(krylov.order() / 8) {
+        let is_early = since < BETWEEN.max(krylov.order() / 8) || krylov.order() < wanted;
+        if !*is_exhausted && is_early {
             continue;
         }
         since = 0;
@@ -238,14 +339,13 @@ fn search(
 }
 
 /// Eigenvalues of the operator among the known vectors, the largest first.
-fn estimates(krylov: &Krylov<Complex64>) -> Result<Vec<Estimate>, ModeError> {
+fn estimates<S: Field>(krylov: &Krylov<S>) -> Result<Vec<Estimate>, ModeError> {
     let order = krylov.order();
     if order == 0 {
         return Ok(Vec::new());
     }
     let matrix = DMatrix::from_fn(order, order, |row, column| krylov.entry(row, column));
-    let schur = Schur::try_new(matrix, f64::EPSILON, 100 * order.max(10)).ok_or(ModeError::NotConverged)?;
-    let (vectors, triangle) = schur.unpack();
+    let (vectors, triangle) = S::schur(&matrix).ok_or(ModeError::NotConverged)?;
     let scale = triangle.iter().fold(0.0_f64, |most, value| most.max(value.norm()));
     let mut all: Vec<Estimate> = (0..order)
         .map(|k| {
@@ -264,7 +364,7 @@ fn estimates(krylov: &Krylov<Complex64>) -> Result<Vec<Estimate>, ModeError> {
             for weight in &mut weights {
                 *weight /= norm;
             }
-            let residual = krylov.residual(&weights);
+            let residual = krylov.complex_residual(&weights);
             Estimate { value, weights, residual }
         })
         .collect();
@@ -273,26 +373,30 @@ fn estimates(krylov: &Krylov<Complex64>) -> Result<Vec<Estimate>, ModeError> {
 }
 
 /// The mode of an estimate; none for the conjugate of another.
-fn mode(
+fn mode<S: Field>(
     model: &LinearModel<'_>,
-    operator: &mut Inverse<'_, '_, '_>,
-    krylov: &Krylov<Complex64>,
+    operator: &mut Inverse<'_, '_, '_, S>,
+    krylov: &Krylov<S>,
     estimate: &Estimate,
 ) -> Option<Mode> {
-    let mut eigenvalue = operator.shift + estimate.value.inv();
+    let mut eigenvalue = complex(operator.shift) + estimate.value.inv();
     if eigenvalue.im.abs() <= REAL * eigenvalue.norm() {
         eigenvalue.im = 0.0;
     }
-    let mut vector = krylov.combine(&estimate.weights);
+    let square_of_shift = operator.shift.size().powi(2);
+    let is_defective = eigenvalue.norm_sqr() <= DEFECTIVE * square_of_shift * SOLVED;
+    if eigenvalue.im < 0.0 && !is_defective {
+        return None;
+    }
+    let mut vector = krylov.combine_complex(&estimate.weights);
     let mut image = vec![Complex64::default(); vector.len()];
     for _ in 0..2 {
-        operator.apply(&vector, &mut image);
+        S::image(operator, &vector, &mut image);
         std::mem::swap(&mut vector, &mut image);
     }
     let size = |values: &[Complex64]| product(values, values).re.sqrt();
-    let is_defective = eigenvalue.norm_sqr() <= DEFECTIVE * operator.shift.norm_sqr() * SOLVED;
     if !is_defective {
-        operator.apply(&vector, &mut image);
+        S::image(operator, &vector, &mut image);
         let missed: Vec<Complex64> =
             image.iter().zip(&vector).map(|(image, x)| image - estimate.value * x).collect();
         let is_one = size(&missed) <= EIGENVECTOR * size(&image);
@@ -305,7 +409,7 @@ fn mode(
         vector[..count].iter().zip(&operator.units).map(|(value, unit)| value / unit).collect();
     normalise(model, &mut shape);
     let sizes: Vec<f64> = shape.iter().map(|value| value.norm()).collect();
-    let of_solve = (SOLVED * operator.shift.norm()).powi(2);
+    let of_solve = SOLVED.powi(2) * square_of_shift;
     if eigenvalue.norm_sqr() <= DEFECTIVE * round_off(model, &sizes, 1.0) + of_solve {
         eigenvalue = Complex64::default();
     }

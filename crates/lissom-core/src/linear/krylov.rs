@@ -5,6 +5,7 @@
 use std::collections::VecDeque;
 
 use lissom_solver::Scalar;
+use num_complex::Complex64;
 
 /// What is left of an image after orthogonalisation, relative to the image, if it is a combination of the basis.
 const DEPENDENT: f64 = 1e-11;
@@ -18,6 +19,10 @@ pub(super) trait Operator<S> {
     fn size(&self) -> usize;
     /// The image of a vector.
     fn apply(&mut self, vector: &[S], image: &mut [S]);
+    /// Whether the inner product is another one than Σ conj(x_i) y_i.
+    fn is_weighted(&self) -> bool {
+        true
+    }
     /// The weighted vector w with ⟨x, y⟩ = Σ conj(w(x)_i) y_i.
     fn weigh(&mut self, vector: &[S], weighted: &mut [S]);
 }
@@ -28,9 +33,26 @@ pub(super) fn conjugate<S: Scalar>(value: S) -> S {
     S::from_parts(real, -imaginary)
 }
 
+/// The same number as a complex one.
+pub(super) fn complex<S: Scalar>(value: S) -> Complex64 {
+    let [real, imaginary] = value.parts();
+    Complex64::new(real, imaginary)
+}
+
 /// Σ conj(a_i) b_i.
 pub(super) fn product<S: Scalar>(a: &[S], b: &[S]) -> S {
-    a.iter().zip(b).fold(S::zero(), |sum, (&a, &b)| sum + conjugate(a) * b)
+    // Several sums side by side, so that none waits for another.
+    const LANES: usize = 8;
+    let mut sums = [S::zero(); LANES];
+    let (blocks_of_a, blocks_of_b) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
+    let rest = blocks_of_a.remainder().iter().zip(blocks_of_b.remainder());
+    let rest = rest.fold(S::zero(), |sum, (&a, &b)| sum + conjugate(a) * b);
+    for (a, b) in blocks_of_a.zip(blocks_of_b) {
+        for k in 0..LANES {
+            sums[k] += conjugate(a[k]) * b[k];
+        }
+    }
+    sums.into_iter().fold(rest, |sum, part| sum + part)
 }
 
 /// y += factor x.
@@ -56,6 +78,7 @@ impl Noise {
 /// The basis, and the operator in it.
 pub(super) struct Krylov<S> {
     pub(super) basis: Vec<Vec<S>>,
+    /// The same, weighted; empty where the inner product is not weighted.
     weighted: Vec<Vec<S>>,
     /// Columns of the operator's matrix in the basis, as long as the basis was when they were made.
     pub(super) columns: Vec<Vec<S>>,
@@ -102,7 +125,7 @@ impl<S: Scalar> Krylov<S> {
                 // Each time without what the basis has: the largest eigenvalues would leave round-off of all others.
                 let whole = self.norm(operator, &vector);
                 for _ in 0..2 {
-                    for (known, weighted) in self.basis.iter().zip(&self.weighted) {
+                    for (known, weighted) in self.basis.iter().zip(weighted(&self.basis, &self.weighted)) {
                         let part = product(weighted, &vector);
                         add(&mut vector, S::zero() - part, known);
                     }
@@ -156,14 +179,34 @@ impl<S: Scalar> Krylov<S> {
         sum
     }
 
+    /// The same with complex weights.
+    pub(super) fn combine_complex(&self, weights: &[Complex64]) -> Vec<Complex64> {
+        let mut sum = vec![Complex64::default(); self.image.len()];
+        for (&weight, vector) in weights.iter().zip(&self.basis) {
+            for (sum, &value) in sum.iter_mut().zip(vector) {
+                *sum += weight * complex(value);
+            }
+        }
+        sum
+    }
+
     /// Norm of what the operator takes out of the known vectors, for their combination `weights`.
     pub(super) fn residual(&self, weights: &[S]) -> f64 {
+        self.residual_of(weights, |entry| entry)
+    }
+
+    /// The same with complex weights.
+    pub(super) fn complex_residual(&self, weights: &[Complex64]) -> f64 {
+        self.residual_of(weights, complex)
+    }
+
+    fn residual_of<T: Scalar>(&self, weights: &[T], convert: impl Fn(S) -> T) -> f64 {
         let order = self.order();
         let below = (order..self.basis.len()).map(|row| {
             let sum = weights
                 .iter()
                 .enumerate()
-                .fold(S::zero(), |sum, (column, &weight)| sum + self.entry(row, column) * weight);
+                .fold(T::zero(), |sum, (column, &weight)| sum + convert(self.entry(row, column)) * weight);
             let [real, imaginary] = sum.parts();
             real * real + imaginary * imaginary
         });
@@ -187,7 +230,7 @@ impl<S: Scalar> Krylov<S> {
         for _ in 0..3 {
             let before = norm;
             for (coefficient, (vector, weighted)) in
-                column.iter_mut().zip(self.basis.iter().zip(&self.weighted))
+                column.iter_mut().zip(self.basis.iter().zip(weighted(&self.basis, &self.weighted)))
             {
                 let part = product(weighted, &self.image);
                 *coefficient += part;
@@ -205,7 +248,14 @@ impl<S: Scalar> Krylov<S> {
         let factor = S::from_real(norm.recip());
         self.waiting.push_back(self.basis.len());
         self.basis.push(self.image.iter().map(|&value| value * factor).collect());
-        self.weighted.push(self.weights.iter().map(|&value| value * factor).collect());
+        if operator.is_weighted() {
+            self.weighted.push(self.weights.iter().map(|&value| value * factor).collect());
+        }
         (column, norm)
     }
+}
+
+/// The weighted vectors of a basis: itself where none are kept.
+fn weighted<'b, S>(basis: &'b [Vec<S>], weighted: &'b [Vec<S>]) -> &'b [Vec<S>] {
+    if weighted.is_empty() { basis } else { weighted }
 }

@@ -3,9 +3,12 @@
 //! With time in units of 1/|s| it is the tangent of a scheme whose rate and curvature are s/|s| and s²/|s|² times the
 //! increment: the same scaling, augmented term and equilibration serve.
 
+use std::ops::Mul;
 use std::sync::Arc;
 
-use lissom_solver::{FactorError, FactorReport, LinearSolver, Multifrontal, Pattern, Structure, Symmetric};
+use lissom_solver::{
+    FactorError, FactorReport, LinearSolver, Multifrontal, Pattern, Scalar, Structure, Symmetric,
+};
 use num_complex::Complex64;
 
 use crate::analysis::compliance::Compliance;
@@ -87,18 +90,39 @@ impl<'a> RealShift<'a> {
     }
 }
 
+/// A rate s at which a model with damping is shifted: real, or complex.
+pub(super) trait Shift: Scalar + Mul<f64, Output = Self> {
+    /// |s|.
+    fn size(self) -> f64;
+}
+
+impl Shift for f64 {
+    fn size(self) -> f64 {
+        self.abs()
+    }
+}
+
+impl Shift for Complex64 {
+    fn size(self) -> f64 {
+        self.norm()
+    }
+}
+
 /// Solves with s² M + s D + K and the constraints for a complex s.
-pub(super) struct ComplexShift<'a> {
+pub(super) type ComplexShift<'a> = GeneralShift<'a, Complex64>;
+
+/// Solves with s² M + s D + K and the constraints for a real or a complex s.
+pub(super) struct GeneralShift<'a, S> {
     system: &'a System,
     pattern: Arc<Pattern>,
     representative: Representative,
     scaled: Scaled,
-    solver: Multifrontal<Complex64>,
+    solver: Multifrontal<S>,
     equilibration: Equilibration,
-    values: Vec<Complex64>,
+    values: Vec<S>,
 }
 
-impl<'a> ComplexShift<'a> {
+impl<'a, S: Shift> GeneralShift<'a, S> {
     pub(super) fn new(system: &'a System, representative: &Representative) -> Self {
         Self::on(system, system.structure(), representative)
     }
@@ -113,21 +137,23 @@ impl<'a> ComplexShift<'a> {
             scaled: Scaled::at_rate(representative, 1.0),
             solver: Multifrontal::new(structure),
             equilibration: Equilibration::new(layout.size(), layout.coordinate_count()),
-            values: vec![Complex64::default(); structure.pattern.entries()],
+            values: vec![S::zero(); structure.pattern.entries()],
         }
     }
 
     /// Factors for `shift` [1/s], which is not zero.
-    pub(super) fn factor(&mut self, parts: &Linearization, shift: Complex64) -> Result<(), FactorError> {
-        self.scaled = Scaled::at_rate(&self.representative, shift.norm());
-        let unit = shift / shift.norm();
+    pub(super) fn factor(&mut self, parts: &Linearization, shift: S) -> Result<(), FactorError> {
+        self.scaled = Scaled::at_rate(&self.representative, shift.size());
+        let unit = shift * shift.size().recip();
         let blend = self.scaled.blend(Weights { rate: unit, curvature: unit * unit });
         for (k, value) in self.values.iter_mut().enumerate() {
             *value = blend.acceleration * parts.mass[k]
                 + blend.rate * parts.damping[k]
-                + (blend.place * parts.stiffness[k]
-                    + blend.augmented * parts.gram[k]
-                    + blend.constraint * parts.constraint[k]);
+                + S::from_real(
+                    blend.place * parts.stiffness[k]
+                        + blend.augmented * parts.gram[k]
+                        + blend.constraint * parts.constraint[k],
+                );
         }
         let pattern = &self.pattern;
         let count = self.system.layout().coordinate_count();
@@ -143,13 +169,13 @@ impl<'a> ComplexShift<'a> {
 
     /// Solves for forces and violations in SI: displacements in the rows of the coordinates, and multipliers in units of
     /// [`multiplier_factor`](Self::multiplier_factor).
-    pub(super) fn solve(&mut self, right: &mut [Complex64]) {
+    pub(super) fn solve(&mut self, right: &mut [S]) {
         for (value, factor) in right.iter_mut().zip(self.row_factors()) {
-            *value *= factor;
+            *value = *value * factor;
         }
         self.solver.solve(right);
-        for (value, factor) in right.iter_mut().zip(self.equilibration.factors()) {
-            *value *= factor;
+        for (value, &factor) in right.iter_mut().zip(self.equilibration.factors()) {
+            *value = *value * factor;
         }
     }
 
