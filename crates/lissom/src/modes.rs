@@ -109,7 +109,9 @@ pub enum ModesError {
     Mode(#[from] ModeError),
     /// Some modes were missed.
     #[error(
-        "{0} of the modes between the first and the last one were missed, as negative pivots show; ask for another `count`"
+        "{0} of the modes between the first and the last one were missed, as negative pivots show; ask for another `count`; where \
+         very light parts make some frequencies thousands of times higher than others, for fewer modes, or for those near a \
+         frequency by `shift`"
     )]
     Missing(usize),
 }

@@ -7,7 +7,7 @@ use lissom_solver::{FactorError, Pattern, Scalar, SolverKind, Structure};
 use num_complex::Complex64;
 
 use super::multiblade::Generator;
-use super::shifted::{ComplexShift, RealShift, small_square};
+use super::shifted::{ComplexShift, GeneralShift, RealShift, small_square};
 use crate::analysis::InitialError;
 use crate::analysis::initial::Initial;
 use crate::interrupt::{self, Interrupted};
@@ -23,6 +23,11 @@ const UNEQUAL: f64 = 1e-9;
 /// … and by more than this part of the largest entries of their rows, below which they are round-off.
 const ROUND_OFF: f64 = 1e-11;
 
+/// Accelerations in steady motion below this, relative to the squares of rates, are round-off, and so are those of larger ones
+/// whose forces displace the model by no more than this.
+const NEARLY_STEADY: f64 = 1e-8;
+/// The rate at which that displacement is found, over the rate of rotation: free motions count as large ones.
+const SLOW: f64 = 1e-3;
 /// Squares of rates below this part of the small one that stands for zero are zero.
 const NEUTRAL: f64 = 1e-6;
 
@@ -130,6 +135,10 @@ impl<'a> LinearModel<'a> {
         let chart = if is_at_rest { Chart::Body } else { Chart::Departures(&state.kinematics.nodes) };
         system.linearize(&point, chart, &mut parts);
         if !is_at_rest {
+            if unsteadiness > NEARLY_STEADY {
+                let displaced = displacement_by_inertia(system, &state.kinematics, (&parts, &representative));
+                unsteadiness = displaced.filter(|&size| size <= NEARLY_STEADY).unwrap_or(unsteadiness);
+            }
             add_accelerated_mass(system, &state.kinematics, &mut parts);
         }
         let is_conservative =
@@ -410,6 +419,41 @@ fn unsteadiness_of(at: &Kinematics, length: f64) -> f64 {
     let rate = at.nodes.iter().fold(0.0_f64, |most, node| most.max(size(&node.twist)));
     let change = at.nodes.iter().fold(0.0_f64, |most, node| most.max(size(&node.acceleration)));
     if rate > 0.0 { change / (rate * rate) } else { 0.0 }
+}
+
+/// The largest displacement, in angles and parts of the model's length, by which forces M V̇ are made up for. Accelerations of parts
+/// that are light against those that hold them show the round-off of forces over their mass, and mean nothing.
+fn displacement_by_inertia(
+    system: &System,
+    at: &Kinematics,
+    (parts, representative): (&Linearization, &Representative),
+) -> Option<f64> {
+    let layout = system.layout();
+    let count = layout.coordinate_count();
+    let rate = at.nodes.iter().map(|node| node.twist.fixed_rows::<3>(3).norm()).fold(0.0, f64::max);
+    if rate == 0.0 {
+        return None;
+    }
+    let mut accelerations = vec![0.0; layout.size()];
+    for (node, motion) in at.nodes.iter().enumerate() {
+        for (k, &row) in layout.rows_of_node(node).iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
+            accelerations[row as usize] = motion.acceleration[k];
+        }
+    }
+    for (coordinate, motion) in at.coordinates.iter().enumerate() {
+        accelerations[layout.row_of_coordinate(coordinate)] = motion.acceleration;
+    }
+    let mut forces = vec![0.0; layout.size()];
+    system.pattern().multiply(&parts.mass, &accelerations, &mut forces);
+    forces[count..].fill(0.0);
+    let mut solver = GeneralShift::<f64>::new(system, representative);
+    solver.factor(parts, SLOW * rate).ok()?;
+    solver.solve(&mut forces);
+    let sizes = forces[..count].iter().zip(layout.quantities()).map(|(value, quantity)| match quantity {
+        Quantity::Length => value.abs() / representative.length,
+        Quantity::Angle | Quantity::State => value.abs(),
+    });
+    Some(sizes.fold(0.0, |most, size| if size.is_finite() { most.max(size) } else { f64::INFINITY }))
 }
 
 /// Adds M ad_V̇ to the stiffness.
