@@ -42,6 +42,7 @@ impl Channel {
             algorithmic: Vec::new(),
             time_remainder: 0.0,
             position_remainders: Vec::new(),
+            accumulated: Vec::new(),
         };
         let length = touched_length(&touched, &state).unwrap_or(model.length());
         let mut difference = Difference { channel: self, system, state };
@@ -150,6 +151,7 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
         Source::Expression(..)
         | Source::Spring(..)
         | Source::Power(_)
+        | Source::Accumulated(_)
         | Source::Energy
         | Source::Momentum => {
             return None;

@@ -15,6 +15,7 @@ use crate::document::{NodeReference, Output, OutputKind, OutputSource, ReactionA
 use crate::expression::Formula;
 use crate::observers::{Observer, Seen};
 use crate::report::{Located, Problem};
+use crate::sweep::Fatigue;
 
 /// One output: a name, its components, and how they are found.
 #[derive(Clone)]
@@ -27,6 +28,8 @@ pub struct Channel {
     pub components: Vec<String>,
     /// Unit of all components, or of each where they differ.
     pub units: Vec<&'static str>,
+    /// How its cycles are counted, if they are.
+    pub fatigue: Option<Fatigue>,
     pub(crate) source: Source,
 }
 
@@ -74,6 +77,8 @@ pub(crate) enum Source {
     Power(ElementId),
     /// Power of a drive.
     DrivePower(usize),
+    /// What the simulation accumulates.
+    Accumulated(usize),
     /// Places along a beam.
     Line(Vec<Place>),
     Energy,
@@ -98,7 +103,7 @@ impl Place {
     }
 
     /// Velocity and angular velocity in global axes.
-    fn velocity(&self, at: &Kinematics) -> (Vector3, Vector3) {
+    pub(crate) fn velocity(&self, at: &Kinematics) -> (Vector3, Vector3) {
         match self {
             Self::Carried { node, offset } => {
                 let node = &at.nodes[*node];
@@ -223,6 +228,7 @@ impl Channel {
                 out.extend(system.spring_motion(*element, at).unwrap_or([f64::NAN; 3]));
             }
             Source::Power(element) => out.push(system.power(*element, at)),
+            Source::Accumulated(index) => out.push(*state.accumulated.get(*index).unwrap_or(&f64::NAN)),
             Source::DrivePower(index) => {
                 let drive = &system.drives()[*index];
                 let rate = at.coordinates[drive.prescribed.coordinate].rate;
@@ -505,6 +511,8 @@ pub(crate) fn components(
             words(&["rotation", "rate", "moment"], &["rad", "rad/s", "N m"])
         }
         (OutputKind::Spring, _) => words(&["elongation", "rate", "force"], &["m", "m/s", "N"]),
+        (OutputKind::Work, _) => words(&["work"], &["J"]),
+        (OutputKind::Angle, _) => words(&["angle"], &["rad"]),
         (OutputKind::Power, _) => words(&["power"], &["W"]),
         (OutputKind::Line, Source::Line(places)) => {
             let of = |k: usize| ["x", "y", "z"].map(|axis| (format!("{axis}{k}"), "m"));

@@ -3,6 +3,7 @@
 //! A TOML text becomes a validated plain-data [`Document`], or a [`Report`] that names every
 //! mistake with its place and a remedy. Results leave as tables, summaries and plots. No physics is done here.
 
+mod accumulated;
 mod channel_derivatives;
 pub mod channels;
 mod context;

@@ -1,10 +1,17 @@
 //! From the outputs of a document to channels: expressions find what they name, observers their nodes.
 
-use lissom_core::system::{State, System};
-use lissom_motion::Motion;
+use std::cell::RefCell;
+use std::sync::Arc;
 
+use lissom_core::analysis::accumulated::Accumulated;
+use lissom_core::system::{State, System};
+use lissom_motion::{Motion, Vector3};
+
+use crate::accumulated::{Actor, AngleAboutAxis, Work};
 use crate::channels::{Channel, Resolver, Source, components, source};
-use crate::document::{Document, NodeReference, Output, OutputKind, OutputSource, ReactionAxes};
+use crate::document::{
+    AnalysisKind, Document, NodeReference, Output, OutputKind, OutputSource, ReactionAxes,
+};
 use crate::expression::Formula;
 use crate::observers::Observer;
 use crate::report::{Located, Problem, Span};
@@ -17,16 +24,16 @@ pub(crate) fn of(
     (drawn, state): (&State, &State),
     names: &Resolver<'_>,
     problems: &mut Vec<Problem>,
-) -> Vec<Channel> {
+) -> (Vec<Channel>, Vec<Arc<dyn Accumulated>>) {
     let mut channels = Vec::new();
-    let made = Made { document, system, drawn, state, names };
+    let made = Made { document, system, drawn, state, names, accumulated: RefCell::default() };
     for output in &document.outputs {
         match made.channel(output, &mut Vec::new()) {
             Ok(channel) => channels.push(channel),
             Err(problem) => problems.push(problem),
         }
     }
-    channels
+    (channels, made.accumulated.into_inner())
 }
 
 /// What channels are made of.
@@ -38,6 +45,8 @@ struct Made<'a> {
     /// From which the motion starts.
     state: &'a State,
     names: &'a Resolver<'a>,
+    /// What the channels so far accumulate.
+    accumulated: RefCell<Vec<Arc<dyn Accumulated>>>,
 }
 
 impl Made<'_> {
@@ -46,15 +55,52 @@ impl Made<'_> {
         let Self { system, drawn, state, names, .. } = *self;
         let source = match &output.source {
             OutputSource::Expression(formula) => self.expression(output, formula, path)?,
+            _ if output.kind.is_accumulated() => self.accumulated(output)?,
             _ => source(output, system, (drawn, state), names)?,
         };
         let (components, units) = components(output.kind, &source, system);
         let source = self.observed(output, source)?;
-        Ok(Channel { name: output.name.value.clone(), kind: output.kind, components, units, source })
+        let (name, kind, fatigue) = (output.name.value.clone(), output.kind, output.fatigue);
+        Ok(Channel { name, kind, components, units, fatigue, source })
+    }
+
+    /// A number that the simulation accumulates.
+    fn accumulated(&self, output: &Output) -> Result<Source, Problem> {
+        let (document, at) = (self.document, &self.state.kinematics);
+        if !matches!(document.analysis.kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
+            let kind = document.analysis.kind.name();
+            let message = format!(
+                "output `{}` adds up along a motion, which `{kind}` does not have",
+                output.name.value
+            );
+            return Err(Problem::error(output.name.span, message)
+                .help("leave it out, or use `dynamics` or `statics`"));
+        }
+        let name = output.name.value.clone();
+        let number: Arc<dyn Accumulated> =
+            match source(output, self.system, (self.drawn, self.state), self.names)? {
+                Source::Power(element) => Arc::new(Work { name, of: Actor::Element(element) }),
+                Source::DrivePower(drive) => Arc::new(Work { name, of: Actor::Drive(drive) }),
+                Source::Place(place, start) => {
+                    let ground = Observer { node: lissom_core::system::GROUND, offset: Motion::IDENTITY };
+                    let observer = output.relative_to.as_ref().map(|node| self.observer(node)).transpose()?;
+                    let observer = observer.unwrap_or(ground);
+                    let own = observer.frame(at).rotation;
+                    let axis = output.axis.unwrap_or_else(Vector3::z);
+                    let axis =
+                        observer.frame(&self.drawn.kinematics).rotation.apply_inverse(&axis).normalize();
+                    let start = own.inverse() * start.rotation;
+                    Arc::new(AngleAboutAxis { name, place, observer, axis, start })
+                }
+                other => return Ok(other),
+            };
+        let mut accumulated = self.accumulated.borrow_mut();
+        accumulated.push(number);
+        Ok(Source::Accumulated(accumulated.len() - 1))
     }
 
     fn observed(&self, output: &Output, inner: Source) -> Result<Source, Problem> {
-        if output.seen_in.is_none() && output.relative_to.is_none() {
+        if output.kind.is_accumulated() || (output.seen_in.is_none() && output.relative_to.is_none()) {
             return Ok(inner);
         }
         let observer =
@@ -141,7 +187,8 @@ impl Made<'_> {
         if let Some(&argument) = self.names.signals.get(name) {
             let (components, units) = (vec!["value".to_owned()], vec![""]);
             let (kind, source) = (OutputKind::Signal, Source::Signal(argument));
-            let channel = Channel { name: name.to_owned(), kind, components, units, source };
+            let name = name.to_owned();
+            let channel = Channel { name, kind, components, units, fatigue: None, source };
             return Ok(Some((channel, "value".to_owned())));
         }
         let Some((owner, component)) = name.rsplit_once('.') else { return Ok(None) };
@@ -161,6 +208,8 @@ impl Made<'_> {
             axes: ReactionAxes::Ground,
             seen_in: None,
             relative_to: None,
+            axis: None,
+            fatigue: None,
         };
         // The relative rotation of a joint is called `angle` in results and also `rotation` in expressions.
         Ok(Some((self.channel(&output, path)?, component.replace("rotation", "angle"))))

@@ -6,8 +6,9 @@ use lissom_core::elements::Energy;
 use lissom_core::scaling::Representative;
 use lissom_model::Document;
 use lissom_model::lower::{Assembly, Brought, Lowered, MovedPart, lower};
+use lissom_model::output::Column;
 use lissom_model::output::Summary;
-use lissom_model::sweep::{Accumulator, STATISTICS};
+use lissom_model::sweep::{Accumulator, OF_FATIGUE, STATISTICS};
 use serde_json::{Value, json};
 
 use crate::diagnosis::Diagnosis;
@@ -261,11 +262,12 @@ fn of_events(session: &Session) -> Value {
 
 /// Of each column what a sweep could collect of it; `null` where a record is not finite.
 fn statistics(session: &Session) -> Value {
-    let of = |history: &Accumulator| -> Value {
-        STATISTICS.iter().map(|statistic| (statistic.name.to_owned(), json!(statistic.of(history)))).collect()
+    let of = |column: &Column, history: &Accumulator| -> Value {
+        let asked = STATISTICS.iter().filter(|known| known.name != OF_FATIGUE || column.fatigue.is_some());
+        asked.map(|statistic| (statistic.name.to_owned(), json!(statistic.of(history)))).collect()
     };
     let columns = session.columns().iter().zip(session.histories());
-    columns.map(|(column, history)| (column.name(), of(history))).collect()
+    columns.map(|(column, history)| (column.name(), of(column, history))).collect()
 }
 
 fn of_energy(energy: &Energy) -> Value {

@@ -1,5 +1,7 @@
 //! The program, as scripts see it: exit codes, files, columns and facts.
 
+#[path = "command_line/accumulated.rs"]
+mod accumulated;
 #[path = "command_line/assembly.rs"]
 mod assembly;
 #[path = "command_line/changes.rs"]

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use lissom_solver::{FactorError, FactorReport, SolverKind};
 use serde::{Deserialize, Serialize};
 
+use super::accumulated::Accumulation;
 use super::compliance::Compliance;
 use super::conditioning::TangentValues;
 use super::equations::StepEquations;
@@ -13,7 +14,7 @@ use super::held_values::settle;
 use super::initial::{Initial, InitialError};
 use super::phase::{Stopwatch, Unwatched};
 use super::projection::Projection;
-use super::step_error::{StepError, convergence_hint, pivot_hint};
+use super::step_error::{StepError, describe};
 use super::workspace::Workspace;
 use crate::judge::singular::SingularPositions;
 use crate::judge::{self, Judge, Ledger, Warning};
@@ -23,7 +24,7 @@ use crate::schemes::{Coupling, Scheme};
 use crate::stepping::{
     Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, StepControl, Watch,
 };
-use crate::system::{Kinematics, Layout, Linearization, MotionChange, State, System, Threads};
+use crate::system::{Kinematics, Linearization, MotionChange, State, System, Threads};
 
 /// What a simulation is told besides system and state.
 #[derive(Clone)]
@@ -150,6 +151,8 @@ pub struct Simulation {
     pub(crate) impacts: Impacts,
     /// Whether steps of planned size resolve the motion.
     pub(crate) resolution: Resolution,
+    /// What is accumulated along the way.
+    pub(crate) accumulation: Accumulation,
     /// Whether the workspace still holds the step that led to the state.
     pub(crate) is_last_step_known: bool,
 }
@@ -197,8 +200,7 @@ impl Simulation {
             warnings.extend(doubts);
             settle(&system, &mut state, &mut initial, &settings)?;
             held_values = (!state.kinematics.held.is_empty()).then_some(initial);
-        }
-        if !settings.scheme.dynamic {
+        } else {
             equilibrium::hold_start(&system, &mut state, settings.solver);
         }
         state.violations = vec![0.0; system.layout().multiplier_count];
@@ -269,6 +271,7 @@ impl Simulation {
             stable_at: None,
             stability: Vec::new(),
             watch,
+            accumulation: Accumulation::default(),
             is_last_step_known: false,
         })
     }
@@ -487,6 +490,7 @@ impl Simulation {
     /// Makes what the last attempt came to the state.
     pub(crate) fn accept_step(&mut self) {
         self.note_doubts();
+        self.accumulate_step();
         self.ledger = self.next_ledger;
         let work = &mut *self.work;
         if self.settings.scheme.dynamic {
@@ -563,30 +567,4 @@ fn yielding(system: &System, singular: &SingularPositions) -> Option<(Compliance
 
 fn layout_has_constraints(system: &System) -> bool {
     !system.layout().multiplier_rows().is_empty()
-}
-
-fn describe(failure: &Failure, layout: &Layout, time: f64, settings: &Settings, worst: &str) -> StepError {
-    match failure {
-        Failure::NotConverged { iterations, correction } => StepError::NotConverged {
-            time,
-            iterations: *iterations,
-            correction: *correction,
-            worst: worst.to_owned(),
-            hint: convergence_hint(settings.scheme.dynamic),
-        },
-        Failure::NotFinite { iterations } => {
-            StepError::NotFinite { time, iterations: *iterations, worst: worst.to_owned() }
-        }
-        Failure::Factor(FactorError::ZeroPivot { unknown, pivot, .. }) => StepError::ZeroPivot {
-            time,
-            pivot: *pivot,
-            unknown: layout.name_of(*unknown),
-            hint: pivot_hint(*unknown >= layout.coordinate_count(), settings.scaling.augmented),
-            after_pivoting: false,
-        },
-        Failure::Factor(FactorError::NotFinite { unknown }) => {
-            StepError::NotFinite { time, iterations: 0, worst: layout.name_of(*unknown) }
-        }
-        Failure::Interrupted => StepError::Interrupted { time },
-    }
 }

@@ -1,5 +1,6 @@
 //! What the user asks for: consistent initial values, time steps, load steps, a count of freedoms.
 
+pub mod accumulated;
 mod anderson;
 pub mod assembly;
 pub(crate) mod compliance;

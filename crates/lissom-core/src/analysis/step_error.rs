@@ -1,5 +1,11 @@
 //! Why a step failed, with where and when.
 
+use lissom_solver::FactorError;
+
+use super::dynamics::Settings;
+use crate::newton::Failure;
+use crate::system::Layout;
+
 /// A step that could not be completed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -168,7 +174,7 @@ impl StepError {
 }
 
 /// What to try when a step, in motion or in statics, has no solution even in parts.
-pub(crate) fn convergence_hint(is_motion: bool) -> &'static str {
+fn convergence_hint(is_motion: bool) -> &'static str {
     if is_motion {
         "try a smaller step, or a larger `max_iterations`"
     } else {
@@ -190,5 +196,38 @@ pub(crate) fn pivot_hint(is_multiplier: bool, augmented: bool) -> &'static str {
             "nothing holds or carries it: give it mass, stiffness or a joint; the force of a wheel that rolls repeats what \
              others hold already: give it a small `creep`"
         }
+    }
+}
+
+/// A failure of Newton's method as that of a step to `time` [s], with names.
+pub(super) fn describe(
+    failure: &Failure,
+    layout: &Layout,
+    time: f64,
+    settings: &Settings,
+    worst: &str,
+) -> StepError {
+    match failure {
+        Failure::NotConverged { iterations, correction } => StepError::NotConverged {
+            time,
+            iterations: *iterations,
+            correction: *correction,
+            worst: worst.to_owned(),
+            hint: convergence_hint(settings.scheme.dynamic),
+        },
+        Failure::NotFinite { iterations } => {
+            StepError::NotFinite { time, iterations: *iterations, worst: worst.to_owned() }
+        }
+        Failure::Factor(FactorError::ZeroPivot { unknown, pivot, .. }) => StepError::ZeroPivot {
+            time,
+            pivot: *pivot,
+            unknown: layout.name_of(*unknown),
+            hint: pivot_hint(*unknown >= layout.coordinate_count(), settings.scaling.augmented),
+            after_pivoting: false,
+        },
+        Failure::Factor(FactorError::NotFinite { unknown }) => {
+            StepError::NotFinite { time, iterations: 0, worst: layout.name_of(*unknown) }
+        }
+        Failure::Interrupted => StepError::Interrupted { time },
     }
 }

@@ -162,6 +162,16 @@ pub enum Warning {
         /// The directions that repeat, in words.
         repeated: String,
     },
+    /// An output that goes on along the motion could not go on.
+    #[error(
+        "at t = {time:.6e} s the output `{output}` cannot go on: from one step to the next it changes by more than can be told,          and is not a number from there on; take smaller steps; an angle about an axis has no value where the axis is turned          by half a turn"
+    )]
+    AccumulationLost {
+        /// End of the first step over which it could not be told [s].
+        time: f64,
+        /// Name of the output.
+        output: String,
+    },
     /// A warning from the model file.
     #[error("{message}")]
     Model {
@@ -186,6 +196,7 @@ impl Warning {
             Self::WheelSlides { .. } => "wheel-slides",
             Self::SingularPosition { .. } => "singular-position",
             Self::ReactionsNotUnique { .. } => "reactions-not-unique",
+            Self::AccumulationLost { .. } => "output-lost",
             Self::Model { .. } => "model",
         }
     }

@@ -177,6 +177,7 @@ impl<'a> LinearModel<'a> {
             violations: vec![0.0; size],
             multipliers: self.multipliers().to_vec(),
             time_remainder: 0.0,
+            accumulated: Vec::new(),
             kinematics,
         };
         LinearModel::of(self.system, &state, self.solver)

@@ -40,6 +40,9 @@ pub(crate) fn interpolate(from: &State, to: &State, time: f64, out: &mut State) 
         own.rate = if duration > 0.0 { rate[0] / duration } else { b.rate };
         own.acceleration = between(a.acceleration, b.acceleration);
     }
+    out.accumulated.clear();
+    let accumulated = from.accumulated.iter().zip(&to.accumulated);
+    out.accumulated.extend(accumulated.map(|(a, b)| between(*a, *b)));
     for ((own, a), b) in out.multipliers.iter_mut().zip(&from.multipliers).zip(&to.multipliers) {
         *own = between(*a, *b);
     }

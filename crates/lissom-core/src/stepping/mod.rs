@@ -21,6 +21,7 @@ mod watch;
 pub(crate) use arc::ArcControl;
 pub(crate) use controller::Controller;
 pub use controller::StepControl;
+pub(crate) use dense::interpolate;
 pub(crate) use impacts::Impacts;
 pub(crate) use load_steps::LoadControl;
 pub(crate) use method_memory::MethodMemory;

@@ -19,7 +19,7 @@ use crate::scaling::Scaled;
 use crate::system::{CoordinateMotion, Kinematics, NodeMotion, State};
 
 /// Changes whenever what a snapshot holds does.
-const VERSION: u32 = 7;
+const VERSION: u32 = 8;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -83,12 +83,20 @@ struct StateNumbers {
     violations: Vec<f64>,
     algorithmic: Vec<f64>,
     position_remainders: Vec<[f64; 3]>,
+    accumulated: Vec<f64>,
 }
 
 impl From<&State> for StateNumbers {
     fn from(state: &State) -> Self {
-        let State { kinematics, multipliers, violations, algorithmic, time_remainder, position_remainders } =
-            state;
+        let State {
+            kinematics,
+            multipliers,
+            violations,
+            algorithmic,
+            time_remainder,
+            position_remainders,
+            accumulated,
+        } = state;
         let Kinematics { time, elapsed, nodes, coordinates, held } = kinematics;
         let of_node = |node: &NodeMotion| {
             let mut numbers = [0.0; 19];
@@ -109,6 +117,7 @@ impl From<&State> for StateNumbers {
             violations: violations.clone(),
             algorithmic: algorithmic.clone(),
             position_remainders: position_remainders.iter().map(|place| (*place).into()).collect(),
+            accumulated: accumulated.clone(),
         }
     }
 }
@@ -141,6 +150,7 @@ impl From<&StateNumbers> for State {
             algorithmic: numbers.algorithmic.clone(),
             time_remainder: numbers.time_remainder,
             position_remainders: numbers.position_remainders.iter().map(|&place| place.into()).collect(),
+            accumulated: numbers.accumulated.clone(),
         }
     }
 }
@@ -191,7 +201,8 @@ impl Simulation {
         if from.version != VERSION {
             return Err(SnapshotError::Version { found: from.version });
         }
-        if from.belongs_to != self.belonging() {
+        let is_alike = from.states[1].accumulated.len() == self.accumulation.numbers.len();
+        if !is_alike || from.belongs_to != self.belonging() {
             let (scheme, unknowns, nodes, _) = &from.belongs_to;
             return Err(SnapshotError::OtherModel {
                 found: format!("{scheme}, {unknowns} unknowns, {nodes} nodes"),
@@ -234,6 +245,7 @@ impl Simulation {
         let origin = State { kinematics: self.origin.clone(), ..self.state.clone() };
         let mut copy = Self::start(Arc::clone(&self.system), origin, settings, Some(&self.representative))
             .map_err(|_| SnapshotError::Damaged)?;
+        copy.accumulate(self.accumulation.numbers.clone());
         copy.restore(&self.snapshot())?;
         Ok(copy)
     }

@@ -62,6 +62,8 @@ pub(crate) trait AnyBatch: Send + Sync {
     fn spring_motion(&self, item: usize, at: &Kinematics) -> Option<[f64; 3]>;
     /// Power of an item's forces [W].
     fn power(&self, item: usize, at: &Kinematics) -> f64;
+    /// Work of an item's forces between two configurations [J].
+    fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64;
     /// Times at which forces are known not to be smooth [s].
     fn kinks(&self) -> Vec<f64>;
     /// Gives every item a place for the sides of its switches, from the held value `first` on, and says how many.
@@ -297,6 +299,10 @@ impl<E: Element> AnyBatch for Batch<E> {
 
     fn power(&self, item: usize, at: &Kinematics) -> f64 {
         self.items.get(item).map_or(0.0, |item| power(item, at))
+    }
+
+    fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64 {
+        self.items.get(item).map_or(0.0, |item| work(item, (from, to), [1.0; 2]))
     }
 
     fn kinks(&self) -> Vec<f64> {

@@ -503,6 +503,7 @@ impl Builder {
             algorithmic: vec![0.0; layout.coordinate_count],
             time_remainder: 0.0,
             position_remainders: vec![Vector3::zeros(); self.nodes.len()],
+            accumulated: Vec::new(),
         }
     }
 

@@ -335,12 +335,17 @@ impl AnyBatch for Arc<Feedback> {
     fn strain_energies(&self, _: &Kinematics, _: &mut Vec<(Owner, f64)>) {}
 
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
+        (0..self.driven.len()).map(|item| AnyBatch::work(self, item, from, to)).sum()
+    }
+
+    fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64 {
         let size = |driven: &Driven, at: &Kinematics| self.graph.evaluate(at, |values| values[driven.signal]);
-        let of = |driven: &Driven| match &driven.target {
-            Target::Load(element) => work(&**element, (from, to), [size(driven, from), size(driven, to)]),
-            Target::State(_) => 0.0,
-        };
-        self.driven.iter().map(of).sum()
+        match self.driven.get(item) {
+            Some(driven @ Driven { target: Target::Load(element), .. }) => {
+                work(&**element, (from, to), [size(driven, from), size(driven, to)])
+            }
+            _ => 0.0,
+        }
     }
 
     fn power(&self, item: usize, at: &Kinematics) -> f64 {

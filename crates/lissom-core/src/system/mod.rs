@@ -164,6 +164,15 @@ impl System {
         }
     }
 
+    /// Work of an element's forces on the rest of the model between two configurations [J], as if forces changed linearly
+    /// along the way.
+    pub fn work_of(&self, element: ElementId, from: &Kinematics, to: &Kinematics) -> f64 {
+        match element.batch {
+            None => self.feedback.work(element.item, from, to),
+            Some(batch) => self.batches[batch].work(element.item, from, to),
+        }
+    }
+
     /// Work of loads between two configurations [J], as if forces changed linearly in time between them and places as
     /// cubic polynomials.
     pub fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
@@ -172,13 +181,8 @@ impl System {
 
     /// Work of prescribed motions between two configurations with their multipliers, likewise [J].
     pub fn work_of_drives(&self, from: (&Kinematics, &[f64]), to: (&Kinematics, &[f64])) -> f64 {
-        let of_drive = |drive: &Drive| {
-            let coordinate = drive.prescribed.coordinate;
-            let [start, end] = [from.0, to.0].map(|at| at.coordinates[coordinate]);
-            let forces = [from.1, to.1].map(|multipliers| -multipliers[drive.multiplier]);
-            batch::along(forces, end.value - start.value, [start.rate, end.rate], to.0.time - from.0.time)
-        };
-        self.drives.iter().map(of_drive).sum::<f64>() + self.work_of_couplings(from, to)
+        self.drives.iter().map(|drive| work_of_drive(drive, from, to)).sum::<f64>()
+            + self.work_of_couplings(from, to)
     }
 
     /// Times at which loads and prescribed motions are known not to be smooth [s], in ascending order.
@@ -246,4 +250,12 @@ impl System {
             out[coupling.multiplier] = coupling.violation(at);
         }
     }
+}
+
+/// Work of a drive between two configurations with their multipliers [J].
+pub(crate) fn work_of_drive(drive: &Drive, from: (&Kinematics, &[f64]), to: (&Kinematics, &[f64])) -> f64 {
+    let coordinate = drive.prescribed.coordinate;
+    let [start, end] = [from.0, to.0].map(|at| at.coordinates[coordinate]);
+    let forces = [from.1, to.1].map(|multipliers| -multipliers[drive.multiplier]);
+    batch::along(forces, end.value - start.value, [start.rate, end.rate], to.0.time - from.0.time)
 }

@@ -159,4 +159,6 @@ pub struct State {
     pub time_remainder: f64,
     /// What rounding has cut off each node's position so far [m].
     pub position_remainders: Vec<Vector3>,
+    /// Numbers that a simulation accumulates along its way, see `analysis::accumulated`.
+    pub accumulated: Vec<f64>,
 }

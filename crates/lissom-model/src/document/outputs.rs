@@ -10,6 +10,7 @@ use crate::reader::Reader;
 use crate::registry::Registry;
 use crate::report::Located;
 use crate::suggest;
+use crate::sweep::Fatigue;
 use crate::text::Node;
 
 /// A recorded quantity.
@@ -43,6 +44,10 @@ pub enum OutputKind {
     Spring,
     /// Power that a spring, load, drive or friction puts into the model [W].
     Power,
+    /// Work that a spring, load, drive or friction has put into the model since the start [J].
+    Work,
+    /// Angle of a node about an axis, continued beyond half a turn [rad].
+    Angle,
     /// Places of all nodes of a beam [m].
     Line,
     /// Energies of the whole model [J].
@@ -61,12 +66,13 @@ pub enum OutputKind {
 
 impl OutputKind {
     /// All of them, in the order of the manual.
-    pub const ALL: [Self; 21] = [
+    pub const ALL: [Self; 23] = [
         Self::Position,
         Self::Displacement,
         Self::Rotation,
         Self::Quaternion,
         Self::CardanAngles,
+        Self::Angle,
         Self::Velocity,
         Self::AngularVelocity,
         Self::Acceleration,
@@ -79,6 +85,7 @@ impl OutputKind {
         Self::RelativeMotion,
         Self::Spring,
         Self::Power,
+        Self::Work,
         Self::Energy,
         Self::Momentum,
         Self::Signal,
@@ -102,6 +109,8 @@ impl OutputKind {
             Self::RelativeMotion => "relative_motion",
             Self::Spring => "spring",
             Self::Power => "power",
+            Self::Work => "work",
+            Self::Angle => "angle",
             Self::Line => "line",
             Self::Energy => "energy",
             Self::Momentum => "momentum",
@@ -133,6 +142,10 @@ impl OutputKind {
             Self::Power => {
                 "Power that a spring, a load, a drive or the friction of a joint puts into the rest of the model."
             }
+            Self::Work => {
+                "Work that a spring, a load, a drive or the friction of a joint has put into the rest of the model."
+            }
+            Self::Angle => "Angle of a node about an axis since the start, continued beyond half a turn.",
             Self::Line => "Places of all nodes of a beam along its axis, from its start to its end.",
             Self::Energy => "Kinetic, strain, gravity and total energy of the model.",
             Self::Signal => "Value of a signal, an input or a state.",
@@ -151,7 +164,10 @@ impl OutputKind {
         !(self.is_of_beam()
             || self.is_of_joint()
             || self.is_of_model()
-            || matches!(self, Self::Signal | Self::Spring | Self::Power | Self::Line | Self::Expression))
+            || matches!(
+                self,
+                Self::Signal | Self::Spring | Self::Power | Self::Work | Self::Line | Self::Expression
+            ))
     }
 
     /// Whether it belongs to the whole model.
@@ -172,6 +188,29 @@ impl OutputKind {
     /// Whether it is a vector of a motion, which an observer may see otherwise.
     pub(crate) fn is_of_motion(self) -> bool {
         self.takes_point() || matches!(self, Self::Rotation | Self::AngularVelocity)
+    }
+
+    /// Whether an observer other than the ground may see it.
+    pub(crate) fn takes_observer(self) -> bool {
+        self.is_of_motion() || self == Self::Angle
+    }
+
+    /// Whether it depends on the whole way from the start.
+    pub(crate) fn is_accumulated(self) -> bool {
+        matches!(self, Self::Work | Self::Angle)
+    }
+
+    /// Whether its cycles may be counted as fatigue.
+    pub(crate) fn takes_fatigue(self) -> bool {
+        matches!(
+            self,
+            Self::SectionForce
+                | Self::SectionMoment
+                | Self::Reaction
+                | Self::Spring
+                | Self::Signal
+                | Self::Expression
+        )
     }
 
     /// Whether the axes in which it is told may be chosen.
@@ -251,6 +290,10 @@ pub struct Output {
     pub seen_in: Option<Located<NodeReference>>,
     /// The node as seen from which it is; the ground where there is none.
     pub relative_to: Option<Located<NodeReference>>,
+    /// The axis of an angle, at the start, global axes.
+    pub axis: Option<Vector3>,
+    /// How the cycles of its components are counted, if they are.
+    pub fatigue: Option<Fatigue>,
 }
 
 pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output> {
@@ -260,7 +303,7 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
             OutputSource::Joint(reader.name_in("of")?)
         } else if kind == OutputKind::Spring {
             OutputSource::Spring(reader.name_in("of")?)
-        } else if kind == OutputKind::Power {
+        } else if matches!(kind, OutputKind::Power | OutputKind::Work) {
             let what = "spring, load or joint";
             OutputSource::Actor(name_of_one(reader, &["springs", "loads", "joints"], what)?)
         } else if kind == OutputKind::Line {
@@ -304,10 +347,29 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
             Some(node) => frame(reader, node, key).map(Some),
         };
         let (seen_in, relative_to) =
-            (frame("in", kind.takes_axes())?, frame("relative_to", kind.is_of_motion())?);
+            (frame("in", kind.takes_axes())?, frame("relative_to", kind.takes_observer())?);
+        let axis = if kind == OutputKind::Angle { Some(axis(reader)?) } else { None };
+        let fatigue = if kind.takes_fatigue() { fatigue(reader) } else { None };
         let name = Located::new(name.to_owned(), reader.name);
-        Some(Output { name, kind, source, axes: axes.unwrap_or_default(), seen_in, relative_to })
+        let axes = axes.unwrap_or_default();
+        Some(Output { name, kind, source, axes, seen_in, relative_to, axis, fatigue })
     })
+}
+
+/// The axis of an angle, turned as the part is in which it is written.
+fn axis(reader: &Reader<'_, '_>) -> Option<Vector3> {
+    let (axis, node) = (reader.vector("axis")?, reader.node("axis")?);
+    reader.context.turned(node.scope, &axis.value)
+}
+
+/// How cycles are counted; none where there is no exponent, and where something is wrong, which is told.
+fn fatigue(reader: &Reader<'_, '_>) -> Option<Fatigue> {
+    let (exponent, cycles) = (reader.number("woehler_exponent"), reader.number("reference_cycles"));
+    if let (Some(cycles), false) = (&cycles, reader.has("woehler_exponent")) {
+        let message = format!("{} has `reference_cycles` without `woehler_exponent`", reader.what);
+        return reader.context.fail(cycles.span, message, "add `woehler_exponent`, or leave this out");
+    }
+    exponent.map(|exponent| Fatigue { exponent: exponent.value, cycles: cycles.map(|cycles| cycles.value) })
 }
 
 /// A node that has axes.

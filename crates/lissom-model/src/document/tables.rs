@@ -420,7 +420,7 @@ fn outputs() -> Vec<Variant> {
         if *kind == OutputKind::Spring {
             keys.push(required("of", Shape::Name("springs"), "", "the spring"));
         }
-        if *kind == OutputKind::Power {
+        if matches!(kind, OutputKind::Power | OutputKind::Work) {
             let words = "the name of a spring, a load, a drive or a joint with friction";
             keys.push(required("of", Shape::Text, "", words));
         }
@@ -438,7 +438,29 @@ fn outputs() -> Vec<Variant> {
                 "as \"hypot(a.x - b.x, a.y - b.y)\", of components of outputs",
             ));
         }
-        if kind.is_of_motion() {
+        if *kind == OutputKind::Angle {
+            keys.push(required(
+                "axis",
+                Shape::Direction,
+                "",
+                "the axis at the start, global axes; `relative_to` carries it",
+            ));
+        }
+        if kind.takes_fatigue() {
+            keys.push(optional(
+                "woehler_exponent",
+                Shape::Positive,
+                "",
+                "exponent of Woehler's line: the summary then has `damage_equivalent` of each component",
+            ));
+            keys.push(optional(
+                "reference_cycles",
+                Shape::Positive,
+                "",
+                "number of cycles of the damage equivalent range; default one per second of the run",
+            ));
+        }
+        if kind.takes_observer() {
             let words =
                 "body, or place on a beam, from which the motion is seen, in its axes; default the ground";
             keys.push(optional("relative_to", Shape::Node, "", words));

@@ -116,6 +116,8 @@ fn of_output(
         | OutputKind::RelativeMotion
         | OutputKind::Spring
         | OutputKind::Power
+        | OutputKind::Work
+        | OutputKind::Angle
         | OutputKind::Line
         | OutputKind::Energy
         | OutputKind::Momentum

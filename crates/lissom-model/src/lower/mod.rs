@@ -19,6 +19,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use lissom_core::analysis::Settings;
+use lissom_core::analysis::accumulated::Accumulated;
 use lissom_core::elements::beam::line::BeamLine;
 use lissom_core::joints::Quantity;
 use lissom_core::judge::Warning;
@@ -50,6 +51,8 @@ pub struct Lowered {
     pub plan: Plan,
     /// What is recorded.
     pub channels: Vec<Channel>,
+    /// What channels need added up along the steps.
+    pub accumulated: Vec<Arc<dyn Accumulated>>,
     /// Names of the columns that are not unique because constraints repeat each other at the start.
     pub not_unique: Vec<String>,
     /// Where the parts of the model are among the nodes and coordinates, and its signals.
@@ -174,12 +177,24 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
     }
     let mut warnings = beginning::drives(document, &system, &state, &mut problems);
     couplings::check(document, &system, &state, &mut problems);
-    let channels = output_channels::of(document, &system, (&drawn, &state), &names.resolver(), &mut problems);
+    let (channels, accumulated) =
+        output_channels::of(document, &system, (&drawn, &state), &names.resolver(), &mut problems);
     stop_at(document, &mut problems)?;
     let (not_unique, doubt) = redundancy::not_unique(&system, &state, &channels);
     warnings.extend(doubt);
     let system = Arc::new(system);
-    Ok(Lowered { system, state, settings, plan, channels, not_unique, names, warnings, assembly })
+    Ok(Lowered {
+        system,
+        state,
+        settings,
+        plan,
+        channels,
+        accumulated,
+        not_unique,
+        names,
+        warnings,
+        assembly,
+    })
 }
 
 impl Names {

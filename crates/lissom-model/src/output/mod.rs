@@ -29,8 +29,10 @@ pub use spectrum::Spectrum;
 pub use summary::Summary;
 pub use sweep_plot::{SweepAxis, SweepPicture, SweepPlot};
 
+use crate::sweep::Fatigue;
+
 /// What a column of results holds.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// Name of the output it belongs to, as `midspan`; columns of one output are drawn together.
     pub output: String,
@@ -40,13 +42,21 @@ pub struct Column {
     pub quantity: String,
     /// Unit, as `m`; empty for none.
     pub unit: String,
+    /// How its cycles are counted, if they are.
+    pub fatigue: Option<Fatigue>,
 }
 
 impl Column {
     /// A column.
     pub fn new(output: &str, component: &str, quantity: &str, unit: &str) -> Self {
         let [output, component, quantity, unit] = [output, component, quantity, unit].map(str::to_owned);
-        Self { output, component, quantity, unit }
+        Self { output, component, quantity, unit, fatigue: None }
+    }
+
+    /// The same, with its cycles counted.
+    #[must_use]
+    pub fn with_fatigue(self, fatigue: Option<Fatigue>) -> Self {
+        Self { fatigue, ..self }
     }
 
     /// Name of output and component, as `midspan.x`.

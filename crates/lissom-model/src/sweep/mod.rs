@@ -18,13 +18,15 @@
 //! ```
 
 mod decode;
+mod rainflow;
 pub mod sampling;
 mod statistic;
 mod variation;
 
 use serde::Serialize;
 
-pub use statistic::{Accumulator, STATISTICS, Statistic};
+pub use rainflow::Fatigue;
+pub use statistic::{Accumulator, OF_FATIGUE, STATISTICS, Statistic};
 pub use variation::{SweepValue, Variation};
 
 /// The newest version of the format.

@@ -3,6 +3,8 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::rainflow::{Fatigue, Rainflow};
+
 /// One number of a history.
 #[derive(Debug)]
 pub struct Statistic {
@@ -14,7 +16,7 @@ pub struct Statistic {
 }
 
 /// All of them.
-pub static STATISTICS: [Statistic; 10] = [
+pub static STATISTICS: [Statistic; 11] = [
     Statistic { name: "max", summary: "Largest recorded value.", of: |history| history.most.1 },
     Statistic { name: "min", summary: "Smallest recorded value.", of: |history| history.least.1 },
     Statistic {
@@ -45,6 +47,11 @@ pub static STATISTICS: [Statistic; 10] = [
     Statistic { name: "initial", summary: "First recorded value.", of: |history| history.first.1 },
     Statistic { name: "final", summary: "Last recorded value.", of: |history| history.last.1 },
     Statistic {
+        name: OF_FATIGUE,
+        summary: "Range of equal cycles that damage as much, by rainflow counting, of outputs with `woehler_exponent`.",
+        of: Accumulator::damage_equivalent,
+    },
+    Statistic {
         name: OF_EVENTS,
         summary: "Time at which an event first happens [s].",
         of: |history| history.first.0,
@@ -53,6 +60,9 @@ pub static STATISTICS: [Statistic; 10] = [
 
 /// The statistic of events: what it names in brackets is no column.
 pub(super) const OF_EVENTS: &str = "time_of_event";
+
+/// The statistic of fatigue, of columns whose output has an exponent of Woehler's line.
+pub const OF_FATIGUE: &str = "damage_equivalent";
 
 /// The statistic called `name`.
 pub(super) fn find(name: &str) -> Option<&'static Statistic> {
@@ -78,6 +88,7 @@ pub struct Accumulator {
     /// Integrals over time of the value and of its square.
     integrals: [f64; 2],
     fault: Option<f64>,
+    fatigue: Option<(Fatigue, Rainflow)>,
 }
 
 impl Default for Accumulator {
@@ -91,11 +102,17 @@ impl Default for Accumulator {
             least: nothing,
             integrals: [0.0; 2],
             fault: None,
+            fatigue: None,
         }
     }
 }
 
 impl Accumulator {
+    /// Of a column whose cycles are counted.
+    pub fn with_fatigue(fatigue: Option<Fatigue>) -> Self {
+        Self { fatigue: fatigue.map(|fatigue| (fatigue, Rainflow::new(fatigue.exponent))), ..Self::default() }
+    }
+
     /// Takes the value at `time` [s].
     pub fn add(&mut self, time: f64, value: f64) {
         let now = (time, value);
@@ -110,6 +127,9 @@ impl Accumulator {
         self.integrals[0] += half * (self.last.1 + value);
         self.integrals[1] += half * (self.last.1 * self.last.1 + value * value);
         self.last = now;
+        if let Some((_, rainflow)) = &mut self.fatigue {
+            rainflow.add(value);
+        }
         if value > self.most.1 {
             self.most = now;
         }
@@ -121,6 +141,12 @@ impl Accumulator {
     /// Time of the first value that was not finite, if any [s].
     pub fn fault(&self) -> Option<f64> {
         self.fault
+    }
+
+    /// Range of the equivalent cycles; not a number where they are not counted, or the history has no length.
+    fn damage_equivalent(&self) -> f64 {
+        let Some((fatigue, rainflow)) = &self.fatigue else { return f64::NAN };
+        rainflow.equivalent_range(fatigue.cycles.unwrap_or(self.last.0 - self.first.0))
     }
 
     /// Means over time of the value and of its square.
@@ -140,7 +166,7 @@ mod tests {
     use super::*;
 
     fn all(history: &[(f64, f64)]) -> Vec<Option<f64>> {
-        let mut accumulator = Accumulator::default();
+        let mut accumulator = Accumulator::with_fatigue(Some(Fatigue { exponent: 2.0, cycles: Some(4.0) }));
         for (time, value) in history {
             accumulator.add(*time, *value);
         }
@@ -153,9 +179,12 @@ mod tests {
         let values = all(&[(1.0, -3.0), (1.5, 1.0), (3.0, 1.0)]);
         let [duration, mean, square] = [2.0_f64, 0.25 * -2.0 + 1.5, 0.25 * (9.0 + 1.0) + 1.5];
         let (mean, rms) = (mean / duration, (square / duration).sqrt());
-        let wanted = [1.0, -3.0, 3.0, 1.5, 1.0, mean, rms, -3.0, 1.0, 1.0];
+        // Half a cycle from -3 to 1.
+        let equivalent = (0.5 * 16.0 / 4.0_f64).sqrt();
+        let wanted = [1.0, -3.0, 3.0, 1.5, 1.0, mean, rms, -3.0, 1.0, equivalent, 1.0];
         assert_eq!(values, wanted.map(Some));
-        assert_eq!(all(&[(0.0, -2.0)]), [-2.0, -2.0, 2.0, 0.0, 0.0, -2.0, 2.0, -2.0, -2.0, 0.0].map(Some));
+        let wanted = [-2.0, -2.0, 2.0, 0.0, 0.0, -2.0, 2.0, -2.0, -2.0, 0.0, 0.0];
+        assert_eq!(all(&[(0.0, -2.0)]), wanted.map(Some));
     }
 
     #[test]

@@ -100,7 +100,7 @@ pub fn columns(channels: &[Channel]) -> Vec<Column> {
     let of = |channel: &Channel| {
         let quantity = channel.kind.name().replace('_', " ");
         let column = |(component, unit): (&String, &&'static str)| {
-            Column::new(&channel.name, component, &quantity, unit)
+            Column::new(&channel.name, component, &quantity, unit).with_fatigue(channel.fatigue)
         };
         channel.components.iter().zip(&channel.units).map(column).collect::<Vec<_>>()
     };
@@ -122,9 +122,10 @@ impl Session {
     /// If there are no consistent initial values.
     pub fn start(lowered: Lowered) -> Result<Self, InitialError> {
         let began = Instant::now();
-        let Lowered { system, state, settings, plan, channels, names, warnings, .. } = lowered;
+        let Lowered { system, state, settings, plan, channels, accumulated, names, warnings, .. } = lowered;
         let schedule = Schedule::new(plan, settings.step_size);
-        let simulation = Simulation::new(system, state, settings)?;
+        let mut simulation = Simulation::new(system, state, settings)?;
+        simulation.accumulate(accumulated);
         let violations = vec![0.0; simulation.system().layout().multiplier_rows().len()];
         let mut timings = Timings::new();
         timings.start = began.elapsed();
@@ -517,7 +518,10 @@ impl Session {
         values.clear();
         self.values(&mut values);
         let time = self.schedule.time();
-        self.tally.histories.resize_with(values.len(), Accumulator::default);
+        if self.tally.histories.len() != values.len() {
+            let of = |column: &Column| Accumulator::with_fatigue(column.fatigue);
+            self.tally.histories = self.columns.iter().map(of).collect();
+        }
         for (history, value) in self.tally.histories.iter_mut().zip(&values) {
             history.add(time, *value);
         }

@@ -3,7 +3,7 @@
 use std::io;
 
 use lissom_model::output::{Column, Writer};
-use lissom_model::sweep::{Accumulator, Collected, SweepFile};
+use lissom_model::sweep::{Accumulator, Collected, OF_FATIGUE, SweepFile};
 
 use super::SweepError;
 use crate::parquet::{Values, parquet};
@@ -27,6 +27,14 @@ pub(super) fn check(file: &SweepFile, columns: &[Column], events: &[&str]) -> Re
     let collected = file.collect.iter().filter(|collected| !collected.is_of_event());
     let wanted = collected.map(|collected| (&collected.name, &collected.column));
     let all = wanted.chain(file.histories.iter().map(|column| (column, column)));
+    let uncounted = file.collect.iter().find(|collected| {
+        let own = columns.iter().find(|column| column.name() == collected.column);
+        collected.statistic == OF_FATIGUE && own.is_some_and(|column| column.fatigue.is_none())
+    });
+    if let Some(collected) = uncounted {
+        let (name, column) = (collected.name.clone(), collected.column.clone());
+        return Err(SweepError::NoExponent { name, column });
+    }
     let Some((name, column)) = all.into_iter().find(|(_, column)| !names.contains(column)) else {
         return Ok(());
     };
@@ -129,6 +137,9 @@ impl Writer for Collector<'_> {
             if collected.is_of_event() { Ok(None) } else { index(&collected.column).map(Some) }
         };
         self.indices = self.file.collect.iter().map(of).collect::<io::Result<_>>()?;
+        for (history, index) in self.histories.iter_mut().zip(&self.indices) {
+            *history = Accumulator::with_fatigue(index.and_then(|index| columns[index].fatigue));
+        }
         self.kept_indices = self.file.histories.iter().map(index).collect::<io::Result<_>>()?;
         Ok(())
     }

@@ -87,6 +87,16 @@ pub enum SweepError {
         /// The columns there are, in words.
         known: String,
     },
+    /// The cycles of a column are not counted.
+    #[error(
+        "`{name}` collects the damage equivalent range of `{column}`, whose output has no `woehler_exponent`: add it there"
+    )]
+    NoExponent {
+        /// Name of what is collected.
+        name: String,
+        /// The column.
+        column: String,
+    },
     /// The model has no such event.
     #[error("`{name}` collects the time of the event `{event}`, which the model does not have; {known}")]
     Event {

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from ._entry import Entry, Number, Place
+from ._entry import Entry, Number, Place, Vector
 
 
 class Output(Entry):
@@ -99,6 +99,23 @@ class CardanAngles(Output):
 
 
 @dataclass(kw_only=True, slots=True)
+class Angle(Output):
+    """Angle of a node about an axis since the start, continued beyond half a turn.
+
+    Args:
+        of: the node, as in "beam@0.5"; a node.
+        axis: the axis at the start, global axes; `relative_to` carries it; three numbers, not all zero.
+        relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
+    """
+
+    _form: ClassVar[str] = "angle"
+
+    of: str
+    axis: Vector
+    relative_to: str | None = None
+
+
+@dataclass(kw_only=True, slots=True)
 class Velocity(Output):
     """Velocity of a node or of a point it carries.
 
@@ -159,11 +176,15 @@ class SectionForce(Output):
 
     Args:
         of: the node, as in "beam@0.5"; a node.
+        woehler_exponent: exponent of Woehler's line: the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "section_force"
 
     of: str
+    woehler_exponent: Number | None = None
+    reference_cycles: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -172,11 +193,15 @@ class SectionMoment(Output):
 
     Args:
         of: the node, as in "beam@0.5"; a node.
+        woehler_exponent: exponent of Woehler's line: the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "section_moment"
 
     of: str
+    woehler_exponent: Number | None = None
+    reference_cycles: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -199,12 +224,16 @@ class Reaction(Output):
     Args:
         of: the joint; the name of an entry of `[joints]`.
         axes: global axes, or those of the joint frame that base or tip carries; default ground; `"ground"`, `"base"`, `"tip"`, or nothing.
+        woehler_exponent: exponent of Woehler's line: the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "reaction"
 
     of: str
     axes: Literal["ground", "base", "tip"] | None = None
+    woehler_exponent: Number | None = None
+    reference_cycles: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -252,11 +281,15 @@ class Spring(Output):
 
     Args:
         of: the spring; the name of an entry of `[springs]`.
+        woehler_exponent: exponent of Woehler's line: the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "spring"
 
     of: str
+    woehler_exponent: Number | None = None
+    reference_cycles: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -268,6 +301,19 @@ class Power(Output):
     """
 
     _form: ClassVar[str] = "power"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
+class Work(Output):
+    """Work that a spring, a load, a drive or the friction of a joint has put into the rest of the model.
+
+    Args:
+        of: the name of a spring, a load, a drive or a joint with friction; a text.
+    """
+
+    _form: ClassVar[str] = "work"
 
     of: str
 
@@ -298,11 +344,15 @@ class Signal(Output):
 
     Args:
         of: the name of a signal, an input or a state; a text.
+        woehler_exponent: exponent of Woehler's line: the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "signal"
 
     of: str
+    woehler_exponent: Number | None = None
+    reference_cycles: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -311,8 +361,12 @@ class Expression(Output):
 
     Args:
         value: as "hypot(a.x - b.x, a.y - b.y)", of components of outputs; an expression of signals.
+        woehler_exponent: exponent of Woehler's line: the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
     """
 
     _form: ClassVar[str] = "expression"
 
     value: Number
+    woehler_exponent: Number | None = None
+    reference_cycles: Number | None = None

@@ -58,6 +58,17 @@ entry! {
 }
 
 entry! {
+    /// Angle of a node about an axis since the start, continued beyond half a turn.
+    Angle => OutputId, "angle";
+    ["kind" = "angle"]
+    /// With what must be given.
+    ///
+    /// - `of`: the node, as in "beam@0.5"
+    /// - `axis`: the axis at the start, global axes; `relative_to` carries it
+    new(of: Node = "of", axis: [f64; 3] = "axis")
+}
+
+entry! {
     /// Velocity of a node or of a point it carries.
     Velocity => OutputId, "velocity";
     ["kind" = "velocity"]
@@ -180,6 +191,16 @@ entry! {
 }
 
 entry! {
+    /// Work that a spring, a load, a drive or the friction of a joint has put into the rest of the model.
+    Work => OutputId, "work";
+    ["kind" = "work"]
+    /// With what must be given.
+    ///
+    /// - `of`: the name of a spring, a load, a drive or a joint with friction
+    new(of: Quantity = "of")
+}
+
+entry! {
     /// Kinetic, strain, gravity and total energy of the model.
     Energy => OutputId, "energy";
     ["kind" = "energy"]
@@ -216,7 +237,7 @@ entry! {
 }
 
 keys! {
-    [Position, Displacement, Rotation, Velocity, AngularVelocity, Acceleration]
+    [Position, Displacement, Rotation, Angle, Velocity, AngularVelocity, Acceleration]
     /// Body, or place on a beam, from which the motion is seen, in its axes; default the ground.
     relative_to: Node = "relative_to";
 }
@@ -231,4 +252,12 @@ keys! {
     [Position, Displacement, Velocity, Acceleration]
     /// A place at the start, carried by the node \[m\].
     point: [f64; 3] = "point";
+}
+
+keys! {
+    [SectionForce, SectionMoment, Reaction, Spring, Signal, ExpressionOutput]
+    /// Exponent of Woehler's line: the summary then has `damage_equivalent` of each component.
+    woehler_exponent: f64 = "woehler_exponent";
+    /// Number of cycles of the damage equivalent range; default one per second of the run.
+    reference_cycles: f64 = "reference_cycles";
 }

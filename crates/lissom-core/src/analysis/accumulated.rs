@@ -1,0 +1,100 @@
+//! Numbers that depend on the whole way of a model and not on where it is: work, angles that go on beyond half a turn.
+//! They are carried in the state, so that snapshots and steps in parts have them, and change nothing of the motion.
+
+use std::sync::Arc;
+
+use super::dynamics::{Simulation, warn};
+use crate::judge::Warning;
+use crate::stepping::interpolate;
+use crate::system::{ElementId, State, System};
+
+/// A number that grows from step to step; zero at the start.
+pub trait Accumulated: Send + Sync {
+    /// Its name in the model.
+    fn name(&self) -> &str;
+
+    /// Its value at the end of a step, from the one at its start; not finite where that cannot be told.
+    fn after(&self, step: &AcceptedStep<'_>, before: f64) -> f64;
+}
+
+/// A step that was accepted.
+pub struct AcceptedStep<'s> {
+    /// The model.
+    pub system: &'s System,
+    /// Its start.
+    pub start: &'s State,
+    /// Its middle, of a motion in time; none of a load step.
+    pub middle: Option<&'s State>,
+    /// Its end.
+    pub end: &'s State,
+}
+
+impl AcceptedStep<'_> {
+    /// Work of an element's forces on the rest of the model [J]. In motion by Simpson's rule over the power, in load steps
+    /// by the trapezoidal rule along the way:
+    ///
+    /// ```text
+    /// W = h/6 (P₀ + 4 P½ + P₁)
+    /// ```
+    pub fn work_of_element(&self, element: ElementId) -> f64 {
+        let (start, end) = (&self.start.kinematics, &self.end.kinematics);
+        let Some(middle) = self.middle else { return self.system.work_of(element, start, end) };
+        let power = |state: &State| self.system.power(element, &state.kinematics);
+        self.duration() / 6.0 * (power(self.start) + 4.0 * power(middle) + power(self.end))
+    }
+
+    /// Work of a drive of a coordinate [J], as if its force changed linearly in time.
+    pub fn work_of_drive(&self, drive: usize) -> f64 {
+        let [start, end] = [self.start, self.end].map(|state| (&state.kinematics, &state.multipliers[..]));
+        crate::system::work_of_drive(&self.system.drives()[drive], start, end)
+    }
+
+    /// How long it is [s].
+    pub fn duration(&self) -> f64 {
+        self.end.kinematics.time - self.start.kinematics.time
+    }
+}
+
+/// What a simulation accumulates.
+#[derive(Default)]
+pub(crate) struct Accumulation {
+    pub(crate) numbers: Vec<Arc<dyn Accumulated>>,
+    /// Room for the middle of a step, where there are any.
+    between: Option<Box<State>>,
+    /// Room for the values after a step.
+    after: Vec<f64>,
+}
+
+impl Simulation {
+    /// Accumulates numbers from here on, from zero: [`State::accumulated`] has them in this order.
+    pub fn accumulate(&mut self, numbers: Vec<Arc<dyn Accumulated>>) {
+        for state in [&mut self.previous, &mut self.state, &mut self.next] {
+            state.accumulated = vec![0.0; numbers.len()];
+        }
+        let between = (!numbers.is_empty()).then(|| Box::new(self.state.clone()));
+        self.accumulation = Accumulation { between, after: Vec::with_capacity(numbers.len()), numbers };
+    }
+
+    /// Takes the step into account that is being accepted.
+    pub(super) fn accumulate_step(&mut self) {
+        let Accumulation { numbers, between, after } = &mut self.accumulation;
+        let Some(between) = between else { return };
+        let is_motion = self.settings.scheme.dynamic;
+        let (start, end) = (&self.state, &self.next);
+        let time = end.kinematics.time;
+        if is_motion {
+            interpolate(start, end, 0.5 * (start.kinematics.time + time), between);
+        }
+        let step = AcceptedStep { system: &self.system, start, middle: is_motion.then_some(&**between), end };
+        after.clear();
+        for (number, &before) in numbers.iter().zip(&start.accumulated) {
+            let value = number.after(&step, before);
+            if before.is_finite() && !value.is_finite() {
+                let output = number.name().to_owned();
+                warn(&mut self.warnings, Warning::AccumulationLost { time, output });
+            }
+            after.push(value);
+        }
+        self.next.accumulated.copy_from_slice(after);
+    }
+}

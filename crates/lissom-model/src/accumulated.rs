@@ -1,0 +1,107 @@
+//! Outputs that depend on the whole way: the work of what acts on a model, angles that go on beyond half a turn.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+
+use lissom_core::analysis::accumulated::{AcceptedStep, Accumulated};
+use lissom_core::system::{ElementId, Kinematics};
+use lissom_motion::{Rotation, Vector3};
+
+use crate::channels::Place;
+use crate::observers::Observer;
+
+/// Work of what acts on a model.
+pub(crate) struct Work {
+    pub(crate) name: String,
+    pub(crate) of: Actor,
+}
+
+/// What puts power into a model.
+#[derive(Clone, Copy)]
+pub(crate) enum Actor {
+    Element(ElementId),
+    /// By its place among the drives.
+    Drive(usize),
+}
+
+impl Accumulated for Work {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn after(&self, step: &AcceptedStep<'_>, before: f64) -> f64 {
+        let work = match self.of {
+            Actor::Element(element) => step.work_of_element(element),
+            Actor::Drive(drive) => step.work_of_drive(drive),
+        };
+        before + work
+    }
+}
+
+/// Cosine of half the angle by which the axis may at most be turned for the angle about it to have a meaning.
+const LEAST_COSINE: f64 = 1e-3;
+
+/// Angle of a node about an axis, continued from step to step. With the unit quaternion (q0, q) of the rotation since the
+/// start and the axis n:
+///
+/// ```text
+/// tan (φ/2) = q·n / q0
+/// ```
+///
+/// This is the angle of the turn about n that is left when the shortest turn of n itself is taken away. The whole turns are those
+/// that the angular velocity tells.
+pub(crate) struct AngleAboutAxis {
+    pub(crate) name: String,
+    pub(crate) place: Place,
+    pub(crate) observer: Observer,
+    /// In the observer's axes.
+    pub(crate) axis: Vector3,
+    /// Rotation of the node in the observer's axes at the start.
+    pub(crate) start: Rotation,
+}
+
+/// Where a node is turned, in the observer's axes.
+struct Turned {
+    /// Parts of the quaternion: the scalar, and the rest.
+    scalar: f64,
+    vector: Vector3,
+    /// Angular velocity about the axis [rad/s].
+    rate: f64,
+}
+
+impl AngleAboutAxis {
+    fn turned(&self, at: &Kinematics) -> Turned {
+        let own = self.observer.frame(at).rotation;
+        let [scalar, x, y, z] =
+            (own.inverse() * self.place.frame(at).rotation * self.start.inverse()).quaternion();
+        let relative = self.place.velocity(at).1 - at.nodes[self.observer.node].angular_velocity();
+        let rate = self.axis.dot(&own.apply_inverse(&relative));
+        Turned { scalar, vector: Vector3::new(x, y, z), rate }
+    }
+
+    /// Cosine of half the angle by which the axis itself is turned.
+    fn cosine(&self, turned: &Turned) -> f64 {
+        self.axis.dot(&turned.vector).hypot(turned.scalar)
+    }
+}
+
+impl Accumulated for AngleAboutAxis {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn after(&self, step: &AcceptedStep<'_>, before: f64) -> f64 {
+        let [start, end] = [step.start, step.end].map(|state| self.turned(&state.kinematics));
+        // Half the angle between both ends: where the axis is as close to half a turn, it may have passed it in between.
+        let between = (start.scalar * end.scalar + start.vector.dot(&end.vector)).abs().min(1.0).acos();
+        if self.cosine(&start).min(self.cosine(&end)) <= between.sin().max(LEAST_COSINE) {
+            return f64::NAN;
+        }
+        let angle = 2.0 * self.axis.dot(&end.vector).atan2(end.scalar);
+        // In load steps nothing moves in time.
+        let is_motion = step.middle.is_some();
+        let predicted = if is_motion { 0.5 * step.duration() * (start.rate + end.rate) } else { 0.0 };
+        let missed = angle - before - predicted;
+        let missed = missed - TAU * (missed / TAU).round();
+        if missed.abs() <= FRAC_PI_2 { before + predicted + missed } else { f64::NAN }
+    }
+}

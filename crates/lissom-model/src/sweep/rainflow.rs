@@ -1,0 +1,145 @@
+//! Cycles of a history by rainflow counting, and the range of the cycles of one size that damage as much.
+//!
+//! Counting as in ASTM E1049-85 (2017), section 5.4.4: X is the newest range between two reversals, Y the one before it. Where X is
+//! not less than Y, Y is a cycle, or half a one where it begins at the first reversal there still is. What is left at the end counts half.
+//!
+//! Legend: S range of a cycle, n how often it counts, m exponent of Woehler's line, N number of cycles of the equivalent range:
+//!
+//! ```text
+//! S_eq = (Σ n S^m / N)^(1/m)
+//! ```
+
+use serde::{Deserialize, Serialize};
+
+/// How a history is judged as fatigue.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Fatigue {
+    /// Exponent of Woehler's line.
+    pub exponent: f64,
+    /// Number of cycles of the equivalent range; none for one per second of the history.
+    pub cycles: Option<f64>,
+}
+
+/// Counts cycles while a history is gone through.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Rainflow {
+    exponent: f64,
+    /// Reversals that belong to no cycle yet; the last one is the latest value, which may not be one.
+    reversals: Vec<f64>,
+    /// Σ n S^m of the cycles so far.
+    damage: f64,
+}
+
+impl Rainflow {
+    pub(crate) fn new(exponent: f64) -> Self {
+        Self { exponent, reversals: Vec::new(), damage: 0.0 }
+    }
+
+    /// Takes the next value.
+    pub(crate) fn add(&mut self, value: f64) {
+        match self.reversals[..] {
+            [.., last] if last == value => return,
+            [.., before, last] if (last > before) == (value > last) => {
+                self.reversals.pop();
+            }
+            _ => self.close(&mut |_, _| ()),
+        }
+        self.reversals.push(value);
+    }
+
+    /// Counts what the reversals close, and tells `told` ranges and counts.
+    fn close(&mut self, told: &mut dyn FnMut(f64, f64)) {
+        while let [.., a, b, c] = self.reversals[..] {
+            let range = (b - a).abs();
+            if (c - b).abs() < range {
+                break;
+            }
+            if self.reversals.len() == 3 {
+                self.count(range, 0.5, told);
+                self.reversals.remove(0);
+            } else {
+                self.count(range, 1.0, told);
+                self.reversals.truncate(self.reversals.len() - 3);
+                self.reversals.push(c);
+            }
+        }
+    }
+
+    fn count(&mut self, range: f64, count: f64, told: &mut dyn FnMut(f64, f64)) {
+        self.damage += count * range.powf(self.exponent);
+        told(range, count);
+    }
+
+    /// Σ n S^m, with what is left counted half.
+    fn damage(&self, told: &mut dyn FnMut(f64, f64)) -> f64 {
+        let mut rest = self.clone();
+        rest.close(told);
+        for pair in std::mem::take(&mut rest.reversals).windows(2) {
+            rest.count((pair[1] - pair[0]).abs(), 0.5, told);
+        }
+        rest.damage
+    }
+
+    /// The range of `cycles` equal cycles that damage as much.
+    pub(crate) fn equivalent_range(&self, cycles: f64) -> f64 {
+        (self.damage(&mut |_, _| ()) / cycles).powf(self.exponent.recip())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// All cycles of a history: range and count, in ascending order, those of one range together.
+    fn cycles(history: &[f64]) -> Vec<(f64, f64)> {
+        let mut all: Vec<(f64, f64)> = Vec::new();
+        let mut told = |range: f64, count: f64| match all.iter_mut().find(|known| known.0 == range) {
+            Some(known) => known.1 += count,
+            None => all.push((range, count)),
+        };
+        let mut rainflow = Rainflow::new(1.0);
+        for value in history {
+            // As `add`, with the cycles told.
+            match rainflow.reversals[..] {
+                [.., last] if last == *value => continue,
+                [.., before, last] if (last > before) == (*value > last) => {
+                    rainflow.reversals.pop();
+                }
+                _ => rainflow.close(&mut told),
+            }
+            rainflow.reversals.push(*value);
+        }
+        let damage = rainflow.damage(&mut told);
+        let mut added = Rainflow::new(1.0);
+        for value in history {
+            added.add(*value);
+        }
+        assert_eq!(added.damage(&mut |_, _| ()), damage);
+        all.sort_by(|a, b| a.0.total_cmp(&b.0));
+        all
+    }
+
+    #[test]
+    fn the_example_of_the_standard_is_counted_as_there() {
+        // ASTM E1049-85, figure 6: reversals A to I.
+        let history = [-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0];
+        assert_eq!(cycles(&history), [(3.0, 0.5), (4.0, 1.5), (6.0, 0.5), (8.0, 1.0), (9.0, 0.5)]);
+        // Points between reversals, and repeated ones, change nothing.
+        let more = [-2.0, -1.0, 0.5, 1.0, 1.0, -3.0, 4.0, 5.0, -1.0, 3.0, 1.0, -4.0, 4.0, 4.0, -2.0];
+        assert_eq!(cycles(&more), cycles(&history));
+    }
+
+    #[test]
+    fn equal_cycles_have_their_own_range() {
+        for exponent in [1.0, 3.0, 10.0] {
+            let mut rainflow = Rainflow::new(exponent);
+            for k in 0..200 {
+                rainflow.add(if k % 2 == 0 { 7.0 } else { -5.0 });
+            }
+            let wanted = 12.0 * (99.5_f64 / 1e3).powf(1.0 / exponent);
+            let found = rainflow.equivalent_range(1e3);
+            assert!((found - wanted).abs() < 1e-12 * wanted, "{exponent}: {found} {wanted}");
+        }
+        assert_eq!(Rainflow::new(3.0).equivalent_range(1.0), 0.0);
+    }
+}
