@@ -84,6 +84,8 @@ pub(crate) enum Shape {
     Shear,
     /// A list of sections and where they are.
     Stations,
+    /// A list of nodes and locations on them.
+    Places,
     /// A list of pairs of numbers.
     Rows,
     /// Two numbers.
@@ -105,6 +107,14 @@ impl Shape {
             required("per_length", Self::Positive, "kg/m", "mass per length"),
             required("inertia", Self::Vector, "kg m", "[J11, J22, J33] per length about the centre of mass"),
             optional("center", Self::Pair, "m", "[c2, c3]: centre of mass across the beam"),
+        ]
+    }
+
+    /// Keys of one of several places.
+    pub(crate) fn place_keys() -> Vec<Key> {
+        vec![
+            required("on", Self::Node, "", "the node that carries it"),
+            optional("at", Self::Place, "m", "location at the start; default: the node's place"),
         ]
     }
 

@@ -214,6 +214,7 @@ pub(crate) fn words(shape: &Shape) -> String {
         Shape::SectionMass => "six numbers, a 6 x 6 matrix, or a table",
         Shape::Shear => "a number, two numbers, or a word",
         Shape::Stations => "a list of tables",
+        Shape::Places => "a list of `{ on, at }`, `at` may be left out",
         Shape::Rows => "a list of pairs",
         Shape::Pair => "two numbers",
         Shape::Words => "two texts",

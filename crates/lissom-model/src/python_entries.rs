@@ -182,7 +182,7 @@ fn type_of(shape: &Shape) -> String {
         Shape::Stiffness => "Vector | list[Vector]",
         Shape::Inertia | Shape::SectionMass => "Vector | list[Vector] | Table",
         Shape::Shear => "Number | Vector",
-        Shape::Stations => "list[Table]",
+        Shape::Stations | Shape::Places => "list[Table]",
         Shape::Friction | Shape::Solid | Shape::Table => "Table",
         Shape::Entries(_) => "Tables",
     };

@@ -26,6 +26,8 @@ pub enum ActsOn {
     TwoPlaces,
     /// One node `on` at location `at`.
     OneNode,
+    /// Places one after the other: `along`, a list of nodes `on` and locations `at`.
+    Places,
     /// A relative coordinate of `joint`: a rotation or a displacement.
     JointCoordinate(Quantity),
     /// A relative coordinate of `joint` and one of `other`.

@@ -151,6 +151,7 @@ fn of_shape(shape: &Shape) -> Value {
         Shape::Stations => {
             json!({ "type": "array", "minItems": 2, "items": of_keys(&Shape::station_keys()) })
         }
+        Shape::Places => json!({ "type": "array", "minItems": 2, "items": of_keys(&Shape::place_keys()) }),
         Shape::Rows => json!({ "type": "array", "minItems": 2, "items": list(&plain(), 2) }),
         Shape::Pair | Shape::Range => list(&plain(), 2),
         Shape::Words => list(&text(), 2),

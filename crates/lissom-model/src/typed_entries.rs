@@ -230,6 +230,7 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
         Shape::SectionMass => "SectionMass",
         Shape::Shear => "Shear",
         Shape::Stations => "Vec<(f64, SectionId)>",
+        Shape::Places => "Vec<(Node, Place)>",
         Shape::Pair | Shape::Range => "[f64; 2]",
     };
     Some(fixed.to_owned())

@@ -390,7 +390,20 @@ impl Maker {
             }
             let name = format!("p{}", self.tables.len());
             let pair = format!("base = \"{}\"\ntip = \"{}\"\n", self.nodes[a].name, self.nodes[b].name);
-            if self.draw.chance(0.75) {
+            if self.draw.chance(0.15) {
+                // Over a third place, mostly taut.
+                let over = self.draw.below(self.nodes.len());
+                if over == a || over == b {
+                    continue;
+                }
+                let stiffness = self.draw.size(10.0, 300.0);
+                let along = [a, over, b].map(|node| format!("{{ on = \"{}\" }}", self.nodes[node].name));
+                let length = if self.draw.chance(0.5) { "length = 0.1\n" } else { "" };
+                self.tables.push(format!(
+                    "[springs.{name}]\nkind = \"rope\"\nalong = [{}]\nstiffness = {stiffness}\n{length}",
+                    along.join(", ")
+                ));
+            } else if self.draw.chance(0.75) {
                 let stiffness = self.draw.size(10.0, 300.0);
                 let damping = if self.draw.chance(0.3) { short(stiffness * 0.01) } else { 0.0 };
                 self.is_conservative &= damping == 0.0;

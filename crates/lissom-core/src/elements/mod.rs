@@ -18,6 +18,7 @@ pub mod moment;
 pub(crate) mod point_spring;
 pub mod quadrature;
 pub(crate) mod rolling;
+pub(crate) mod rope;
 pub mod shape;
 pub mod sides;
 pub mod step_stages;
@@ -241,10 +242,12 @@ pub enum Attachment {
     TwoNodes,
     /// A joint's algebraic coordinate of this quantity.
     Coordinate(Quantity),
+    /// Places one after the other, each carried by a node.
+    Places,
 }
 
 /// Where a component is attached, resolved to indices.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub enum Attached {
     /// A node and a point in its body frame [m].
     OneNode(NodeId, Vector3),
@@ -252,6 +255,8 @@ pub enum Attached {
     TwoNodes([NodeId; 2], [Vector3; 2]),
     /// An algebraic coordinate.
     Coordinate(CoordinateId),
+    /// Nodes in their order, each with a point in its body frame [m]; a node may be there several times.
+    Places(Vec<(NodeId, Vector3)>),
 }
 
 impl Attached {
@@ -274,6 +279,17 @@ impl Attached {
         match self {
             Self::TwoNodes(nodes, points) => Ok((nodes, points)),
             _ => Err(ParameterError::new("base", "and `tip` must name two nodes")),
+        }
+    }
+
+    /// Nodes and points of an attachment to places.
+    ///
+    /// # Errors
+    /// If the attachment is of another form.
+    pub(crate) fn places(self) -> Result<Vec<(NodeId, Vector3)>, ParameterError> {
+        match self {
+            Self::Places(places) => Ok(places),
+            _ => Err(ParameterError::new("along", "must list places")),
         }
     }
 
@@ -310,6 +326,7 @@ pub struct ElementKind {
 pub static SPRINGS: &[ElementKind] = &[
     coordinate_spring::AXIAL,
     point_spring::KIND,
+    rope::KIND,
     coordinate_spring::TORSIONAL,
     friction::AXIAL,
     friction::TORSIONAL,

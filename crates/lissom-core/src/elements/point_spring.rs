@@ -85,17 +85,24 @@ fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> 
 }
 
 /// Motion of an attachment point in inertial axes.
-struct Point {
-    position: Vector3,
-    velocity: Vector3,
+pub(super) struct Point {
+    pub(super) position: Vector3,
+    pub(super) velocity: Vector3,
     /// Velocity in the node's body axes.
-    local_velocity: Vector3,
-    rotation: Matrix3,
-    offset: Vector3,
+    pub(super) local_velocity: Vector3,
+    pub(super) rotation: Matrix3,
+    pub(super) offset: Vector3,
 }
 
 impl Point {
-    fn new(node: &NodeMotion, offset: &Vector3) -> Self {
+    /// A point of the ground.
+    pub(super) fn fixed(position: &Vector3) -> Self {
+        let none = Vector3::zeros();
+        let rotation = Matrix3::identity();
+        Self { position: *position, velocity: none, local_velocity: none, rotation, offset: *position }
+    }
+
+    pub(super) fn new(node: &NodeMotion, offset: &Vector3) -> Self {
         let (v, w) = split(&node.twist);
         let local_velocity = v + w.cross(offset);
         Self {
@@ -108,7 +115,7 @@ impl Point {
     }
 
     /// Derivative of the position (or velocity) with respect to the node's body-frame freedoms.
-    fn gradient(&self) -> SMatrix<f64, 3, 6> {
+    pub(super) fn gradient(&self) -> SMatrix<f64, 3, 6> {
         let mut gradient = SMatrix::<f64, 3, 6>::zeros();
         gradient.fixed_view_mut::<3, 3>(0, 0).copy_from(&self.rotation);
         gradient.fixed_view_mut::<3, 3>(0, 3).copy_from(&(-self.rotation * skew(&self.offset)));

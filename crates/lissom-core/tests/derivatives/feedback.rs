@@ -99,6 +99,10 @@ fn sizes_that_are_signals() {
             let attached = match kind.attachment {
                 Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),
                 Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
+                Attachment::Places => {
+                    let order = [nodes[0], nodes[1], builder.ground(), nodes[1], nodes[0]];
+                    Attached::Places(order.map(|node| (node, random.vector())).to_vec())
+                }
                 Attachment::Coordinate(_) => Attached::Coordinate(own),
             };
             let last = graph(&mut builder, nodes, own, &mut random);
@@ -124,6 +128,10 @@ fn loads_are_in_proportion_to_their_size() {
             let attached = match kind.attachment {
                 Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),
                 Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
+                Attachment::Places => {
+                    let order = [nodes[0], nodes[1], builder.ground(), nodes[1], nodes[0]];
+                    Attached::Places(order.map(|node| (node, random.vector())).to_vec())
+                }
                 Attachment::Coordinate(wanted) => {
                     Attached::Coordinate(joint(&mut builder, nodes, wanted, &mut random))
                 }

@@ -116,6 +116,10 @@ fn springs_and_loads() {
             let attached = match kind.attachment {
                 Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),
                 Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
+                Attachment::Places => {
+                    let order = [nodes[0], nodes[1], builder.ground(), nodes[1], nodes[0]];
+                    Attached::Places(order.map(|node| (node, random.vector())).to_vec())
+                }
                 Attachment::Coordinate(wanted) => {
                     let placement = Placement {
                         nodes,

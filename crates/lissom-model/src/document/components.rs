@@ -9,10 +9,11 @@ use super::{Attachment, Component, NodeReference, assembly};
 use crate::context::Context;
 use crate::keys::Shape;
 use crate::line::are_parallel;
+use crate::parts::ScopeId;
 use crate::reader::Reader;
 use crate::registry::{ActsOn, FrameRule, KindEntry, Registry};
 use crate::report::{Located, Problem};
-use crate::text::Value;
+use crate::text::{Node, Value};
 
 pub(super) fn read(
     context: &Context<'_>,
@@ -98,11 +99,7 @@ fn attachment(
     // A part that could not be read has no place; its own error is enough.
     let at = |key: &str, node: &Located<NodeReference>| match reader.node(key) {
         Some(place) => reader.context.place(place, &reader.words(key)).map(|place| place.value),
-        // The ground has its place where the part is that names it.
-        None if node.value == NodeReference::Ground => {
-            reader.context.frame(reader.scope).map(|frame| frame.position)
-        }
-        None => places.of(&node.value),
+        None => own_place(reader.context, reader.scope, &node.value, places),
     };
     match acts_on {
         ActsOn::TwoNodes(rule) => {
@@ -126,6 +123,24 @@ fn attachment(
             }
             Some(Attachment::OneNode { at: at("at", &on)?, on })
         }
+        ActsOn::Places => {
+            let (context, node) = (reader.context, reader.node("along")?);
+            let Value::List(list) = &node.value else {
+                return context.wrong_type(node, &reader.words("along"), "a list of places");
+            };
+            let read = |(index, entry): (usize, &Node)| {
+                let what = format!("place {} of {}", index + 1, reader.words("along"));
+                let own = Reader::open(context, entry, (what, entry.span), Shape::place_keys())?;
+                let on = context.node(own.node("on")?, &own.words("on"))?;
+                let place = match own.node("at") {
+                    Some(place) => context.place(place, &own.words("at")).map(|place| place.value),
+                    None => own_place(context, reader.scope, &on.value, places),
+                };
+                Some((on, place?))
+            };
+            let all: Vec<_> = list.iter().enumerate().map(read).collect();
+            Some(Attachment::Places(all.into_iter().collect::<Option<_>>()?))
+        }
         ActsOn::JointCoordinate(_) => joint_coordinate(reader, name, registry),
         ActsOn::TwoJointCoordinates => {
             let (joint, other) = (reader.name_in("joint"), reader.name_in("other"));
@@ -133,6 +148,19 @@ fn attachment(
         }
         ActsOn::NamedCoordinates => Some(Attachment::NamedCoordinates),
     }
+}
+
+/// Where a node is. The ground has its place where the part is that names it.
+fn own_place(
+    context: &Context<'_>,
+    scope: ScopeId,
+    node: &NodeReference,
+    places: &Places,
+) -> Option<Vector3> {
+    if *node == NodeReference::Ground {
+        return context.frame(scope).map(|frame| frame.position);
+    }
+    places.of(node)
 }
 
 fn two_nodes(reader: &Reader<'_, '_>) -> Option<(Located<NodeReference>, Located<NodeReference>)> {

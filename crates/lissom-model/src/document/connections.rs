@@ -144,6 +144,11 @@ fn free_parts(context: &Context<'_>, document: &Document) {
         {
             groups.join(part_of(&base.value), part_of(&tip.value));
         }
+        if let Attachment::Places(along) = &component.attachment {
+            for pair in along.windows(2) {
+                groups.join(part_of(&pair[0].0.value), part_of(&pair[1].0.value));
+            }
+        }
     }
     for beam in &document.beams {
         for shared in beam.shared_start.iter().chain(&beam.shared_end) {

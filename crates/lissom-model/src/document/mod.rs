@@ -342,6 +342,8 @@ pub enum Attachment {
         /// Location at the start [m]; the node's place by default.
         at: Vector3,
     },
+    /// Places one after the other: nodes, and locations on them at the start [m].
+    Places(Vec<(Located<NodeReference>, Vector3)>),
     /// The relative coordinate of a joint.
     JointCoordinate {
         /// Name of the joint.

@@ -364,6 +364,9 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
             ));
             keys
         }
+        ActsOn::Places => {
+            vec![required("along", Shape::Places, "m", "the places it leads over, from one end to the other")]
+        }
         ActsOn::OneNode => vec![
             required("on", Shape::Node, "", "the node it acts on"),
             optional("at", Shape::Place, "m", "location; default: the node's place"),

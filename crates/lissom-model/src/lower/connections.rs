@@ -10,7 +10,7 @@ use lissom_motion::Vector3;
 
 use super::order::by_name;
 use super::{Names, parameter_problem};
-use crate::document::{Attachment, Component, Document, OnTip};
+use crate::document::{Attachment, Component, Document, NodeReference, OnTip};
 use crate::functions::Ramp;
 use crate::report::{Located, Problem};
 
@@ -103,6 +103,10 @@ fn joint(
             axis: None,
             second_axis: None,
         },
+        Attachment::Places(_) => {
+            let message = format!("joint `{name}` joins two nodes, not places");
+            return Err(Problem::error(component.name.span, message));
+        }
         Attachment::OneNode { on, .. } => {
             return Err(Problem::error(on.span, format!("joint `{name}` needs two nodes")));
         }
@@ -206,6 +210,13 @@ fn element(
         Attachment::OneNode { on, at } => {
             let node = names.node(on)?;
             Attached::OneNode(node, local(builder, node, at))
+        }
+        Attachment::Places(along) => {
+            let place = |(on, at): &(Located<NodeReference>, Vector3)| {
+                let node = names.node(on)?;
+                Ok((node, local(builder, node, at)))
+            };
+            Attached::Places(along.iter().map(place).collect::<Result<_, Problem>>()?)
         }
         Attachment::TwoPlaces { base, tip, at_base, at_tip } => {
             let nodes = [names.node(base)?, names.node(tip)?];

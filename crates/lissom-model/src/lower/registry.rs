@@ -82,6 +82,7 @@ fn element(kind: &ElementKind) -> KindEntry {
         Attachment::OneNode => ActsOn::OneNode,
         Attachment::TwoNodes => ActsOn::TwoPlaces,
         Attachment::Coordinate(quantity) => ActsOn::JointCoordinate(quantity),
+        Attachment::Places => ActsOn::Places,
     };
     KindEntry {
         name: kind.name,

@@ -108,6 +108,10 @@ fn spring_or_load(kind: &str) -> Option<Drawn> {
     use Drawn::Solids;
     Some(match kind {
         "point" => Drawn::Coil,
+        // A pulley at every place, and the rope between.
+        "rope" => {
+            Drawn::WithRod(|[b, t]| [vec![b.ring(0.5, 0.2, 0.0, Dark)], vec![t.ring(0.5, 0.2, 0.0, Dark)]])
+        }
         "bushing" => {
             Solids(|[b, t]| [vec![b.ring(0.95, 0.5, 0.0, Spring)], vec![t.cylinder(0, 0.4, 1.9, Dark)]])
         }

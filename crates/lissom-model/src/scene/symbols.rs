@@ -61,8 +61,11 @@ pub(super) fn symbols(document: &Document, places: &Places<'_>) -> (Vec<Symbol>,
                 });
             }
         }
-        if let (Drawn::WithRod(_), [(base, _), (tip, _)]) = (kind, &*ends) {
-            rods.push(Rod { name: component.name.value.clone(), anchors: [*base, *tip] });
+        if matches!(kind, Drawn::WithRod(_)) {
+            rods.extend(
+                ends.windows(2)
+                    .map(|pair| Rod { name: component.name.value.clone(), anchors: [pair[0].0, pair[1].0] }),
+            );
         }
     }
     (symbols, rods)
@@ -103,6 +106,7 @@ fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Opti
         Attachment::OneNode { on, at } => {
             Some(vec![end(on, at, &given("axis").unwrap_or_else(Vector3::z), None)?])
         }
+        Attachment::Places(along) => along.iter().map(|(on, at)| end(on, at, &Vector3::z(), None)).collect(),
         Attachment::JointCoordinate { joint } => Some(vec![of_joint(&joint.value, document, places)?]),
         Attachment::JointCoordinates { joint, other } => {
             let of = |name: &Located<String>| of_joint(&name.value, document, places);

@@ -93,6 +93,16 @@ impl From<Place> for Written {
     }
 }
 
+/// One of several places: the node that carries it, and where it is at the start.
+impl From<(Node, Place)> for Written {
+    fn from((on, at): (Node, Place)) -> Self {
+        let mut fields = Fields::default();
+        fields.set("on", on);
+        fields.set("at", at);
+        Self::Fields(fields)
+    }
+}
+
 /// Declares types that hold the name of one of several tables.
 macro_rules! names {
     ($($(#[$doc:meta])* $name:ident of $($id:ident)*;)*) => {

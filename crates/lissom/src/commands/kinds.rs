@@ -201,6 +201,10 @@ fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
             ("base, tip, at (default: the tip's place), axis and second_axis (default: global x and y)", TWO)
         }
         ActsOn::TwoPlaces => ("base, tip, at_base, at_tip (default: the nodes' places)", PLACES),
+        ActsOn::Places => (
+            "along: the places it leads over, each with `on` and `at`",
+            "along = [{ on = \"ground\", at = [0.0, 0.0, 3.0] }, { on = \"my_body\" }]",
+        ),
         ActsOn::OneNode => ("on, at (default: the node's place)", "on = \"my_body\""),
         ActsOn::TwoJointCoordinates => {
             ("joint, other: those whose coordinates it relates", "joint = \"my_hinge\"\nother = \"my_slide\"")

@@ -60,6 +60,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
     "springs": {
         "axial": springs.Axial,
         "point": springs.Point,
+        "rope": springs.Rope,
         "torsional": springs.Torsional,
         "axial_friction": springs.AxialFriction,
         "torsional_friction": springs.TorsionalFriction,

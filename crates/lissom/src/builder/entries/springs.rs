@@ -5,7 +5,7 @@ use super::words;
 use crate::builder::entry::{entry, keys};
 use crate::builder::expression::Function;
 use crate::builder::ids::JointId;
-use crate::builder::values::{Matrix, Node};
+use crate::builder::values::{Matrix, Node, Place};
 
 entry! {
     /// Spring and damper on a joint's relative displacement.
@@ -30,6 +30,28 @@ entry! {
     new(base: Node = "base", tip: Node = "tip")
     /// Length at which it is free of force; default: the length at the start \[m\].
     length: f64 = "length";
+}
+
+entry! {
+    /// Rope that slides over several places without friction: reeving over pulleys, and hoists by its length.
+    Rope => SpringId, "rope";
+    ["kind" = "rope"]
+    /// With what must be given.
+    ///
+    /// - `along`: the places it leads over, from one end to the other \[m\]
+    new(along: Vec<(Node, Place)> = "along")
+    /// Stiffness of the whole rope; default 0 \[N/m\].
+    stiffness: f64 = "stiffness";
+    /// Damping of the whole rope; default 0 \[N s/m\].
+    damping: f64 = "damping";
+    /// Tension over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` \[N\].
+    force: Function = "force";
+    /// Tension over `rate` and `elongation`, in addition to `damping`; a table is over `rate` \[N\].
+    damper_force: Function = "damper_force";
+    /// Least and greatest tension; default none \[N\].
+    limits: [f64; 2] = "limits";
+    /// Free length of the whole rope, over time where a winch changes it; default: the length at the start \[m\].
+    length: Function = "length";
 }
 
 entry! {
