@@ -9,6 +9,7 @@ use std::sync::Arc;
 use lissom_motion::{Matrix6, Vector3};
 
 use crate::joints::coupling::Relation;
+use crate::signals::HeldId;
 
 /// A function of time with exact first and second derivatives.
 pub trait TimeFunction: Send + Sync + fmt::Debug {
@@ -108,6 +109,8 @@ pub enum ParameterType {
     FunctionOf(&'static str),
     /// An expression of coordinates of joints and of the time `t`.
     Equation,
+    /// The name of an input.
+    Input,
     /// Six numbers not less than zero, the diagonal of a matrix, or a symmetric 6 x 6 matrix without negative
     /// eigenvalues.
     Matrix,
@@ -217,6 +220,8 @@ pub enum Value {
     Relation(Arc<dyn Relation>),
     /// A 6 x 6 matrix.
     Matrix(Box<Matrix6>),
+    /// An input, by its place among the held values.
+    Input(HeldId),
 }
 
 /// The parameters given for one component, by name.
@@ -393,6 +398,17 @@ impl Parameters {
             None => Ok(Matrix6::zeros()),
             Some(Value::Matrix(value)) => Ok(**value),
             other => Err(wrong(name, "six numbers or a 6 x 6 matrix", other)),
+        }
+    }
+
+    /// An input that must be there.
+    ///
+    /// # Errors
+    /// If it is missing or something else.
+    pub(crate) fn input(&self, name: &str) -> Result<HeldId, ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Input(held)) => Ok(*held),
+            other => Err(wrong(name, "the name of an input", other)),
         }
     }
 

@@ -243,6 +243,7 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
         ParameterType::Choices(words) => Shape::Choices(words),
         ParameterType::FunctionOf(variable) => Shape::FunctionOf(variable),
         ParameterType::Equation => Shape::Equation,
+        ParameterType::Input => Shape::Name("inputs"),
     };
     let Parameter { name, required, unit, summary, .. } = *parameter;
     Key { name, holds, required, unit, summary }

@@ -300,6 +300,7 @@ impl<'c, 'a> Reader<'c, 'a> {
                 ParameterType::FunctionOf(variable) => self.function_of(name, variable).map(Held::Function),
                 // Resolved with the whole model at hand.
                 ParameterType::Equation => None,
+                ParameterType::Input => self.name_in(name).map(|name| Held::Text(name.value)),
                 ParameterType::Choices(_) => self.choices(name).map(Held::Words),
                 ParameterType::Force(names) => self
                     .node(name)

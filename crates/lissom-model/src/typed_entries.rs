@@ -67,7 +67,7 @@ pub fn typed_entries(registry: &Registry) -> BTreeMap<&'static str, String> {
 /// The types that `text` names.
 fn imports(text: &str) -> String {
     const KNOWN: [(&str, &[&str]); 4] = [
-        ("ids", &["JointId", "MaterialId", "SectionId", "SpringId"]),
+        ("ids", &["InputId", "JointId", "MaterialId", "SectionId", "SpringId"]),
         ("entry", &["entry", "keys", "nested"]),
         (
             "values",
@@ -216,6 +216,7 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
             "materials" => "MaterialId",
             "sections" => "SectionId",
             "springs" => "SpringId",
+            "inputs" => "InputId",
             _ => "JointId",
         },
         Shape::PlaceOrNode => "Place",

@@ -82,6 +82,7 @@ impl Located for LinearError {
     fn whereabouts(&self) -> Whereabouts<'_> {
         match self {
             Self::Rolls { joint } => Whereabouts { time: None, part: Some(joint) },
+            Self::Latched { coordinate } => Whereabouts { time: None, part: Some(coordinate) },
             Self::Factor { time, unknown, .. } => {
                 Whereabouts { time: Some(*time), part: unknown.split('`').nth(1) }
             }

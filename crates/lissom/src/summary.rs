@@ -181,6 +181,7 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
             "largest_change": energy.largest,
             "work_of_loads": ledger.loads,
             "work_of_drives": ledger.drives,
+            "lost_in_latches": ledger.latches,
             "surplus": ledger.surplus,
             "turned_over": ledger.turned_over,
         }),

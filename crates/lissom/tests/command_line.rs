@@ -366,7 +366,7 @@ fn schema_kinds_and_version_are_told() {
 /// What `lissom kinds` shows can be pasted into a model.
 #[test]
 fn samples_of_kinds_are_good_models() {
-    const PARTS: &str = "lissom = 1\n\
+    const PARTS: &str = "lissom = 1\ninputs.my_input = 0\n\
         [bodies.my_body]\nmass = 1\ninertia = [1, 1, 1]\nposition = [1, 0, -1]\n\
         [joints.my_hinge]\nkind = \"revolute\"\nbase = \"ground\"\ntip = \"my_body\"\naxis = [1, 0, 0]\n\
         [bodies.my_slider]\nmass = 1\ninertia = [1, 1, 1]\nposition = [1, 0, -1]\n\

@@ -50,6 +50,7 @@ struct Maker {
     coordinates: Vec<Coordinate>,
     is_conservative: bool,
     has_rotor: bool,
+    has_latch: bool,
 }
 
 /// Joints of a tree; the first ones leave few freedoms and are drawn more often.
@@ -89,6 +90,7 @@ pub(super) fn mechanism(seed: u64, index: u64) -> Mechanism {
         coordinates: Vec::new(),
         is_conservative: true,
         has_rotor: false,
+        has_latch: false,
     };
     let is_free = maker.draw.chance(0.08);
     if !is_free {
@@ -332,6 +334,22 @@ impl Maker {
         }
     }
 
+    /// Seldom, a latch that snaps in where the coordinate has gone a little.
+    fn latch(&mut self, of: &Coordinate) {
+        if self.has_latch || !self.draw.chance(0.05) {
+            return;
+        }
+        self.is_conservative = false;
+        self.has_latch = true;
+        let (kind, at) = if of.is_angle { ("torsional_latch", 0.03) } else { ("axial_latch", 0.01) };
+        let (joint, number, passed) = (&of.joint, of.number, format!("{}.{} - {at}", of.joint, of.component));
+        self.tables.push("[inputs]\nlatched = 0\n".to_owned());
+        self.tables.push(format!(
+            "[springs.latch]\nkind = \"{kind}\"\njoint = \"{joint}\"\ncoordinate = {number}\nengaged = \"latched\"\n"
+        ));
+        self.tables.push(format!("[events.latch]\nzero_of = \"{passed}\"\nset = {{ latched = 1 }}\n"));
+    }
+
     fn springs(&mut self) {
         for of in self.coordinates.clone() {
             if self.draw.chance(0.4) {
@@ -368,6 +386,7 @@ impl Maker {
                     short(force * 0.1)
                 ));
             }
+            self.latch(&of);
             if self.draw.chance(0.08) {
                 self.is_conservative = false;
                 let name = format!("e{}", self.tables.len());
@@ -399,6 +418,8 @@ impl Maker {
                 let stiffness = self.draw.size(10.0, 300.0);
                 let along = [a, over, b].map(|node| format!("{{ on = \"{}\" }}", self.nodes[node].name));
                 let length = if self.draw.chance(0.5) { "length = 0.1\n" } else { "" };
+                // Where it goes slack, steps of one size miss when.
+                self.is_conservative &= !length.is_empty();
                 self.tables.push(format!(
                     "[springs.{name}]\nkind = \"rope\"\nalong = [{}]\nstiffness = {stiffness}\n{length}",
                     along.join(", ")

@@ -5,6 +5,7 @@
 
 use super::dynamics::{Settings, Simulation};
 use super::initial::{Initial, InitialError};
+use crate::elements::latch::holds;
 use crate::joints::Quantity;
 use crate::signals::SignalError;
 use crate::system::{Kinematics, LOCKED, State, System};
@@ -82,8 +83,13 @@ impl Simulation {
             return Ok(self.change_held_values(at)?);
         }
         let mut state = self.state.clone();
+        let engages = self.engages(&at);
         state.kinematics = at;
         if let Some(initial) = &mut self.held_values {
+            if engages {
+                initial.velocities(&self.system, &mut state)?;
+                self.ledger.strike(&self.system, &self.state.kinematics, &state.kinematics);
+            }
             settle(&self.system, &mut state, initial, &self.settings)?;
         }
         self.previous.clone_from(&state);
@@ -91,19 +97,34 @@ impl Simulation {
         Ok(())
     }
 
+    /// Whether a latch that was free holds with the held values of `at`.
+    fn engages(&self, at: &Kinematics) -> bool {
+        let is_new = |&input: &usize| holds(at.held[input]) && !holds(self.state.kinematics.held[input]);
+        self.system.latches.iter().any(is_new)
+    }
+
     /// Goes over to the held values of `at`, which is the present state otherwise: accelerations, multipliers, and the
-    /// rates of states jump.
+    /// rates of states jump, and where a latch engages velocities, by an impact without rebound.
     ///
     /// # Errors
     /// If there are no consistent accelerations; the state is then as it was.
     pub(crate) fn change_held_values(&mut self, at: Kinematics) -> Result<(), InitialError> {
+        let engages = self.engages(&at);
         let Some(initial) = &mut self.held_values else {
             self.state.kinematics = at;
             return Ok(());
         };
         let layout = self.system.layout();
         let before = initial.acceleration_at(&self.system, &self.state)?;
+        let kept = engages.then(|| self.state.clone());
         let held = std::mem::replace(&mut self.state.kinematics.held, at.held);
+        if let Some(kept) = kept {
+            if let Err(error) = initial.velocities(&self.system, &mut self.state) {
+                self.state = kept;
+                return Err(error);
+            }
+            self.ledger.strike(&self.system, &kept.kinematics, &self.state.kinematics);
+        }
         let mut jump = match initial.acceleration_at(&self.system, &self.state) {
             Ok(after) => after,
             Err(error) => {

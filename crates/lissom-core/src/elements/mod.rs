@@ -14,6 +14,7 @@ pub mod gyrostat;
 pub mod inertia;
 mod inertia_blocks;
 pub(crate) mod joint_load;
+pub(crate) mod latch;
 pub mod moment;
 pub(crate) mod point_spring;
 pub mod quadrature;
@@ -333,6 +334,8 @@ pub static SPRINGS: &[ElementKind] = &[
     bushing::KIND,
     stop::AXIAL,
     stop::TORSIONAL,
+    latch::AXIAL,
+    latch::TORSIONAL,
 ];
 
 /// Loads, one line each.

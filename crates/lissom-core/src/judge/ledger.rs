@@ -52,6 +52,9 @@ pub struct Ledger {
     pub loads: f64,
     /// Work of prescribed motions since the start.
     pub drives: f64,
+    /// Energy that latches have taken when they engaged.
+    #[serde(default)]
+    pub latches: f64,
     /// The largest surplus so far: energy that nothing put in.
     pub surplus: f64,
     /// Energy turned over so far: the largest sum of kinetic and elastic energy, the range of the potential one, and
@@ -139,6 +142,12 @@ impl Ledger {
             after.weigh(system.energy(end.at), of_weight);
         }
         after
+    }
+
+    /// Takes note of an impact that takes energy at an instant.
+    pub(crate) fn strike(&mut self, system: &System, before: &Kinematics, after: &Kinematics) {
+        self.latches += system.energy(before).kinetic - system.energy(after).kinetic;
+        self.weigh(system.energy(after), None);
     }
 
     /// Takes note of the energy; in statics with the part of the weight that acts as a load.

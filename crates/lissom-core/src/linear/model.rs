@@ -50,6 +50,15 @@ pub enum LinearError {
         /// Name of the joint.
         joint: String,
     },
+    /// A latch, which is a constraint between velocities.
+    #[error(
+        "there is no linear model of a system with latches (`{coordinate}`), which these analyses do not know: leave the latch out, \
+         or hold its joint by a stiff spring"
+    )]
+    Latched {
+        /// Name of its impulse.
+        coordinate: String,
+    },
     /// A pivot vanished or a number is not finite.
     #[error(
         "the linear model at t = {time:.6e} s: elimination stops at the {unknown} (pivot {pivot:.1e}); give it mass, stiffness or a joint"
@@ -106,6 +115,11 @@ impl<'a> LinearModel<'a> {
         }
         if let Some(joint) = system.joints().iter().find(|joint| !joint.impulses.is_empty()) {
             return Err(LinearError::Rolls { joint: joint.name.clone() });
+        }
+        if let Some((_, impulse)) = system.layout().impulses().next() {
+            return Err(LinearError::Latched {
+                coordinate: system.layout().coordinate_name(impulse).to_owned(),
+            });
         }
         let mut state = state.clone();
         let is_at_rest = is_at_rest(&state.kinematics);

@@ -30,7 +30,7 @@ use crate::joints::coupling::Coupling;
 use crate::joints::derivatives::{LOCAL, OWN, TIP};
 use crate::joints::{Build, Geometry, JointKind, Quantity};
 use crate::registry::{Function, ParameterError, Parameters};
-use crate::signals::{Graph, SignalId};
+use crate::signals::{Graph, HeldId, SignalId};
 
 /// Why a system could not be built.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -89,6 +89,8 @@ pub struct Builder {
     gravity: Gravity,
     states: Vec<(CoordinateId, f64)>,
     impulses: Vec<Impulse>,
+    /// Inputs that engage latches.
+    latches: Vec<HeldId>,
     graph: Graph,
     targets: Vec<(Target, SignalId)>,
     /// The signal that is the size of the loads being added.
@@ -126,6 +128,7 @@ impl Builder {
             gravity: Gravity::constant(Vector3::zeros()),
             states: Vec::new(),
             impulses: Vec::new(),
+            latches: Vec::new(),
             graph: Graph::default(),
             targets: Vec::new(),
             driver: None,
@@ -395,6 +398,7 @@ impl Builder {
             joint_batches: Batches::new(&self.joints),
             joints: self.joints,
             drives: self.drives,
+            latches: self.latches,
             couplings: self.couplings,
             structure,
             joint_places,
@@ -459,9 +463,10 @@ impl Builder {
                 .iter()
                 .map(|&row| Group { unknowns: vec![row as usize], hosts: Vec::new() }),
         );
-        for Impulse { coordinate, nodes } in &self.impulses {
+        for Impulse { coordinate, nodes, coordinates } in &self.impulses {
+            let nodes = nodes.iter().filter_map(|&node| of_node[node]);
             groups[first_coordinate + coordinate].hosts =
-                nodes.iter().filter_map(|&node| of_node[node]).collect();
+                nodes.chain(coordinates.iter().map(|own| first_coordinate + own)).collect();
         }
         let multipliers = layout.coordinate_count;
         for joint in &self.joints {

@@ -36,7 +36,7 @@ use crate::joints::attached::AttachedJoint;
 use crate::joints::blocks::{Batches, JointStarts};
 use crate::joints::coupling::Coupling;
 use crate::joints::prescribed::Prescribed;
-use crate::signals::Graph;
+use crate::signals::{Graph, HeldId};
 use batch::AnyBatch;
 pub(crate) use feedback::Feedback;
 use places::Places;
@@ -74,6 +74,8 @@ pub struct System {
     pub(crate) joint_batches: Batches,
     pub(crate) drives: Vec<Drive>,
     pub(crate) couplings: Vec<Coupling>,
+    /// Inputs that engage latches.
+    pub(crate) latches: Vec<HeldId>,
     pub(crate) structure: Structure,
     /// Where every joint's local matrix lies in the pattern.
     pub(crate) joint_places: Places,

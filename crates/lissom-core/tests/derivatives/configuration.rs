@@ -111,6 +111,7 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
             ParameterType::Range => Value::Range([-1e3, 1e3]),
             ParameterType::Choice(words) => Value::Text(words[0].to_owned()),
             ParameterType::FunctionOf(_) => Value::Function(Arc::new(Wave)),
+            ParameterType::Input => Value::Input(0),
             ParameterType::Equation => Value::Relation(Arc::new(Bent)),
             ParameterType::Choices(words) => {
                 let chosen = words.iter().filter(|_| random.number() > 0.0);

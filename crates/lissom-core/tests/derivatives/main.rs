@@ -112,6 +112,8 @@ fn springs_and_loads() {
         for flag in [false, true] {
             let mut random = Random::new(seed as u64 + 1);
             let (mut builder, nodes) = two_bodies(&mut random);
+            // What latches are engaged by.
+            builder.add_held("input", if flag { 1.0 } else { 0.0 });
             let parameters = sample_parameters(kind.parameters, flag, &mut random);
             let attached = match kind.attachment {
                 Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use lissom_core::elements::{self, Attached, ElementKind, LOADS, SPRINGS};
 use lissom_core::joints::{self, Build, JointKind, Quantity};
 use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Value};
+use lissom_core::signals::Argument;
 use lissom_core::system::{Builder, CoordinateId, NodeId, PlaceOnTip, Placement};
 use lissom_motion::Vector3;
 
@@ -248,6 +249,8 @@ fn element(
     let ramp = ramp.filter(|_| component.signal.is_none());
     let ramped = ramp.and_then(|span| ramped(kind, &component.parameters, span));
     let parameters = ramped.as_ref().unwrap_or(&component.parameters);
+    let with_inputs = with_inputs(kind, parameters, component, names)?;
+    let parameters = with_inputs.as_ref().unwrap_or(parameters);
     let build = |builder: &mut Builder| (kind.build)(builder, attached, parameters);
     let built = match &component.signal {
         None => build(builder),
@@ -268,6 +271,25 @@ fn element(
         names.springs.insert(component.name.value.clone(), (element, quantity));
     }
     built.map_err(|error| parameter_problem(component, &error))
+}
+
+/// The parameters with inputs in the place of their names; none where no input is named.
+fn with_inputs(
+    kind: &ElementKind,
+    given: &Parameters,
+    component: &Component,
+    names: &Names,
+) -> Result<Option<Parameters>, Problem> {
+    let mut parameters: Option<Parameters> = None;
+    for Parameter { name, .. } in kind.parameters.iter().filter(|own| own.holds == ParameterType::Input) {
+        let word = given.word(name).map_err(|error| parameter_problem(component, &error))?;
+        let Some(Argument::Held(held)) = word.and_then(|word| names.signals.get(word)) else {
+            let message = format!("`{name}` of `{}` names no input", component.name.value);
+            return Err(Problem::error(component.span_of(name), message));
+        };
+        parameters.get_or_insert_with(|| given.clone()).insert(name, Value::Input(*held));
+    }
+    Ok(parameters)
 }
 
 /// The parameters of a load with its constant sizes growing from nothing over `span` [s]; none where nothing changes.

@@ -118,6 +118,9 @@ fn spring_or_load(kind: &str) -> Option<Drawn> {
         "torsional" => {
             Solids(|[b, _]| base([1.2, 1.55, 1.9].map(|radius| b.ring(radius, 0.1, 0.5, Spring)).to_vec()))
         }
+        "torsional_latch" | "axial_latch" => {
+            Solids(|[b, _]| base(vec![b.block([0.9, 0.5, 0.5], [0.0, 1.3, 0.0], Stop)]))
+        }
         "axial" => Solids(|[b, _]| {
             base([-1.8, -1.2, -0.6, 0.0, 0.6, 1.2, 1.8].map(|at| b.ring(1.1, 0.12, at, Spring)).to_vec())
         }),

@@ -150,7 +150,7 @@ macro_rules! written_names {
     };
 }
 
-written_names! { MaterialId SectionId JointId SpringId }
+written_names! { MaterialId SectionId JointId SpringId InputId }
 
 /// The mass of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]

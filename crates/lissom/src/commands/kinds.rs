@@ -182,6 +182,7 @@ fn holds(holds: ParameterType) -> String {
         ParameterType::Range => "two ascending numbers".to_owned(),
         ParameterType::Choice(words) => words.join(" | "),
         ParameterType::FunctionOf(variable) => format!("number, expression of {variable} or table"),
+        ParameterType::Input => "name of an input".to_owned(),
         ParameterType::Equation => "expression of coordinates, as arm.angle, and of t".to_owned(),
         ParameterType::Choices(words) => format!("list of {}", words.join(", ")),
     }

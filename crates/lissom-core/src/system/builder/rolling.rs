@@ -5,13 +5,15 @@ use crate::elements::rolling::Rolling;
 use crate::joints::Quantity;
 use crate::joints::attached::CarriedFrame;
 use crate::joints::contact::Contact;
+use crate::signals::HeldId;
 use crate::system::state::{CoordinateId, NodeId};
 
 /// A coordinate whose rate is the force of a constraint between velocities.
 pub(super) struct Impulse {
     pub(super) coordinate: CoordinateId,
-    /// Nodes whose velocities are constrained: they are eliminated before it.
-    pub(super) nodes: [NodeId; 2],
+    /// Nodes and coordinates whose velocities are constrained: they are eliminated before it.
+    pub(super) nodes: Vec<NodeId>,
+    pub(super) coordinates: Vec<CoordinateId>,
 }
 
 impl Builder {
@@ -30,12 +32,23 @@ impl Builder {
                 quantity: Quantity::State,
             });
             let coordinate = self.coordinates.len() - 1;
-            self.impulses.push(Impulse { coordinate, nodes: frames.map(|frame| frame.node) });
+            let nodes = frames.map(|frame| frame.node).to_vec();
+            self.impulses.push(Impulse { coordinate, nodes, coordinates: Vec::new() });
             coordinate
         });
         let impulses: Vec<CoordinateId> = impulses.collect();
         self.add_element(Rolling::new(frames, impulses.clone(), contact));
         self.last = None;
         impulses
+    }
+
+    /// Adds the impulse of a latch on a coordinate, which an input engages.
+    pub(crate) fn add_latch(&mut self, latched: CoordinateId, engaged: HeldId) -> CoordinateId {
+        let name = format!("{}, latched", self.coordinates[latched].name);
+        self.coordinates.push(Coordinate { name, value: 0.0, quantity: Quantity::State });
+        let coordinate = self.coordinates.len() - 1;
+        self.impulses.push(Impulse { coordinate, nodes: Vec::new(), coordinates: vec![latched] });
+        self.latches.push(engaged);
+        coordinate
     }
 }

@@ -67,6 +67,8 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "bushing": springs.Bushing,
         "axial_stop": springs.AxialStop,
         "torsional_stop": springs.TorsionalStop,
+        "axial_latch": springs.AxialLatch,
+        "torsional_latch": springs.TorsionalLatch,
     },
     "loads": {
         "force": loads.Force,

@@ -290,3 +290,37 @@ class TorsionalStop(Spring):
     restitution: Number | None = None
     impact_velocity: Number | None = None
     coordinate: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class AxialLatch(Spring):
+    """Holds a joint's relative displacement where it is while an input is set: latches and releases.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
+        engaged: The input that engages it: above 0.5 it holds, otherwise it is free; events set it; the name of an entry of `[inputs]`.
+    """
+
+    _form: ClassVar[str] = "axial_latch"
+
+    in_: str | None = None
+    joint: str
+    engaged: str
+
+
+@dataclass(kw_only=True, slots=True)
+class TorsionalLatch(Spring):
+    """Holds a joint's relative rotation where it is while an input is set: latches and releases.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
+        engaged: The input that engages it: above 0.5 it holds, otherwise it is free; events set it; the name of an entry of `[inputs]`.
+    """
+
+    _form: ClassVar[str] = "torsional_latch"
+
+    in_: str | None = None
+    joint: str
+    engaged: str

@@ -4,7 +4,7 @@
 use super::words;
 use crate::builder::entry::{entry, keys};
 use crate::builder::expression::Function;
-use crate::builder::ids::JointId;
+use crate::builder::ids::{InputId, JointId};
 use crate::builder::values::{Matrix, Node, Place};
 
 entry! {
@@ -175,6 +175,28 @@ entry! {
     restitution: f64 = "restitution";
     /// Rate of that impact \[rad/s\].
     impact_velocity: f64 = "impact_velocity";
+}
+
+entry! {
+    /// Holds a joint's relative displacement where it is while an input is set: latches and releases.
+    AxialLatch => SpringId, "axial_latch";
+    ["kind" = "axial_latch"]
+    /// With what must be given.
+    ///
+    /// - `joint`: the joint whose relative displacement it acts on
+    /// - `engaged`: The input that engages it: above 0.5 it holds, otherwise it is free; events set it
+    new(joint: JointId = "joint", engaged: InputId = "engaged")
+}
+
+entry! {
+    /// Holds a joint's relative rotation where it is while an input is set: latches and releases.
+    TorsionalLatch => SpringId, "torsional_latch";
+    ["kind" = "torsional_latch"]
+    /// With what must be given.
+    ///
+    /// - `joint`: the joint whose relative rotation it acts on
+    /// - `engaged`: The input that engages it: above 0.5 it holds, otherwise it is free; events set it
+    new(joint: JointId = "joint", engaged: InputId = "engaged")
 }
 
 keys! {
