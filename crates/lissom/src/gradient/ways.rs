@@ -117,7 +117,9 @@ impl Ways {
     pub(super) fn new(question: &Question<'_>, paths: &[String]) -> Result<Self, GradientError> {
         let base = question.session.simulation();
         let is_even = base.settings().scheme.stages.len() > 1 || question.has_even_steps();
-        let mut sensitivities = if is_even { Sensitivities::new(base) } else { None };
+        // What is accumulated along the way is no function of the state: neighbours accumulate their own.
+        let is_of_state = base.state().accumulated.is_empty();
+        let mut sensitivities = if is_even && is_of_state { Sensitivities::new(base) } else { None };
         let mut count = 0;
         let mut of = |path: &String| {
             let number = question.number(path)?;

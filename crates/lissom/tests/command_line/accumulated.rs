@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use lissom::gradient::gradient;
 use lissom::{Model, Record, Session, SessionSnapshot};
 use serde_json::Value;
 
@@ -182,6 +183,20 @@ fn works_and_angles_go_on_from_a_snapshot_to_the_last_bit() {
     let without = MODEL.replace("[outputs.motor]\nkind = \"work\"", "[outputs.motor]\nkind = \"power\"");
     let other = model(&without).session(&[]).unwrap().snapshot();
     assert!(again.restore(&other).is_err());
+}
+
+/// W = F²t²/2m of a force that is constant: dW/dF = F t²/m.
+#[test]
+fn works_have_gradients() {
+    let text = "lissom = 1\ngravity = [0, 0, 0]\n[bodies.cart]\nmass = 2\ninertia = [1, 1, 1]\n\
+        [joints.rail]\nkind = \"prismatic\"\nbase = \"ground\"\ntip = \"cart\"\naxis = [1, 0, 0]\n\
+        [loads.push]\nkind = \"joint_force\"\njoint = \"rail\"\nforce = 6\n\
+        [outputs.push]\nkind = \"work\"\nof = \"push\"\n\
+        [analysis]\nkind = \"dynamics\"\nscheme = \"radau-iia\"\nend = 3\nstep = 0.1\n";
+    let target = "push.work".parse().unwrap();
+    let found = gradient(&model(text), &[], &target, &["loads.push.force".to_owned()]).unwrap();
+    assert!((found.value - 81.0).abs() < 1e-8, "{}", found.value);
+    assert!((found.derivatives[0].value - 27.0).abs() < 1e-6, "{}", found.derivatives[0].value);
 }
 
 #[test]
