@@ -286,6 +286,11 @@ impl Simulation {
         &self.system
     }
 
+    /// A shared handle on the system.
+    pub fn shared_system(&self) -> Arc<System> {
+        Arc::clone(&self.system)
+    }
+
     /// The state after the last step.
     pub fn state(&self) -> &State {
         &self.state

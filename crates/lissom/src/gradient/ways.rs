@@ -1,9 +1,12 @@
 //! Two ways to the derivatives of a state: carried along the steps as linear unknowns, or as differences of two neighbouring
 //! models that take the same steps.
 
+use std::sync::Arc;
+
 use lissom_core::analysis::{Sensitivities, Simulation};
-use lissom_core::system::State;
+use lissom_core::system::{State, System};
 use lissom_model::Document;
+use lissom_model::channels::Channel;
 use lissom_model::numbers::number_at;
 
 use super::{GradientError, Target, prepared};
@@ -40,9 +43,21 @@ pub(super) struct Question<'a> {
 struct Neighbours {
     path: String,
     number: f64,
-    sessions: Vec<(Session, f64)>,
-    /// Its index among the derivatives that are carried; none where they take the steps themselves.
-    carried: Option<usize>,
+    way: Way,
+}
+
+/// How the derivatives by a number are found.
+enum Way {
+    /// They are carried, with this index; the neighbours are kept for what they record.
+    Carried(usize, Vec<(Observed, f64)>),
+    /// The neighbours take the steps themselves.
+    Followed(Vec<(Session, f64)>),
+}
+
+/// What a model records, and of what.
+struct Observed {
+    system: Arc<System>,
+    channels: Vec<Channel>,
 }
 
 /// All numbers, each on its way.
@@ -132,12 +147,16 @@ impl Ways {
                     sessions.iter().map(|(session, weight)| (session.simulation(), *weight)).collect();
                 if sensitivities.add(base, &simulations) {
                     count += 1;
-                    let carried = Some(count - 1);
-                    return Ok(Neighbours { path: path.clone(), number, sessions, carried });
+                    let observed = |(session, weight): (Session, f64)| {
+                        let system = session.simulation().shared_system();
+                        (Observed { system, channels: session.into_channels() }, weight)
+                    };
+                    let way = Way::Carried(count - 1, sessions.into_iter().map(observed).collect());
+                    return Ok(Neighbours { path: path.clone(), number, way });
                 }
             }
-            let sessions = question.neighbours(path, number, (APART, false))?;
-            Ok(Neighbours { path: path.clone(), number, sessions, carried: None })
+            let way = Way::Followed(question.neighbours(path, number, (APART, false))?);
+            Ok(Neighbours { path: path.clone(), number, way })
         };
         let numbers = paths.iter().map(&mut of).collect::<Result<Vec<_>, GradientError>>()?;
         Ok(Self { numbers, sensitivities, corrections: 0, state: base.state().clone() })
@@ -147,7 +166,7 @@ impl Ways {
     pub(super) fn advance(&mut self, session: &mut Session) -> Result<(), GradientError> {
         let time = session.progress().time;
         let base = session.simulation_mut();
-        let is_carried = self.numbers.iter().any(|number| number.carried.is_some());
+        let is_carried = self.numbers.iter().any(|number| matches!(number.way, Way::Carried(..)));
         let is_known = match &mut self.sensitivities {
             Some(sensitivities) if is_carried => sensitivities.advance(base)?,
             _ => base.renew_at_solution()?,
@@ -155,7 +174,8 @@ impl Ways {
         if !is_known {
             return Err(GradientError::InParts(time));
         }
-        for Neighbours { sessions, .. } in self.numbers.iter_mut().filter(|of| of.carried.is_none()) {
+        for Neighbours { way, .. } in &mut self.numbers {
+            let Way::Followed(sessions) = way else { continue };
             for (neighbour, _) in sessions {
                 self.corrections += neighbour.simulation_mut().follow(base)?;
             }
@@ -169,19 +189,24 @@ impl Ways {
         let base = session.simulation();
         let mut values = Vec::new();
         let mut of = |number: &Neighbours| {
-            let mut across = |state: Option<&State>| {
-                let mut sum = 0.0;
-                for (session, weight) in &number.sessions {
-                    let state = state.unwrap_or(session.simulation().state());
-                    sum += weight * value_of(session, state, column, &mut values);
+            let (index, observed) = match &number.way {
+                Way::Carried(index, observed) => (*index, observed),
+                Way::Followed(sessions) => {
+                    let of = |(session, weight): &(Session, f64)| {
+                        let simulation = session.simulation();
+                        let (system, state) = (simulation.system(), simulation.state());
+                        weight * value_of((session.channels(), system), state, column, &mut values)
+                    };
+                    return sessions.iter().map(of).sum();
                 }
-                sum
             };
-            let (Some(sensitivities), Some(index)) = (&*sensitivities, number.carried) else {
-                return across(None);
-            };
+            let Some(sensitivities) = &*sensitivities else { return f64::NAN };
             // What the column is made of may depend on the number itself: where it measures, and from where.
-            let directly = across(Some(base.state()));
+            let of = |(observed, weight): &(Observed, f64)| {
+                let place = (&observed.channels[..], &*observed.system);
+                weight * value_of(place, base.state(), column, &mut values)
+            };
+            let directly: f64 = observed.iter().map(of).sum();
             let extent = sensitivities.extent(base, index);
             if extent == 0.0 {
                 let share = NEAR * number.number;
@@ -198,7 +223,7 @@ impl Ways {
     /// Path and value of every number, and whether its derivatives were carried; and corrections of all.
     pub(super) fn into_numbers(self) -> (Vec<(String, f64, bool)>, usize) {
         let carried = self.sensitivities.as_ref().map_or(0, Sensitivities::corrections);
-        let of = |number: Neighbours| (number.path, number.number, number.carried.is_some());
+        let of = |number: Neighbours| (number.path, number.number, matches!(number.way, Way::Carried(..)));
         (self.numbers.into_iter().map(of).collect(), self.corrections + carried)
     }
 }
@@ -216,7 +241,8 @@ fn along(
     let [below, above] = [-share, share].map(|share| {
         sensitivities.displace(session.simulation(), index, share, state);
         values.clear();
-        value_of(session, state, column, &mut values)
+        let place = (session.channels(), session.simulation().system());
+        value_of(place, state, column, &mut values)
     });
     (above - below) / (2.0 * share)
 }
@@ -229,13 +255,18 @@ fn steadiest(found: &[f64]) -> f64 {
 }
 
 /// The value of a column in a state.
-fn value_of(session: &Session, state: &State, column: usize, values: &mut Vec<f64>) -> f64 {
+fn value_of(
+    (channels, system): (&[Channel], &System),
+    state: &State,
+    column: usize,
+    values: &mut Vec<f64>,
+) -> f64 {
     let mut first = 0;
-    for channel in session.channels() {
+    for channel in channels {
         let count = channel.components.len();
         if column < first + count {
             values.clear();
-            channel.evaluate(session.simulation().system(), state, values);
+            channel.evaluate(system, state, values);
             return values[column - first];
         }
         first += count;

@@ -161,6 +161,11 @@ impl Session {
         &self.channels
     }
 
+    /// What is recorded, without the rest.
+    pub(crate) fn into_channels(self) -> Vec<Channel> {
+        self.channels
+    }
+
     /// Hands the states of a [`run`](Self::run) to `writer`, too.
     pub fn write_states_to(&mut self, writer: Box<dyn StateWriter>) {
         self.state_writers.push(writer);

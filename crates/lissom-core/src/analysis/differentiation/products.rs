@@ -9,65 +9,89 @@
 use lissom_motion::{Block, WIDTH};
 use lissom_solver::Pattern;
 
-use super::variation::NOTHING;
 use crate::system::Linearization;
 
 /// An entry of D and M.
 #[derive(Clone, Copy, Debug)]
 struct Inertial {
-    row: u32,
     column: u32,
     by_rate: f64,
     by_acceleration: f64,
 }
 
-/// The linearised equations at a stage, ready for products.
+/// The linearised equations at a stage, row after row, so that sums stay in registers.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Products {
-    /// K, and B in the rows of the multipliers.
+    /// Position of every entry's mirror image: the pattern is symmetric, and values stand by columns.
+    mirrored: Vec<u32>,
+    /// K, and B in the rows of the multipliers, by rows.
     by_place: Vec<f64>,
-    /// What is not zero of D and M, which is little.
+    /// What is not zero of D and M, which is little, and where each row's entries end.
     inertial: Vec<Inertial>,
-    /// Bᵀ times changes of multipliers is left out in the columns from here on, unless they are given.
-    coordinates: usize,
+    ends: Vec<u32>,
 }
 
 impl Products {
     /// Takes over a linearisation.
-    pub(super) fn enter(&mut self, pattern: &Pattern, coordinates: usize, parts: &Linearization) {
-        self.coordinates = coordinates;
-        self.by_place.clear();
-        self.by_place.extend(parts.stiffness.iter().zip(&parts.constraint).map(|(k, b)| k + b));
-        self.inertial.clear();
-        for column in 0..coordinates {
-            for position in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
-                let (by_rate, by_acceleration) = (parts.damping[position], parts.mass[position]);
+    pub(super) fn enter(&mut self, pattern: &Pattern, parts: &Linearization) {
+        if self.mirrored.is_empty() {
+            self.mirrored = mirrored(pattern);
+        }
+        let Self { mirrored, by_place, inertial, ends } = self;
+        let value = |&position: &u32| {
+            let position = position as usize;
+            parts.stiffness[position] + parts.constraint[position]
+        };
+        by_place.clear();
+        by_place.extend(mirrored.iter().map(value));
+        inertial.clear();
+        ends.clear();
+        for row in 0..pattern.size() {
+            let range = pattern.column_starts()[row]..pattern.column_starts()[row + 1];
+            for (&column, &position) in pattern.column(row).iter().zip(&mirrored[range]) {
+                let [by_rate, by_acceleration] =
+                    [parts.damping[position as usize], parts.mass[position as usize]];
                 if by_rate != 0.0 || by_acceleration != 0.0 {
-                    let row = pattern.row_indices()[position] as u32;
-                    self.inertial.push(Inertial { row, column: column as u32, by_rate, by_acceleration });
+                    inertial.push(Inertial { column: column as u32, by_rate, by_acceleration });
                 }
             }
+            ends.push(inertial.len() as u32);
         }
     }
 
-    /// Adds the products with places, rates, accelerations and, in a second part of the places, multipliers.
+    /// Adds the products with places, rates, accelerations and multipliers.
     pub(super) fn add(
         &self,
         processor: pulp::Arch,
         pattern: &Pattern,
         variation: [&[Block]; 3],
-        multipliers: Option<&[Block]>,
+        multipliers: &[Block],
         out: &mut [Block],
     ) {
         processor.dispatch(Add { products: self, pattern, variation, multipliers, out });
     }
 }
 
+/// Position of the mirror image of every entry of a symmetric pattern.
+fn mirrored(pattern: &Pattern) -> Vec<u32> {
+    let mut next = pattern.column_starts().to_vec();
+    let mut mirrored = vec![0; pattern.entries()];
+    // Columns ascend, and so do the rows of the columns that they are the mirror images of.
+    for column in 0..pattern.size() {
+        for position in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
+            let row = pattern.row_indices()[position];
+            mirrored[next[row]] = position as u32;
+            next[row] += 1;
+        }
+    }
+    mirrored
+}
+
 struct Add<'a> {
     products: &'a Products,
     pattern: &'a Pattern,
     variation: [&'a [Block]; 3],
-    multipliers: Option<&'a [Block]>,
+    multipliers: &'a [Block],
     out: &'a mut [Block],
 }
 
@@ -77,25 +101,27 @@ impl pulp::WithSimd for Add<'_> {
     #[inline(always)]
     fn with_simd<V: pulp::Simd>(self, _: V) {
         let Add { products, pattern, variation: [place, rate, acceleration], multipliers, out } = self;
-        let all = place.iter().chain(multipliers.unwrap_or_default());
-        for (column, value) in all.enumerate() {
-            if *value == NOTHING {
-                continue;
-            }
-            let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
-            for (&row, &entry) in pattern.row_indices()[range.clone()].iter().zip(&products.by_place[range]) {
-                let sum = &mut out[row];
+        let (starts, columns) = (pattern.column_starts(), pattern.row_indices());
+        let mut first = 0;
+        for (row, (sum, &end)) in out.iter_mut().zip(&products.ends).enumerate() {
+            let mut own = *sum;
+            let range = starts[row]..starts[row + 1];
+            for (&column, &entry) in columns[range.clone()].iter().zip(&products.by_place[range]) {
+                let value =
+                    if column < place.len() { &place[column] } else { &multipliers[column - place.len()] };
                 for lane in 0..WIDTH {
-                    sum[lane] += entry * value[lane];
+                    own[lane] += entry * value[lane];
                 }
             }
-        }
-        for entry in &products.inertial {
-            let (rate, acceleration) = (&rate[entry.column as usize], &acceleration[entry.column as usize]);
-            let sum = &mut out[entry.row as usize];
-            for lane in 0..WIDTH {
-                sum[lane] += entry.by_rate * rate[lane] + entry.by_acceleration * acceleration[lane];
+            for entry in &products.inertial[first..end as usize] {
+                let (rate, acceleration) =
+                    (&rate[entry.column as usize], &acceleration[entry.column as usize]);
+                for lane in 0..WIDTH {
+                    own[lane] += entry.by_rate * rate[lane] + entry.by_acceleration * acceleration[lane];
+                }
             }
+            first = end as usize;
+            *sum = own;
         }
     }
 }

@@ -32,6 +32,8 @@ pub(super) struct Stages {
     explicit: Vec<Vec<Block>>,
     residuals: Vec<Vec<Block>>,
     at: Vec<AtStage>,
+    /// Of a scheme, by row.
+    memory: Vec<Block>,
     scratch: [Vec<f64>; 2],
     weights: Vec<f64>,
     processor: pulp::Arch,
@@ -43,6 +45,7 @@ impl Stages {
         let rows = vec![NOTHING; layout.coordinate_count()];
         let all = vec![NOTHING; layout.size()];
         let is_moving = |&node: &NodeId| layout.node_rows[node].iter().any(|&row| row != LOCKED);
+        let memory = rows.clone();
         let at = AtStage { place: rows.clone(), rate: rows.clone(), acceleration: rows };
         Self {
             moving: (0..layout.node_count()).filter(is_moving).collect(),
@@ -52,6 +55,7 @@ impl Stages {
             explicit: vec![all.clone(); count],
             residuals: vec![all; count],
             at: vec![at; count],
+            memory,
             scratch: [vec![0.0; layout.size()], vec![0.0; layout.size()]],
             weights: Vec::new(),
             processor: pulp::Arch::new(),
@@ -75,7 +79,7 @@ impl Stages {
         };
         for (index, stage) in scheme.stages.iter().enumerate() {
             system.linearize(&equations.point(index), Chart::Body, &mut self.parts);
-            self.products[index].enter(pattern, layout.coordinate_count(), &self.parts);
+            self.products[index].enter(pattern, &self.parts);
             let work = &*equations.work;
             let map = |&node: &NodeId| {
                 let rows = &layout.node_rows[node];
@@ -122,7 +126,7 @@ impl Stages {
             let residual = &mut self.residuals[index];
             residual.copy_from_slice(&self.explicit[index]);
             let AtStage { place, rate, acceleration } = &self.at[index];
-            let multipliers = Some(&lanes.multipliers[index][..]);
+            let multipliers = &lanes.multipliers[index];
             self.products[index].add(
                 self.processor,
                 pattern,
@@ -208,10 +212,9 @@ impl Stages {
         self.vary(base, lanes, last);
         let scheme = &base.settings.scheme;
         let size = base.scaled.step_size();
-        let memory: Vec<Block> = (0..base.system.layout().coordinate_count())
-            .map(|row| combine(&scheme.algorithmic, lanes, row, size).map(|value| value / (size * size)))
-            .collect();
-        lanes.now.algorithmic = memory;
+        let mut memory = std::mem::take(&mut self.memory);
+        combine(&scheme.algorithmic, lanes, size, 1.0 / (size * size), &mut memory);
+        self.memory = std::mem::replace(&mut lanes.now.algorithmic, memory);
         std::mem::swap(&mut lanes.now.place, &mut self.at[last].place);
         std::mem::swap(&mut lanes.now.rate, &mut self.at[last].rate);
         std::mem::swap(&mut lanes.now.acceleration, &mut self.at[last].acceleration);
@@ -238,40 +241,72 @@ impl pulp::WithSimd for Vary<'_> {
         let (layout, scheme) = (base.system.layout(), &base.settings.scheme);
         let (stage, size) = (&scheme.stages[index], base.scaled.step_size());
         let (now, own) = (&lanes.now, &lanes.increments[index]);
-        let rate = |row: usize| combine(&stage.rate, lanes, row, size).map(|value| value / size);
-        let curvature =
-            |row: usize| combine(&stage.curvature, lanes, row, size).map(|value| value / (size * size));
-        for (map, &node) in maps.iter().zip(moving) {
-            let rows = &layout.node_rows[node];
-            let six = |values: &[Block]| -> Six {
-                std::array::from_fn(|k| if rows[k] == LOCKED { NOTHING } else { values[rows[k] as usize] })
-            };
-            let of = |value: &dyn Fn(usize) -> Block| -> Six {
-                std::array::from_fn(|k| if rows[k] == LOCKED { NOTHING } else { value(rows[k] as usize) })
-            };
-            let given = Given {
-                place: six(&now.place),
-                twist: six(&now.rate),
-                increment: six(own),
-                rate: of(&rate),
-                curvature: of(&curvature),
-            };
-            let reached = map.apply(&given);
-            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
-                let row = row as usize;
-                [out.place[row], out.rate[row], out.acceleration[row]] =
-                    [reached[0][k], reached[1][k], reached[2][k]];
-            }
-        }
+        combine(&stage.rate, lanes, size, 1.0 / size, &mut out.rate);
+        combine(&stage.curvature, lanes, size, 1.0 / (size * size), &mut out.acceleration);
         let straight = if scheme.dynamic { 1.0 } else { 0.0 };
         for &row in &layout.coordinate_rows {
             let row = row as usize;
-            let (rates, curvatures) = (rate(row), curvature(row));
             for lane in 0..WIDTH {
                 let ahead = straight * now.rate[row][lane];
                 out.place[row][lane] = now.place[row][lane] + stage.abscissa * size * ahead + own[row][lane];
-                out.rate[row][lane] = ahead + rates[lane];
-                out.acceleration[row][lane] = curvatures[lane];
+                out.rate[row][lane] += ahead;
+            }
+        }
+        for (map, &node) in maps.iter().zip(moving) {
+            let rows = &layout.node_rows[node];
+            let given = Given {
+                place: six(rows, &now.place),
+                twist: six(rows, &now.rate),
+                increment: six(rows, own),
+                rate: six(rows, &out.rate),
+                curvature: six(rows, &out.acceleration),
+            };
+            let [places, rates, accelerations] = map.apply(&given);
+            for k in 0..6 {
+                if rows[k] != LOCKED {
+                    let row = rows[k] as usize;
+                    out.place[row] = places[k];
+                    out.rate[row] = rates[k];
+                    out.acceleration[row] = accelerations[k];
+                }
+            }
+        }
+    }
+}
+
+/// What stands in the rows of a node.
+#[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+#[inline(always)]
+fn six(rows: &[u32; 6], values: &[Block]) -> Six {
+    let mut six = [NOTHING; 6];
+    for k in 0..6 {
+        if rows[k] != LOCKED {
+            six[k] = values[rows[k] as usize];
+        }
+    }
+    six
+}
+
+/// A scheme's linear combination of increments and of the start of a step of unit length, times a factor, in all rows.
+#[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+#[inline(always)]
+fn combine(combination: &Combination, lanes: &Lanes, size: f64, factor: f64, out: &mut [Block]) {
+    let now = &lanes.now;
+    let square = factor * size * size;
+    out.fill(NOTHING);
+    let starts = [
+        (&now.rate, factor * size * combination.rate),
+        (&now.algorithmic, square * combination.algorithmic),
+        (&now.acceleration, square * combination.curvature),
+    ];
+    let increments = lanes.increments.iter().zip(combination.increments.map(|weight| factor * weight));
+    for (values, weight) in starts.into_iter().chain(increments) {
+        if weight == 0.0 {
+            continue;
+        }
+        for (sum, value) in out.iter_mut().zip(values) {
+            for lane in 0..WIDTH {
+                sum[lane] += weight * value[lane];
             }
         }
     }
@@ -288,25 +323,6 @@ pub(super) fn largest_found(base: &Simulation, lanes: &Lanes) -> Block {
         }
     }
     largest
-}
-
-/// A scheme's linear combination of increments and of the start of a step of unit length.
-#[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
-#[inline(always)]
-fn combine(combination: &Combination, lanes: &Lanes, row: usize, size: f64) -> Block {
-    let now = &lanes.now;
-    let mut sum = NOTHING;
-    for lane in 0..WIDTH {
-        sum[lane] = combination.rate * size * now.rate[row][lane]
-            + size
-                * size
-                * (combination.algorithmic * now.algorithmic[row][lane]
-                    + combination.curvature * now.acceleration[row][lane]);
-        for (weight, increments) in combination.increments.iter().zip(&lanes.increments) {
-            sum[lane] += weight * increments[row][lane];
-        }
-    }
-    sum
 }
 
 fn multiply(values: &mut [Block], factors: &[f64]) {
