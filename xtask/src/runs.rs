@@ -6,8 +6,10 @@ use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::time::{Duration, Instant};
 
+use lissom::modes::ModeRequest;
 use lissom::{Document, Model, Override, Record};
 use lissom_model::document::AnalysisKind;
+use lissom_model::output::Column;
 
 use crate::blade;
 use crate::case::{Case, Run};
@@ -62,7 +64,10 @@ impl Runs {
             Some(elements) => self.blade(case, run, elements)?,
         };
         let document = model.document(&key.1).map_err(|report| report.render(false))?;
-        let finished = Rc::new(finish(&document)?);
+        let finished = Rc::new(match document.analysis.kind {
+            AnalysisKind::Modes { .. } => modes(&model, &key.1, &document)?,
+            _ => finish(&document)?,
+        });
         self.finished.borrow_mut().insert(key, Rc::clone(&finished));
         Ok(finished)
     }
@@ -110,6 +115,35 @@ pub(crate) fn finish(document: &Document) -> Result<Finished, String> {
         record,
         wall: began.elapsed(),
         grid: grid(document),
+    })
+}
+
+/// Natural modes as a record: their number in the place of time, `mode_frequency` [Hz] and `mode_damping`.
+fn modes(model: &Model, overrides: &[Override], document: &Document) -> Result<Finished, String> {
+    let found =
+        lissom::modes::modes(model, overrides, &ModeRequest::default()).map_err(|error| error.to_string())?;
+    let column = |component: &str, quantity: &str, unit: &str| Column {
+        output: "mode".to_owned(),
+        component: component.to_owned(),
+        quantity: quantity.to_owned(),
+        unit: unit.to_owned(),
+        fatigue: None,
+    };
+    let of_document = document.warnings.problems().map(|problem| problem.message.clone());
+    Ok(Finished {
+        record: Record {
+            columns: vec![column("frequency", "frequency", "Hz"), column("damping", "damping ratio", "")],
+            times: (1..=found.modes.len()).map(|number| number as f64).collect(),
+            values: vec![
+                found.modes.iter().map(|mode| mode.frequency).collect(),
+                found.modes.iter().map(|mode| mode.damping).collect(),
+            ],
+        },
+        failure: None,
+        violation: 0.0,
+        wall: found.wall,
+        grid: grid(document),
+        warnings: of_document.chain(found.warnings).collect(),
     })
 }
 
