@@ -80,6 +80,7 @@ const LOOPS: [&str; 6] =
 
 /// Turns a seed into that of the kinds which came later.
 const LATER: u64 = 0x5bd1_e995;
+const LATEST: u64 = 0x1b87_3593;
 
 /// The mechanism of case `index` of `seed`.
 pub(super) fn mechanism(seed: u64, index: u64) -> Mechanism {
@@ -107,6 +108,11 @@ pub(super) fn mechanism(seed: u64, index: u64) -> Mechanism {
         maker.draw = Draw::new(seed ^ LATER, index);
         maker.wheel();
         maker.table();
+        maker.draw = Draw::new(seed ^ LATEST, index);
+        maker.rope();
+        for of in maker.coordinates.clone() {
+            maker.latch(&of);
+        }
     }
     for part in maker.nodes.iter().filter(|node| node.name != "ground").map(|node| &node.name) {
         let plain = part.replace(['.', '@'], "_");
@@ -350,6 +356,24 @@ impl Maker {
         self.tables.push(format!("[events.latch]\nzero_of = \"{passed}\"\nset = {{ latched = 1 }}\n"));
     }
 
+    /// Seldom, a rope from one part over another to a third, mostly taut.
+    fn rope(&mut self) {
+        let [a, over, b] = [0; 3].map(|_| self.draw.below(self.nodes.len()));
+        if a == b || over == a || over == b || !self.draw.chance(0.15) {
+            return;
+        }
+        // With hundreds of newtons per metre parts of a few hundred grams tumble faster than steps of 1 ms resolve.
+        let stiffness = self.draw.size(3.0, 50.0);
+        let along = [a, over, b].map(|node| format!("{{ on = \"{}\" }}", self.nodes[node].name));
+        let length = if self.draw.chance(0.5) { "length = 0.1\n" } else { "" };
+        // Where it goes slack, steps of one size miss when.
+        self.is_conservative &= !length.is_empty();
+        self.tables.push(format!(
+            "[springs.rope]\nkind = \"rope\"\nalong = [{}]\nstiffness = {stiffness}\n{length}",
+            along.join(", ")
+        ));
+    }
+
     fn springs(&mut self) {
         for of in self.coordinates.clone() {
             if self.draw.chance(0.4) {
@@ -386,7 +410,6 @@ impl Maker {
                     short(force * 0.1)
                 ));
             }
-            self.latch(&of);
             if self.draw.chance(0.08) {
                 self.is_conservative = false;
                 let name = format!("e{}", self.tables.len());
@@ -409,22 +432,7 @@ impl Maker {
             }
             let name = format!("p{}", self.tables.len());
             let pair = format!("base = \"{}\"\ntip = \"{}\"\n", self.nodes[a].name, self.nodes[b].name);
-            if self.draw.chance(0.15) {
-                // Over a third place, mostly taut.
-                let over = self.draw.below(self.nodes.len());
-                if over == a || over == b {
-                    continue;
-                }
-                let stiffness = self.draw.size(10.0, 300.0);
-                let along = [a, over, b].map(|node| format!("{{ on = \"{}\" }}", self.nodes[node].name));
-                let length = if self.draw.chance(0.5) { "length = 0.1\n" } else { "" };
-                // Where it goes slack, steps of one size miss when.
-                self.is_conservative &= !length.is_empty();
-                self.tables.push(format!(
-                    "[springs.{name}]\nkind = \"rope\"\nalong = [{}]\nstiffness = {stiffness}\n{length}",
-                    along.join(", ")
-                ));
-            } else if self.draw.chance(0.75) {
+            if self.draw.chance(0.75) {
                 let stiffness = self.draw.size(10.0, 300.0);
                 let damping = if self.draw.chance(0.3) { short(stiffness * 0.01) } else { 0.0 };
                 self.is_conservative &= damping == 0.0;

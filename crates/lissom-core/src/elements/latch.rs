@@ -10,19 +10,22 @@
 
 use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
 use crate::joints::Quantity;
-use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
 use crate::signals::HeldId;
 use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
 
 /// An input above this holds.
 const HOLDS: f64 = 0.5;
 
-const PARAMETERS: &[Parameter] = &[Parameter::required(
-    "engaged",
-    ParameterType::Input,
-    "",
-    "The input that engages it: above 0.5 it holds, otherwise it is free; events set it.",
-)];
+const PARAMETERS: &[Parameter] = &[
+    COORDINATE,
+    Parameter::required(
+        "engaged",
+        ParameterType::Input,
+        "",
+        "The input that engages it: above 0.5 it holds, otherwise it is free; events set it.",
+    ),
+];
 
 /// Registry entry for displacements.
 pub(crate) const AXIAL: ElementKind = ElementKind {

@@ -299,6 +299,7 @@ class AxialLatch(Spring):
     Args:
         in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
         joint: the joint whose relative displacement it acts on; the name of an entry of `[joints]`.
+        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
         engaged: The input that engages it: above 0.5 it holds, otherwise it is free; events set it; the name of an entry of `[inputs]`.
     """
 
@@ -306,6 +307,7 @@ class AxialLatch(Spring):
 
     in_: str | None = None
     joint: str
+    coordinate: Number | None = None
     engaged: str
 
 
@@ -316,6 +318,7 @@ class TorsionalLatch(Spring):
     Args:
         in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
         joint: the joint whose relative rotation it acts on; the name of an entry of `[joints]`.
+        coordinate: Which of the joint's coordinates, counted from 1; default the first that fits; a number > 0, or nothing.
         engaged: The input that engages it: above 0.5 it holds, otherwise it is free; events set it; the name of an entry of `[inputs]`.
     """
 
@@ -323,4 +326,5 @@ class TorsionalLatch(Spring):
 
     in_: str | None = None
     joint: str
+    coordinate: Number | None = None
     engaged: str

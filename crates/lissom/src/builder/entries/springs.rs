@@ -218,7 +218,7 @@ keys! {
 }
 
 keys! {
-    [Axial, Torsional, AxialFriction, TorsionalFriction, AxialStop, TorsionalStop]
+    [Axial, Torsional, AxialFriction, TorsionalFriction, AxialStop, TorsionalStop, AxialLatch, TorsionalLatch]
     /// Which of the joint's coordinates, counted from 1; default the first that fits.
     coordinate: f64 = "coordinate";
 }
