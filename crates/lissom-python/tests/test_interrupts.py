@@ -43,7 +43,9 @@ def test_ctrl_c_ends_it(name: str) -> None:
     call, model, changes = LONG[name]
     load = "load" if model == PENDULUM else "loads"
     code = f"""
-import lissom, time, warnings
+import lissom, signal, time, warnings
+# What runs in the background of a shell ignores it otherwise.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 warnings.simplefilter("ignore")
 model = lissom.{load}({model!r}, **{changes})
 print("begun", flush=True)
