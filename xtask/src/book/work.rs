@@ -224,6 +224,13 @@ fn distance(values: &[f64], reference: &[f64]) -> f64 {
     values.iter().zip(reference).fold(0.0_f64, |most, (a, b)| most.max((a - b).abs()))
 }
 
+/// Newton's tolerance where a model names none; these do.
+fn newton(scheme: &str, usual: f64) -> String {
+    let registry = lissom_model::lower::registry::registry();
+    let kind = registry.schemes.iter().find(|kind| kind.name == scheme);
+    format!("{:e}", kind.and_then(|kind| kind.tolerance).unwrap_or(usual))
+}
+
 impl Problem {
     fn fail(&self, reason: &str) -> BookError {
         BookError::Run { example: self.title, reason: reason.to_owned() }
@@ -235,7 +242,7 @@ impl Problem {
             ("step", format!("{size:e}")),
             ("output_every", steps.to_string()),
             // What is the default: models of the verification ask for more.
-            ("tolerance", "1e-8".to_owned()),
+            ("tolerance", newton(scheme, 1e-8)),
         ];
         self.run(studio, scheme, &settings)
     }
@@ -246,7 +253,7 @@ impl Problem {
             ("relative_tolerance", format!("{tolerance:e}")),
             ("output_step", format!("{:e}", self.record)),
             ("step", format!("{first:e}")),
-            ("tolerance", format!("{:e}", 1e-4 * tolerance)),
+            ("tolerance", newton(scheme, 1e-2 * tolerance)),
         ];
         self.run(studio, scheme, &settings)
     }
