@@ -2,6 +2,7 @@
 //! for later complaints. Knows no system, no unknowns and no time scheme.
 
 pub(crate) mod analysis;
+mod analysis_tables;
 mod assembly;
 mod beams;
 mod bodies;
