@@ -11,8 +11,10 @@
 //!
 //! at each stage. Violations are those of the places themselves, as carried violations add up to. Of one stage the tangent that
 //! is made at the solution is the matrix of these equations; for two stages it stands for both, and corrections are repeated.
-//! Numbers of the model go through the solver side by side.
+//! Where strains are integrated over a step, the left-hand sides are differences of residuals along the variation
+//! (`integrated`). Numbers of the model go through the solver side by side.
 
+mod integrated;
 mod node_maps;
 mod products;
 mod stages;
@@ -25,7 +27,9 @@ use lissom_motion::{Block, WIDTH};
 use super::StepError;
 use super::dynamics::Simulation;
 use crate::joints::Quantity;
+use crate::schemes::Tableau;
 use crate::system::{Reach, State};
+use integrated::Neighbour;
 use stages::{Stages, largest_found};
 use variation::Variation;
 
@@ -46,7 +50,7 @@ const MOST: usize = 40;
 
 /// Derivatives of the state of a simulation by numbers of its model.
 pub struct Sensitivities {
-    reaches: Vec<Reach>,
+    numbers: Vec<Number>,
     variations: Vec<Lanes>,
     stages: Stages,
     /// Step size that the scheme's memory belongs to [s].
@@ -58,6 +62,13 @@ pub struct Sensitivities {
     corrections: usize,
 }
 
+/// What a number of the model changes where nothing moves otherwise.
+struct Number {
+    reach: Reach,
+    /// The neighbouring models themselves.
+    neighbours: Vec<Neighbour>,
+}
+
 /// What is carried for as many numbers as there are lanes.
 struct Lanes {
     now: Variation,
@@ -67,19 +78,19 @@ struct Lanes {
 }
 
 impl Sensitivities {
-    /// Of no number yet. None where the steps of `base` cannot be differentiated in this way: of schemes that integrate strains,
-    /// steps of chosen size, feedback, wheels that roll.
+    /// Of no number yet. None where the steps of `base` cannot be differentiated in this way: with velocities that are projected
+    /// after a step, steps of chosen size, feedback, wheels that roll.
     pub fn new(base: &Simulation) -> Option<Self> {
         let settings = base.settings();
         let layout = base.system.layout();
-        let is_known = settings.scheme.tableau.is_none()
+        let is_known = settings.scheme.tableau.as_ref().is_none_or(Tableau::is_stiffly_accurate)
             && settings.control.is_none()
             && !base.system.has_feedback()
             && layout.impulses().next().is_none();
         is_known.then(|| Self {
-            reaches: Vec::new(),
+            numbers: Vec::new(),
             variations: Vec::new(),
-            stages: Stages::new(&base.system, settings.scheme.stages.len()),
+            stages: Stages::new(base),
             remembered: base.method_memory.is_some().then(|| base.scaled.step_size()),
             steps: 0,
             is_exact: true,
@@ -91,7 +102,7 @@ impl Sensitivities {
     /// `base`. False where its derivatives cannot be found in this way: fixed places that differ, signals.
     pub fn add(&mut self, base: &Simulation, neighbours: &[(&Simulation, f64)]) -> bool {
         let layout = base.system.layout();
-        let lane = self.reaches.len() % WIDTH;
+        let lane = self.numbers.len() % WIDTH;
         let systems = neighbours.iter().map(|(of, weight)| (Arc::clone(&of.system), *weight)).collect();
         let Some(reach) = Reach::of(systems) else { return false };
         let stages = base.settings().scheme.stages.len();
@@ -111,7 +122,12 @@ impl Sensitivities {
             }
             return false;
         }
-        self.reaches.push(reach);
+        let neighbour = |(of, weight): &(&Simulation, f64)| Neighbour {
+            system: Arc::clone(&of.system),
+            weight: *weight,
+            length: of.representative.length,
+        };
+        self.numbers.push(Number { reach, neighbours: neighbours.iter().map(neighbour).collect() });
         true
     }
 
@@ -148,8 +164,8 @@ impl Sensitivities {
         let is_seen = !self.is_exact || self.steps.is_power_of_two() || base.settings.scheme.stages.len() > 1;
         for (index, lanes) in self.variations.iter_mut().enumerate() {
             let first = index * WIDTH;
-            let reaches = &self.reaches[first..self.reaches.len().min(first + WIDTH)];
-            let (made, is_exact) = step(&mut self.stages, base, lanes, reaches, is_seen)?;
+            let numbers = &self.numbers[first..self.numbers.len().min(first + WIDTH)];
+            let (made, is_exact) = step(&mut self.stages, base, lanes, numbers, is_seen)?;
             self.corrections += made;
             self.is_exact &= is_exact;
         }
@@ -162,11 +178,11 @@ fn step(
     stages: &mut Stages,
     base: &mut Simulation,
     lanes: &mut Lanes,
-    reaches: &[Reach],
+    numbers: &[Number],
     is_seen: bool,
 ) -> Result<(usize, bool), StepError> {
-    let count = base.settings.scheme.stages.len();
-    stages.reach(base, reaches);
+    let (count, is_integrated) = (base.settings.scheme.stages.len(), base.settings.scheme.tableau.is_some());
+    stages.reach(base, numbers);
     if count == 1 {
         lanes.increments[0].fill(variation::NOTHING);
         lanes.multipliers[0].fill(variation::NOTHING);
@@ -175,7 +191,7 @@ fn step(
     let mut rounding: Option<Block> = None;
     let (mut first, mut before) = ([0.0_f64; WIDTH], [f64::INFINITY; WIDTH]);
     loop {
-        stages.evaluate(base, lanes);
+        stages.evaluate(base, lanes, numbers.len());
         let sizes = stages.correct(base, lanes);
         made += 1;
         if made == 1 {
@@ -193,11 +209,12 @@ fn step(
         if made == 2 {
             is_exact = (0..WIDTH).all(|lane| sizes[lane] <= EXACT * reference[lane]);
         }
+        let left = |lane| if is_integrated { integrated::round_off(base, lanes, lane) } else { 0.0 };
         // What is still to come follows from the contraction; what no longer contracts is round-off.
         let is_done = |lane: usize| {
             let contraction = sizes[lane] / before[lane].max(f64::MIN_POSITIVE);
             if contraction > STALLED {
-                return sizes[lane] <= ROUND_OFF * reference[lane];
+                return sizes[lane] <= (ROUND_OFF * reference[lane]).max(left(lane));
             }
             contraction.max(CREDIBLE) * sizes[lane] <= TO_COME * reference[lane]
         };

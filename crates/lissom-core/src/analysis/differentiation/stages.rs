@@ -3,15 +3,16 @@
 
 use lissom_motion::{Block, Vector6, WIDTH};
 
+use super::integrated::IntegratedStep;
 use super::node_maps::{Given, NodeMap, NodeStage, Six};
 use super::products::Products;
 use super::variation::NOTHING;
-use super::{Lanes, relative_weights};
+use super::{Lanes, Number, relative_weights};
 use crate::analysis::dynamics::Simulation;
 use crate::analysis::equations::StepEquations;
 use crate::analysis::phase::Unwatched;
 use crate::schemes::Combination;
-use crate::system::{Chart, LOCKED, Linearization, NodeId, Reach, System};
+use crate::system::{Chart, LOCKED, Linearization, NodeId};
 
 /// Variations at a stage, by row.
 #[derive(Clone, Debug, Default)]
@@ -37,10 +38,13 @@ pub(super) struct Stages {
     scratch: [Vec<f64>; 2],
     weights: Vec<f64>,
     processor: pulp::Arch,
+    /// For schemes that integrate strains.
+    integrated: Option<IntegratedStep>,
 }
 
 impl Stages {
-    pub(super) fn new(system: &System, count: usize) -> Self {
+    pub(super) fn new(base: &Simulation) -> Self {
+        let (system, count) = (&base.system, base.settings.scheme.stages.len());
         let layout = system.layout();
         let rows = vec![NOTHING; layout.coordinate_count()];
         let all = vec![NOTHING; layout.size()];
@@ -59,6 +63,7 @@ impl Stages {
             scratch: [vec![0.0; layout.size()], vec![0.0; layout.size()]],
             weights: Vec::new(),
             processor: pulp::Arch::new(),
+            integrated: IntegratedStep::new(base),
         }
     }
 
@@ -78,8 +83,10 @@ impl Stages {
             watch: &mut Unwatched,
         };
         for (index, stage) in scheme.stages.iter().enumerate() {
-            system.linearize(&equations.point(index), Chart::Body, &mut self.parts);
-            self.products[index].enter(pattern, &self.parts);
+            if self.integrated.is_none() {
+                system.linearize(&equations.point(index), Chart::Body, &mut self.parts);
+                self.products[index].enter(pattern, &self.parts);
+            }
             let work = &*equations.work;
             let map = |&node: &NodeId| {
                 let rows = &layout.node_rows[node];
@@ -103,14 +110,23 @@ impl Stages {
     }
 
     /// Derivatives of the residuals by numbers of the model, at given motion.
-    pub(super) fn reach(&mut self, base: &Simulation, reaches: &[Reach]) {
+    pub(super) fn reach(&mut self, base: &Simulation, numbers: &[Number]) {
+        if let Some(integrated) = &mut self.integrated {
+            for explicit in &mut self.explicit {
+                explicit.fill(NOTHING);
+            }
+            for (lane, number) in numbers.iter().enumerate() {
+                integrated.differ(base, &number.neighbours, lane, &mut self.explicit);
+            }
+            return;
+        }
         let [scratch, own] = &mut self.scratch;
         let work = &base.work;
         for (index, explicit) in self.explicit.iter_mut().enumerate() {
             explicit.fill(NOTHING);
-            for (lane, reach) in reaches.iter().enumerate() {
+            for (lane, number) in numbers.iter().enumerate() {
                 own.fill(0.0);
-                reach.add(&work.motions[index].at, &work.multipliers[index], scratch, own);
+                number.reach.add(&work.motions[index].at, &work.multipliers[index], scratch, own);
                 for (block, value) in explicit.iter_mut().zip(&*own) {
                     block[lane] = *value;
                 }
@@ -118,8 +134,17 @@ impl Stages {
         }
     }
 
-    /// Residuals of the linear equations with what is known of increments and multipliers.
-    pub(super) fn evaluate(&mut self, base: &Simulation, lanes: &Lanes) {
+    /// Residuals of the linear equations of `count` numbers with what is known of increments and multipliers.
+    pub(super) fn evaluate(&mut self, base: &Simulation, lanes: &Lanes, count: usize) {
+        if let Some(integrated) = &mut self.integrated {
+            for (residual, explicit) in self.residuals.iter_mut().zip(&self.explicit) {
+                residual.copy_from_slice(explicit);
+            }
+            for lane in 0..count {
+                integrated.vary(base, lanes, lane, &mut self.residuals);
+            }
+            return;
+        }
         let pattern = &base.system.structure().pattern;
         for index in 0..self.residuals.len() {
             self.vary(base, lanes, index);
@@ -212,6 +237,12 @@ impl Stages {
         self.vary(base, lanes, last);
         let scheme = &base.settings.scheme;
         let size = base.scaled.step_size();
+        if let Some(tableau) = &scheme.tableau {
+            for index in 0..last {
+                self.vary(base, lanes, index);
+            }
+            self.integrate_rates(&tableau.inverse[last], &lanes.now.rate, size);
+        }
         let mut memory = std::mem::take(&mut self.memory);
         combine(&scheme.algorithmic, lanes, size, 1.0 / (size * size), &mut memory);
         self.memory = std::mem::replace(&mut lanes.now.algorithmic, memory);
@@ -219,6 +250,22 @@ impl Stages {
         std::mem::swap(&mut lanes.now.rate, &mut self.at[last].rate);
         std::mem::swap(&mut lanes.now.acceleration, &mut self.at[last].acceleration);
         lanes.now.multipliers.copy_from_slice(&lanes.multipliers[last]);
+    }
+}
+
+impl Stages {
+    /// Accelerations at the end where velocities are integrated: h V̇ = Σ_j (A⁻¹)_j (V_j - V_0).
+    fn integrate_rates(&mut self, weights: &[f64], start: &[Block], size: f64) {
+        let last = self.at.len() - 1;
+        for row in 0..start.len() {
+            let mut sum = NOTHING;
+            for (at, weight) in self.at.iter().zip(weights) {
+                for lane in 0..WIDTH {
+                    sum[lane] += weight / size * (at.rate[row][lane] - start[row][lane]);
+                }
+            }
+            self.at[last].acceleration[row] = sum;
+        }
     }
 }
 
