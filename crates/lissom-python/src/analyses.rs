@@ -119,13 +119,19 @@ pub(crate) fn buckling(model: &NativeModel, py: Python<'_>, count: Option<usize>
 
 /// What `lissom gradient` leaves.
 #[pyfunction]
-pub(crate) fn gradient(model: &NativeModel, py: Python<'_>, of: &str, by: Vec<String>) -> PyResult<Files> {
+pub(crate) fn gradient(
+    model: &NativeModel,
+    py: Python<'_>,
+    of: &str,
+    by: Vec<String>,
+    confirms: bool,
+) -> PyResult<Files> {
     let target: Target = of.parse().map_err(|words: String| question(words))?;
     let of = of.to_owned();
     let model = model.clone();
     interruptible(py, move || {
         let found =
-            lissom::gradient::gradient(&model.model, &model.overrides, &target, &by).map_err(|error| {
+            lissom::gradient::gradient(&model.model, &model.overrides, &target, &by, confirms).map_err(|error| {
                 match error {
                     GradientError::Model(report) => of_report(&report),
                     other => refused(other.is_of_question(), &other),

@@ -1,5 +1,6 @@
 //! Derivatives of an output by numbers of the model file, along the steps of a run.
 
+mod confirmation;
 mod course;
 mod ways;
 
@@ -14,6 +15,8 @@ use serde_json::{Value, json};
 
 use crate::model::{Model, Override};
 use crate::session::{Session, SessionError};
+pub use confirmation::Confirmation;
+use confirmation::{Carried, confirm};
 use course::Course;
 use ways::{Question, Ways};
 
@@ -114,6 +117,18 @@ pub enum GradientError {
          choose a smaller step"
     )]
     InParts(f64),
+    /// Runs of neighbouring models have other derivatives.
+    #[error(
+        "the derivatives add up to a change of {expected:e} where runs of the model with all numbers changed a little change by \
+         {found:e}: they are not to be trusted. If the output has jumps or kinks nearby, ask for another time; otherwise this is \
+         an error of the program"
+    )]
+    Denied {
+        /// What the derivatives add up to, in the unit of the output.
+        expected: f64,
+        /// What runs change by.
+        found: f64,
+    },
 }
 
 impl GradientError {
@@ -167,19 +182,23 @@ pub struct GradientReport {
     pub steps: usize,
     /// Corrections of derivatives over all steps, and of neighbouring models.
     pub corrections: usize,
+    /// What whole runs say of the derivatives that were carried; none where none were, or where it was not asked for.
+    pub confirmation: Option<Confirmation>,
     /// How long it took.
     pub wall: Duration,
 }
 
-/// Derivatives of `target` by the numbers at `paths` of `model`, with `overrides` put in place.
+/// Derivatives of `target` by the numbers at `paths` of `model`, with `overrides` put in place. Those that are carried along the
+/// steps are compared with a run of a neighbouring model if `confirms`.
 ///
 /// # Errors
-/// If the question makes no sense for the model, or a step has no solution.
+/// If the question makes no sense for the model, a step has no solution, or runs deny the derivatives.
 pub fn gradient(
     model: &Model,
     overrides: &[Override],
     target: &Target,
     paths: &[String],
+    confirms: bool,
 ) -> Result<GradientReport, GradientError> {
     let began = Instant::now();
     let document = prepared(model, overrides, target)?;
@@ -204,18 +223,47 @@ pub fn gradient(
     let (value, time, derivatives) = course.measured();
     let steps = course.steps();
     let (numbers, corrections) = ways.into_numbers();
-    Ok(GradientReport {
-        value,
-        time,
-        derivatives: numbers
-            .into_iter()
-            .zip(derivatives)
-            .map(|((path, number, is_carried), value)| Derivative { path, number, value, is_carried })
-            .collect(),
-        steps,
-        corrections,
-        wall: began.elapsed(),
-    })
+    let derivatives: Vec<Derivative> = numbers
+        .into_iter()
+        .zip(derivatives)
+        .map(|((path, number, is_carried), value)| Derivative { path, number, value, is_carried })
+        .collect();
+    let confirmation = if confirms {
+        confirmed((model, overrides, target), column, (value, course.largest()), &derivatives)?
+    } else {
+        None
+    };
+    Ok(GradientReport { value, time, derivatives, steps, corrections, confirmation, wall: began.elapsed() })
+}
+
+/// Compares derivatives that were carried with runs of neighbouring models.
+fn confirmed(
+    (model, overrides, target): (&Model, &[Override], &Target),
+    column: usize,
+    values: (f64, f64),
+    derivatives: &[Derivative],
+) -> Result<Option<Confirmation>, GradientError> {
+    let known: Vec<&Derivative> = derivatives.iter().filter(|of| of.is_carried).collect();
+    if known.is_empty() {
+        return Ok(None);
+    }
+    let carried: Vec<Carried> =
+        known.iter().map(|of| Carried { number: of.number, derivative: of.value }).collect();
+    let mut measure = |changes: &[f64]| {
+        let mut changed = overrides.to_vec();
+        let values = known.iter().zip(changes);
+        changed.extend(values.map(|(of, change)| (of.path.clone(), format!("{:?}", of.number + change))));
+        let mut session = Session::new(&prepared(model, &changed, target)?)?;
+        let mut course = Course::new(target.measure);
+        let mut nothing = |_| Vec::new();
+        course.note(&session, column, &mut nothing);
+        while !session.is_finished() {
+            session.advance()?;
+            course.note(&session, column, &mut nothing);
+        }
+        Ok(course.measured().0)
+    };
+    confirm(&carried, values, &mut measure).map(Some)
 }
 
 /// Load steps where the model does not name their number.
@@ -258,6 +306,14 @@ impl GradientReport {
         text
     }
 
+    /// A reason to doubt the derivatives, if there is one, after its code.
+    pub fn doubt(&self) -> Option<&'static str> {
+        matches!(self.confirmation, Some(Confirmation::Untold { .. })).then_some(
+            "gradient-unconfirmed: runs of the model with numbers changed a little neither confirm nor deny the derivatives: the output changes by \
+             less than is left of a run, or not smoothly",
+        )
+    }
+
     /// The facts of `summary.json`.
     pub fn summary(&self, name: &str, overrides: &[Override], document: &Document, of: &str) -> Summary {
         let mut summary = crate::summary::of_request("gradient", name, overrides, document);
@@ -273,6 +329,17 @@ impl GradientReport {
         tell("derivatives", self.derivatives.iter().map(derivative).collect());
         tell("steps", json!(self.steps));
         tell("corrections", json!(self.corrections));
+        let confirmed = |of: &Confirmation| match of {
+            Confirmation::Confirmed { missed, runs } => json!({ "missed": missed, "runs": runs }),
+            Confirmation::Untold { runs } => json!({ "missed": null, "runs": runs }),
+        };
+        tell("confirmed", self.confirmation.as_ref().map_or(Value::Null, confirmed));
+        if let Some(words) = self.doubt() {
+            let mut warnings: Vec<Value> =
+                document.warnings.problems().map(|problem| json!(problem.message)).collect();
+            warnings.push(json!(words));
+            tell("warnings", Value::Array(warnings));
+        }
         tell("wall_seconds", json!(self.wall.as_secs_f64()));
         summary
     }

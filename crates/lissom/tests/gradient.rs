@@ -4,7 +4,7 @@
 mod cantilever;
 
 use cantilever::CANTILEVER;
-use lissom::gradient::{GradientError, Target, gradient};
+use lissom::gradient::{Confirmation, GradientError, Target, gradient};
 use lissom::{Model, Override};
 
 /// The measure's value of a whole run with a number changed.
@@ -41,7 +41,7 @@ fn agrees(
     let model = Model::from_text("model.toml", text);
     let target: Target = of.parse().unwrap();
     let paths: Vec<String> = numbers.iter().map(|(path, _)| (*path).to_owned()).collect();
-    let found = gradient(&model, set, &target, &paths).unwrap_or_else(|error| panic!("{of}: {error}"));
+    let found = gradient(&model, set, &target, &paths, true).unwrap_or_else(|error| panic!("{of}: {error}"));
     let over = of.split_once('@').map_or("end", |(_, measure)| measure);
     for (derivative, &(path, number)) in found.derivatives.iter().zip(numbers) {
         assert_eq!((derivative.path.as_str(), derivative.number), (path, number));
@@ -152,7 +152,7 @@ fn a_bent_beam_is_differentiated() {
 fn questions_without_sense_are_refused() {
     let refuse = |of: &str, path: &str, set: &[Override]| {
         let model = Model::from_text("model.toml", SWING);
-        gradient(&model, set, &of.parse().unwrap(), &[path.to_owned()]).unwrap_err()
+        gradient(&model, set, &of.parse().unwrap(), &[path.to_owned()], true).unwrap_err()
     };
     assert!(matches!(refuse("lower.q", "bodies.lower.mass", &[]), GradientError::Column { .. }));
     assert!(matches!(refuse("lower.z@7", "bodies.lower.mass", &[]), GradientError::Time { .. }));
@@ -177,7 +177,9 @@ fn agrees_closely(
 ) {
     let target: Target = of.parse().unwrap();
     let paths: Vec<String> = numbers.iter().map(|(path, ..)| (*path).to_owned()).collect();
-    let found = gradient(model, set, &target, &paths).unwrap_or_else(|error| panic!("{of}: {error}"));
+    let found = gradient(model, set, &target, &paths, true).unwrap_or_else(|error| panic!("{of}: {error}"));
+    assert!(found.derivatives.iter().all(|derivative| derivative.is_carried), "{of}");
+    assert!(matches!(found.confirmation, Some(Confirmation::Confirmed { .. })), "{of}: {found:?}");
     let over = of.split_once('@').map_or("end", |(_, measure)| measure);
     for (derivative, &(path, number, distance)) in found.derivatives.iter().zip(numbers) {
         let at = |side: f64| {
@@ -200,13 +202,15 @@ fn agrees_closely(
 }
 
 /// Schemes along whose steps derivatives are carried.
-const CARRIED: [&str; 3] = ["generalized-alpha", "hht", "radau-iia"];
+const CARRIED: [&str; 4] = ["generalized-alpha", "hht", "radau-iia", "energy-decaying"];
 
 #[test]
 fn derivatives_that_are_carried_have_seven_digits() {
     let model = Model::from_text("model.toml", SWING);
-    let numbers = NUMBERS.map(|(path, number)| (path, number, 5e-3));
     for scheme in CARRIED {
+        // Integrated strains are far from linear in what moves little.
+        let distance = if scheme == "energy-decaying" { 5e-4 } else { 5e-3 };
+        let numbers = NUMBERS.map(|(path, number)| (path, number, distance));
         let set = set(&[("analysis.scheme", scheme)]);
         for (of, column) in [
             ("lower.z", ("lower", "z")),
@@ -229,8 +233,6 @@ fn a_tip_crank_is_differentiated_with_every_scheme() {
         let set = set(&[("analysis.end", "0.02"), ("analysis.scheme", scheme)]);
         agrees_closely(&model, "root.f3", ("root", "f3"), &numbers, &set, 1e-7);
     }
-    let set = set(&[("analysis.end", "0.02"), ("analysis.scheme", "energy-decaying")]);
-    agrees_closely(&model, "root.f3", ("root", "f3"), &numbers[..1], &set, 1e-7);
 }
 
 #[test]
@@ -238,9 +240,9 @@ fn a_turbine_is_differentiated_with_every_scheme() {
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/turbine-rotor.toml");
     let model = Model::read(&path).unwrap();
     let numbers = [("parameters.speed", 4.0, 1e-2), ("parts.blade.parameters.pitch", 0.05, 1e-2)];
-    for (scheme, tolerance) in
-        CARRIED.map(|scheme| (scheme, 1e-7)).into_iter().chain([("energy-decaying", 1e-5)])
-    {
+    for scheme in CARRIED {
+        // Blades that hardly bend: what rounding leaves of integrated strains is a part of them.
+        let tolerance = if scheme == "energy-decaying" { 1e-6 } else { 1e-7 };
         let set = set(&[("parameters.speed", "4.0"), ("analysis.end", "0.1"), ("analysis.scheme", scheme)]);
         agrees_closely(&model, "blade1.tip.u1", ("blade1.tip", "u1"), &numbers, &set, tolerance);
     }

@@ -238,14 +238,15 @@ class Model(ModelTables):
             raise failure
         return path
 
-    def gradient(self, of: str, by: str | Sequence[str]) -> Gradient:
+    def gradient(self, of: str, by: str | Sequence[str], *, confirm: bool = True) -> Gradient:
         """Derivatives of an output by numbers of the model file, along the steps of a run, as `lissom gradient` finds them.
 
         Args:
             of: a column, and what of it: `tip.u3` (at the end), `tip.u3@0.5` (at a time), `tip.u3@max`, `tip.u3@rms`.
             by: paths of numbers, as `["bodies.top.mass", "springs.s.stiffness"]`.
+            confirm: whether a run with all numbers changed a little is to confirm the derivatives.
         """
-        return Gradient(_lissom.gradient(self._native, of, _names(by)))
+        return Gradient(_lissom.gradient(self._native, of, _names(by), confirm))
 
     def campbell(
         self,

@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use lissom::gradient::{GradientError, GradientReport, Target, gradient};
+use lissom::gradient::{Confirmation, GradientError, GradientReport, Target, gradient};
 use lissom::{FolderError, ResultFolder, summary};
 use serde_json::json;
 
@@ -37,6 +37,10 @@ pub(super) struct Gradient {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
+    /// Leave out the run of a neighbouring model that confirms the derivatives.
+    #[arg(long)]
+    unconfirmed: bool,
+
     /// Nothing on the terminal.
     #[arg(long, short)]
     quiet: bool,
@@ -49,7 +53,7 @@ impl Gradient {
         if !self.quiet {
             show_warnings(&document);
         }
-        let found = match gradient(&model, &self.model.set, &target, &self.by) {
+        let found = match gradient(&model, &self.model.set, &target, &self.by, !self.unconfirmed) {
             Err(GradientError::Model(report)) => return Err(report.into()),
             Err(error) if error.is_of_question() => return Err(Failure::new(Exit::BadModel, error)),
             other => other,
@@ -75,6 +79,9 @@ impl Gradient {
             let heading = document.title.as_deref().unwrap_or(model.name());
             terminal::print(&told(heading, &self.of, &found, &path));
         }
+        if let Some(words) = found.doubt() {
+            terminal::complain(&format!("warning: {words}\n"));
+        }
         Ok(Exit::Done)
     }
 }
@@ -95,6 +102,9 @@ fn told(heading: &str, of: &str, found: &GradientReport, folder: &Path) -> Strin
     for derivative in &found.derivatives {
         let _ =
             writeln!(text, "  by {} = {:.6e}: {:.9e}", derivative.path, derivative.number, derivative.value);
+    }
+    if let Some(Confirmation::Confirmed { missed, runs }) = &found.confirmation {
+        let _ = writeln!(text, "  confirmed to {missed:.1e} by {runs} run(s) with all numbers changed");
     }
     let _ = writeln!(text, "  results in {}", folder.display());
     text

@@ -47,6 +47,11 @@ impl Course {
         self.derivatives.push(if is_needed { derivatives(column) } else { Vec::new() });
     }
 
+    /// The largest magnitude of the column.
+    pub(super) fn largest(&self) -> f64 {
+        self.values.iter().fold(0.0, |most, value| most.max(value.abs()))
+    }
+
     /// Value, its time, and its derivatives.
     pub(super) fn measured(&self) -> (f64, Option<f64>, Vec<f64>) {
         let last = self.steps();

@@ -1,0 +1,184 @@
+//! Derivatives that were carried are compared with runs of neighbouring models, all numbers changed at once.
+//!
+//! Legend: y the measure, θ_k numbers, g_k their derivatives, δ_k changes of the numbers of the signs of g_k.
+//!
+//! ```text
+//! y(θ + δ) - y(θ) = Σ_k g_k δ_k + ...
+//! ```
+//!
+//! All numbers contribute the same, as far as rounding and small changes allow: so no derivative hides behind a larger one. One run confirms what agrees. Otherwise a second one on the other side takes away what is quadratic in the
+//! change; where the two do not confirm either, two runs nearby tell whether such differences know the derivative at all.
+
+use super::GradientError;
+
+/// Change of the number that contributes most, relative to the number.
+const CHANGE: f64 = 1e-4;
+/// The largest change of a number, likewise.
+const LARGEST: f64 = 1e-3;
+/// How much nearer the last runs are.
+const NEARER: f64 = 0.125;
+/// Differences of runs may miss what the derivatives add up to by this part.
+const MISSED: f64 = 1e-3;
+/// What rounding and the tolerance of the iterations may leave in a difference of runs, as part of the largest value.
+const ROUND_OFF: f64 = 1e-11;
+/// Sums below this many times the round-off cannot be seen.
+const SEEN: f64 = 10.0;
+/// What a number is to contribute at least, likewise, if a change that is not too large does.
+const CLEAR: f64 = 1e4;
+/// Differences of both distances that are as near to each other as this part of what they miss deny the derivatives.
+const AGREES: f64 = 0.25;
+
+/// What runs of neighbouring models say of the derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Confirmation {
+    /// They agree.
+    Confirmed {
+        /// What they miss, as part of what the derivatives add up to.
+        missed: f64,
+        /// Runs that this took.
+        runs: usize,
+    },
+    /// They cannot tell: the output changes less than is left of runs, or not smoothly.
+    Untold {
+        /// Runs that this took.
+        runs: usize,
+    },
+}
+
+/// A number, and the derivative by it.
+pub(super) struct Carried {
+    pub(super) number: f64,
+    pub(super) derivative: f64,
+}
+
+/// Compares derivatives with runs. `measure` runs the model with its numbers changed by these amounts; `value` is the measure
+/// without changes, and `scale` the largest value of the column.
+///
+/// # Errors
+/// If the runs know the derivatives, and know others.
+pub(super) fn confirm(
+    carried: &[Carried],
+    (value, scale): (f64, f64),
+    measure: &mut dyn FnMut(&[f64]) -> Result<f64, GradientError>,
+) -> Result<Confirmation, GradientError> {
+    let round_off = ROUND_OFF * scale.max(value.abs());
+    let changes = changes(carried, round_off);
+    let expected: f64 = carried.iter().zip(&changes).map(|(of, change)| of.derivative * change).sum();
+    let mut runs = 0;
+    let mut difference = |share: f64| {
+        runs += 1;
+        let changes: Vec<f64> = changes.iter().map(|change| share * change).collect();
+        // A model that has no motion tells nothing of its neighbour.
+        let found = measure(&changes).map_or(f64::NAN, |changed| (changed - value) / share);
+        (found, runs)
+    };
+    let is_near = |found: f64| (found - expected).abs() <= MISSED * expected.abs() + round_off;
+    let confirmed = |(found, runs): (f64, usize)| {
+        let size = expected.abs().max(f64::MIN_POSITIVE);
+        Confirmation::Confirmed { missed: ((found - expected) / size).abs(), runs }
+    };
+    let above = difference(1.0);
+    if expected.abs() <= SEEN * round_off {
+        // Small derivatives of what is seen to change are wrong, and are looked at below.
+        if is_near(above.0) {
+            return Ok(Confirmation::Untold { runs: above.1 });
+        }
+    } else if is_near(above.0) {
+        return Ok(confirmed(above));
+    }
+    let below = difference(-1.0);
+    let both = (0.5 * (above.0 + below.0), below.1);
+    if is_near(both.0) {
+        return Ok(confirmed(both));
+    }
+    let sides = [NEARER, -NEARER].map(&mut difference);
+    let nearby = (0.5 * (sides[0].0 + sides[1].0), sides[1].1);
+    if is_near(nearby.0) {
+        return Ok(confirmed(nearby));
+    }
+    let least = (both.0 - expected).abs().min((nearby.0 - expected).abs());
+    if (both.0 - nearby.0).abs() <= AGREES * least {
+        return Err(GradientError::Denied { expected, found: nearby.0 });
+    }
+    Ok(Confirmation::Untold { runs: nearby.1 })
+}
+
+/// Changes of the numbers, in the direction in which the measure grows. All contribute what the weakest can, if that is clearly
+/// above the round-off.
+fn changes(carried: &[Carried], round_off: f64) -> Vec<f64> {
+    let effect = |of: &Carried| (of.derivative * of.number).abs();
+    let effects = || carried.iter().map(effect);
+    let (least, most) = (effects().fold(f64::INFINITY, f64::min), effects().fold(0.0, f64::max));
+    let each = (LARGEST * least).max(CLEAR * round_off).min(CHANGE * most);
+    let change = |of: &Carried| {
+        let share = if effect(of) > 0.0 { (each / effect(of)).min(LARGEST) } else { LARGEST };
+        share * of.number.abs() * if of.derivative < 0.0 { -1.0 } else { 1.0 }
+    };
+    carried.iter().map(change).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const NUMBERS: [f64; 3] = [2.0, -3.0, 1e6];
+
+    /// A measure of three numbers, the last of little effect, and its derivatives.
+    fn value(numbers: &[f64; 3]) -> f64 {
+        let [a, b, c] = *numbers;
+        (3.0 * a).sin() * b * b + 1e-9 * c
+    }
+
+    fn derivatives() -> [f64; 3] {
+        let [a, b, _] = NUMBERS;
+        [3.0 * (3.0 * a).cos() * b * b, 2.0 * b * (3.0 * a).sin(), 1e-9]
+    }
+
+    fn asked(
+        derivatives: [f64; 3],
+        of: impl Fn(&[f64; 3]) -> Option<f64>,
+    ) -> Result<Confirmation, GradientError> {
+        let carried: Vec<Carried> = NUMBERS
+            .iter()
+            .zip(derivatives)
+            .map(|(&number, derivative)| Carried { number, derivative })
+            .collect();
+        confirm(&carried, (value(&NUMBERS), 10.0), &mut |changes| {
+            let changed = std::array::from_fn(|k| NUMBERS[k] + changes[k]);
+            of(&changed).ok_or(GradientError::InParts(0.0))
+        })
+    }
+
+    #[test]
+    fn right_derivatives_are_confirmed_by_a_run_or_two() {
+        let found = asked(derivatives(), |at| Some(value(at))).unwrap();
+        let Confirmation::Confirmed { missed, runs } = found else { panic!("{found:?}") };
+        assert!(missed < MISSED && runs <= 2, "{found:?}");
+    }
+
+    #[test]
+    fn every_wrong_derivative_is_denied() {
+        for index in 0..3 {
+            for factor in [0.0, 0.97, -1.0, 2.0] {
+                let mut wrong = derivatives();
+                wrong[index] *= factor;
+                let found = asked(wrong, |at| Some(value(at)));
+                assert!(
+                    matches!(found, Err(GradientError::Denied { .. })),
+                    "{index} times {factor}: {found:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_below_round_off_or_fails_is_told_as_such() {
+        let untold = |found: Result<Confirmation, GradientError>| {
+            assert!(matches!(found, Ok(Confirmation::Untold { .. })), "{found:?}");
+        };
+        untold(asked([1e-12, 0.0, 0.0], |_| Some(value(&NUMBERS))));
+        untold(asked(derivatives(), |_| None));
+        // Differences of what is rough depend on the distance.
+        untold(asked(derivatives(), |at| Some(value(at) + 1e-4 * (1e9 * at[0] + 1.0).sin())));
+    }
+}
