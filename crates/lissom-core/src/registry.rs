@@ -265,6 +265,14 @@ impl Parameters {
         self.values.insert(name.to_owned(), value);
     }
 
+    /// The functions of time among them, by name.
+    pub fn functions(&self) -> impl Iterator<Item = (&str, &Function)> {
+        self.values.iter().filter_map(|(name, value)| match value {
+            Value::Function(function) => Some((name.as_str(), function)),
+            _ => None,
+        })
+    }
+
     /// The same but for some.
     #[must_use]
     pub fn without<'n>(&self, names: impl IntoIterator<Item = &'n str>) -> Self {

@@ -33,7 +33,7 @@ pub enum BucklingRunError {
     Path(#[from] PathError),
     /// The loads are larger than a critical load.
     #[error(
-        "the loads of the model are critical already at load factor {0:.6e}: make them smaller, or follow the path by an \
+        "the loads of the model are critical already at load factor {0:.6e}; make them smaller, or follow the path by an \
          analysis of kind `path`"
     )]
     AlreadyCritical(f64),

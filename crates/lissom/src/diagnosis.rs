@@ -70,9 +70,7 @@ impl Located for InputError {
     fn whereabouts(&self) -> Whereabouts<'_> {
         match self {
             Self::Initial(error) => error.whereabouts(),
-            Self::Signal(error) => {
-                Whereabouts { time: Some(error.time), part: Some(error.name.trim_matches('`')) }
-            }
+            Self::Signal(error) => Whereabouts { time: Some(error.time), part: Some(error.part()) },
             _ => Whereabouts::default(),
         }
     }

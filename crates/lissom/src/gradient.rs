@@ -113,8 +113,8 @@ pub enum GradientError {
     Feedback,
     /// A step was not solved as one.
     #[error(
-        "the step to t = {0:.6e} s was taken in parts, along which nothing is differentiated; \
-         choose a smaller step"
+        "the step to t = {0:.6e} s was taken in parts, along which nothing is differentiated: it has no solution as a whole, or a load or \
+         drive has a kink or jump there; choose a smaller step, steps that end at the kinks, or smooth them out"
     )]
     InParts(f64),
     /// Runs of neighbouring models have other derivatives.

@@ -48,7 +48,7 @@ pub enum PathSessionError {
     /// The loads are larger than a critical load before the number is varied.
     #[error(
         "`{path}` is varied from the equilibrium under the loads of the model, but they pass a critical point at load factor \
-         {load_factor:.6e} already: begin with smaller loads, or vary a parameter of the load itself"
+         {load_factor:.6e} already; begin with smaller loads, or vary a parameter of the load itself"
     )]
     AlreadyCritical {
         /// Path to the number.

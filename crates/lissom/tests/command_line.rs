@@ -12,6 +12,8 @@ mod data_file;
 mod determinism;
 #[path = "command_line/export.rs"]
 mod export;
+#[path = "command_line/failures.rs"]
+mod failures;
 #[path = "command_line/fmu.rs"]
 mod fmu;
 #[path = "command_line/live.rs"]

@@ -21,6 +21,7 @@ use crate::judge::{self, Judge, Ledger, Warning};
 use crate::newton::{self, Equations, Failure, Limits, Memory, Outcome};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Coupling, Scheme};
+use crate::stepping::kinks::{self, Kink};
 use crate::stepping::{
     Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, StepControl, Watch,
 };
@@ -126,8 +127,8 @@ pub struct Simulation {
     pub(crate) controller: Option<Controller>,
     /// Size of the next load step, where it is chosen.
     pub(crate) load_control: Option<LoadControl>,
-    /// Times that steps of chosen size do not cross [s].
-    pub(crate) kinks: Vec<f64>,
+    /// When functions of time are not smooth: steps of motions, and load steps of chosen size, do not cross it.
+    pub(crate) kinks: Vec<Kink>,
     /// How far any node has moved since the start, for the error estimate [-].
     pub(crate) farthest: f64,
     pub(crate) totals: Totals,
@@ -199,7 +200,8 @@ impl Simulation {
             let doubts = judge::start::velocities(&system, &representative, &given, &state.kinematics)?;
             warnings.extend(doubts);
             settle(&system, &mut state, &mut initial, &settings)?;
-            held_values = (!state.kinematics.held.is_empty()).then_some(initial);
+            let may_jump = !(state.kinematics.held.is_empty() && system.kinks().is_empty());
+            held_values = may_jump.then_some(initial);
         } else {
             equilibrium::hold_start(&system, &mut state, settings.solver);
         }
@@ -233,7 +235,8 @@ impl Simulation {
         let controller = (is_chosen && settings.scheme.dynamic).then(|| Controller::new(settings.step_size));
         let load_control =
             (is_chosen && !settings.scheme.dynamic).then(|| LoadControl::new(settings.step_size));
-        let kinks = if is_chosen { system.kinks() } else { Vec::new() };
+        let is_bound = is_chosen || settings.scheme.dynamic;
+        let kinks = if is_bound { kinks::of(&system, settings.step_size) } else { Vec::new() };
         let watch = if settings.scheme.dynamic {
             Watch::new(&system, &state, controller.is_some())
         } else {
@@ -405,6 +408,17 @@ impl Simulation {
                 && let Some(error) = equations.signal_error()
             {
                 return StepError::Signal(error);
+            }
+            if matches!(failure, Failure::NotFinite { .. } | Failure::Factor(FactorError::NotFinite { .. })) {
+                let at = equations.work.motions.iter().map(|motion| motion.at.time);
+                let found = at.filter_map(|at| {
+                    let (what, value) = self.system.function_without_value(at)?;
+                    let time = self.state.kinematics.time + self.scaled.step_size();
+                    Some(StepError::FunctionNotFinite { time, what: what.to_owned(), value, at })
+                });
+                if let Some(error) = found.take(1).next() {
+                    return error;
+                }
             }
             // With a pivoting solver a smaller step may do what this one could not.
             let pivoted = !matches!(failure, Failure::Factor(_));

@@ -372,6 +372,19 @@ impl StepEquations<'_> {
                 .map(|(row, value)| (row, self.work.sizes[row] * value.abs()))
         });
         let mut worst = (0, -1.0);
+        // States are measured apart, as in `with_states`.
+        let states: Vec<(usize, f64)> = layout
+            .states()
+            .map(|(row, coordinate, magnitude)| {
+                let magnitude = magnitude.max(self.start.kinematics.coordinates[coordinate].value.abs());
+                let of = |stages: &[Vec<f64>]| {
+                    stages.iter().fold(0.0_f64, |most, values| most.max(values[row].abs())) / magnitude
+                };
+                (row, of(&self.work.residuals) / of(&self.work.increments).max(LEAST_DEPARTURE))
+            })
+            .collect();
+        let is_state = |row: usize| states.iter().any(|(state, _)| *state == row);
+        let corrections = corrections.filter(|(row, _)| !is_state(*row)).chain(states.iter().copied());
         for (row, size) in corrections {
             if !size.is_finite() {
                 return layout.name_of(row);

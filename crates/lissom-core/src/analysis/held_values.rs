@@ -114,7 +114,6 @@ impl Simulation {
             self.state.kinematics = at;
             return Ok(());
         };
-        let layout = self.system.layout();
         let before = initial.acceleration_at(&self.system, &self.state)?;
         let kept = engages.then(|| self.state.clone());
         let held = std::mem::replace(&mut self.state.kinematics.held, at.held);
@@ -133,6 +132,33 @@ impl Simulation {
             }
         };
         jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
+        self.add_jump(jump);
+        Ok(())
+    }
+
+    /// Lets accelerations, multipliers and the rates of states jump by what forces change between two instants close to
+    /// each other, of functions of time that jump there.
+    ///
+    /// # Errors
+    /// If there are no consistent accelerations.
+    pub(crate) fn jump_between(&mut self, earlier: f64, later: f64) -> Result<(), InitialError> {
+        let Some(initial) = &mut self.held_values else { return Ok(()) };
+        let time = self.state.kinematics.time;
+        let mut at = |instant: f64| {
+            self.state.kinematics.time = instant;
+            initial.acceleration_at(&self.system, &self.state)
+        };
+        let found = at(earlier).and_then(|before| Ok((before, at(later)?)));
+        self.state.kinematics.time = time;
+        let (before, mut jump) = found?;
+        jump.iter_mut().zip(&before).for_each(|(after, before)| *after -= before);
+        self.add_jump(jump);
+        Ok(())
+    }
+
+    /// Adds the jump of accelerations, multipliers and rates of states.
+    fn add_jump(&mut self, mut jump: Vec<f64>) {
+        let layout = self.system.layout();
         let kinematics = &mut self.state.kinematics;
         for (rows, node) in layout.node_rows.iter().zip(&mut kinematics.nodes) {
             for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {
@@ -154,6 +180,5 @@ impl Simulation {
             memory.iter_mut().zip(motion).for_each(|(value, jump)| *value += jump);
         }
         self.state.multipliers.iter_mut().zip(constraints).for_each(|(value, jump)| *value += jump);
-        Ok(())
     }
 }

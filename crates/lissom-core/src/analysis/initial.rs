@@ -58,8 +58,8 @@ pub enum InitialError {
     },
     /// Drives or joints ask for different velocities.
     #[error(
-        "at the start {violated} contradict each other: no velocities satisfy them all; two drives may prescribe the \
-         same motion differently, or one prescribes what the joints exclude"
+        "at the start {violated} contradict each other: no velocities satisfy them all, because two drives prescribe the \
+         same motion differently, or one prescribes what the joints exclude; remove one, or change what is prescribed"
     )]
     RatesContradict {
         /// Names of the constraints.
@@ -69,7 +69,10 @@ pub enum InitialError {
     #[error("at the start: {0}")]
     Wrapped(Box<super::StepError>),
     /// A number is not finite.
-    #[error("initial accelerations are not finite, first for the {unknown}")]
+    #[error(
+        "initial accelerations are not finite, first for the {unknown}: a force there is without bound at the start, or masses are \
+         too far apart; look at what acts on it, and at the units"
+    )]
     NotFinite {
         /// Name of the unknown.
         unknown: String,

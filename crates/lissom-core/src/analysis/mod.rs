@@ -3,6 +3,7 @@
 pub mod accumulated;
 mod anderson;
 pub mod assembly;
+pub(crate) mod cause;
 pub(crate) mod compliance;
 pub mod conditioning;
 mod corrections;

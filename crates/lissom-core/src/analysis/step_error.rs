@@ -29,8 +29,7 @@ pub enum StepError {
     },
     /// Numbers that are not finite appeared.
     #[error(
-        "step to t = {time:.6e} s: numbers that are not finite after {iterations} iterations, first in: {worst}; \
-         try a smaller step"
+        "step to t = {time:.6e} s: numbers that are not finite after {iterations} iterations, first in: {worst}; {hint}"
     )]
     NotFinite {
         /// End of the step [s].
@@ -39,17 +38,65 @@ pub enum StepError {
         iterations: usize,
         /// Name of the first unknown affected.
         worst: String,
+        /// What to try.
+        hint: &'static str,
+    },
+    /// A joint has come to a place where one of its equations vanishes.
+    #[error(
+        "step to t = {time:.6e} s did not converge: the `{kind}` joint `{joint}` has come to where its parts are turned by \
+         {angle:.1} degrees against each other, and there its equation {equation} vanishes and holds nothing; keep it away from \
+         there by a stop, by other lengths or by another start, or use a joint of another kind"
+    )]
+    JointLosesHold {
+        /// End of the step [s].
+        time: f64,
+        /// Name of the joint.
+        joint: String,
+        /// Its kind.
+        kind: &'static str,
+        /// Its equation.
+        equation: &'static str,
+        /// Angle of the relative rotation of its parts [degrees].
+        angle: f64,
+    },
+    /// A closed loop has come to a singular position.
+    #[error(
+        "step to t = {time:.6e} s did not converge: {beside:.2} degrees before it the mechanism has a singular position, where \
+         the equations of {joints} repeat each other and it locks or may go on in more than one way; keep it away from there by \
+         other lengths, another drive or another start"
+    )]
+    LoopIsSingular {
+        /// End of the step [s].
+        time: f64,
+        /// Joints whose equations repeat each other there, in words.
+        joints: String,
+        /// How far it is from there [degrees].
+        beside: f64,
+    },
+    /// Something changes its side within a step that has no solution however short.
+    #[error(
+        "step to t = {time:.6e} s did not converge, nor do its shortest parts: within it {what} switches, and on neither side of the \
+         switch the motion can go on; give the jump a width (`tanh(v/0.01)` instead of `sign(v)`), use a kind made for it, such as \
+         friction, or set `relative_tolerance` instead of `step`, which ends steps where forces switch"
+    )]
+    Switches {
+        /// End of the step [s].
+        time: f64,
+        /// What switches.
+        what: String,
     },
     /// The estimated error stays above the tolerance however short the step.
     #[error(
-        "from t = {time:.6e} s: the estimated error stays above `relative_tolerance` down to steps of {size:.1e} s; \
-         look for a load or drive that jumps there, or allow a larger error"
+        "from t = {time:.6e} s: the estimated error stays above `relative_tolerance` down to steps of {size:.1e} s, most \
+         in the {unknown}; look for a load or drive that jumps there, or allow a larger error"
     )]
     TooInaccurate {
         /// Start of the step [s].
         time: f64,
         /// Size of the last attempt [s].
         size: f64,
+        /// Name of the unknown with the largest estimated error.
+        unknown: String,
     },
     /// Something passes through zero again and again.
     #[error(
@@ -72,10 +119,25 @@ pub enum StepError {
     /// A signal is not finite.
     #[error("{0}")]
     Signal(crate::signals::SignalError),
+    /// A function of time is not finite.
+    #[error(
+        "step to t = {time:.6e} s: {what} is {value} at t = {at:.6e} s, or its derivative is: an argument is outside of what its \
+         functions allow; keep it within, for instance by `max(…, 0)` under a root or `clamp`, or end the run before"
+    )]
+    FunctionNotFinite {
+        /// End of the step [s].
+        time: f64,
+        /// The function, in words.
+        what: String,
+        /// What it, or its derivative, comes to.
+        value: f64,
+        /// Where [s].
+        at: f64,
+    },
     /// Constraints are not held, though the equations were solved.
     #[error(
-        "at t = {time:.6e} s constraints contradict each other: violated are {violated}; a drive asks for a place that \
-         the joints do not allow, or two of them ask for different ones: remove one, or change what is prescribed"
+        "at t = {time:.6e} s constraints contradict each other: violated are {violated}: a drive asks for a place that \
+         the joints do not allow, or two of them ask for different ones; remove one, or change what is prescribed"
     )]
     Contradiction {
         /// End of the step [s].
@@ -112,7 +174,7 @@ pub enum StepError {
     /// Energy that nothing put in.
     #[error(
         "step to t = {time:.6e} s: there are {surplus:.3e} J more than anything put in, where {turned_over:.3e} J are \
-         turned over; the step does not resolve the motion: make it smaller, set `relative_tolerance`, or choose \
+         turned over, because the step does not resolve the motion, which is most restless at node `{node}`; make it smaller, set `relative_tolerance`, or choose \
          `scheme = \"radau-iia\"`; `energy_check = false` lets such a run go on"
     )]
     EnergyFromNowhere {
@@ -124,6 +186,8 @@ pub enum StepError {
         turned_over: f64,
         /// Whether most of it came in this step.
         in_this_step: bool,
+        /// Name of the node whose velocity changes most in the step.
+        node: String,
     },
     /// It was told to stop while a step was tried again.
     #[error("interrupted after t = {time:.6e} s")]
@@ -165,6 +229,7 @@ impl StepError {
             Self::NotConverged { .. }
                 | Self::NotFinite { .. }
                 | Self::Signal(_)
+                | Self::FunctionNotFinite { .. }
                 | Self::TurnsTooFar { .. }
                 | Self::ElementTurns { .. }
                 | Self::EnergyFromNowhere { in_this_step: true, .. }
@@ -172,6 +237,19 @@ impl StepError {
         )
     }
 }
+
+/// What to try when numbers of one attempt are not finite.
+pub(crate) const SMALLER: &str = "try a smaller step";
+/// What to try when a step has no solution even in the smallest parts.
+pub(super) const NO_PART_CONVERGES: &str = "the shortest parts of it, a thousandth and less, do not either, so that a smaller `step` will hardly help: look there for a \
+     force that jumps or grows without bound, for units that do not agree, for a joint close to where it cannot go on, and for a small `max_iterations`";
+/// The same where numbers are not finite.
+pub(super) const NO_PART_IS_FINITE: &str = "nor are they in the shortest parts of it, so that a smaller `step` will hardly help: look there for a force that grows \
+     without bound, for masses or stiffnesses too far apart, and for units that do not agree";
+
+/// What to try where an equilibrium path ends: it tries shorter steps itself.
+pub(crate) const NO_STEP_HELPS: &str = "shorter steps along the path find none either: a force or a joint may reach there what it cannot go beyond; end the path \
+     before it, or soften what jumps there";
 
 /// What to try when a step, in motion or in statics, has no solution even in parts.
 fn convergence_hint(is_motion: bool) -> &'static str {
@@ -193,7 +271,8 @@ pub(crate) fn pivot_hint(is_multiplier: bool, augmented: bool) -> &'static str {
             "a coordinate without mass and stiffness needs the augmented term: set `augmented = true`"
         }
         (false, true) => {
-            "nothing holds or carries it: give it mass, stiffness or a joint; the force of a wheel that rolls repeats what \
+            "nothing holds or carries it there: give it mass, stiffness or a joint, or let an equilibrium be sought from another \
+             place, where weight or a spring holds it; the force of a wheel that rolls repeats what \
              others hold already: give it a small `creep`"
         }
     }
@@ -216,7 +295,7 @@ pub(super) fn describe(
             hint: convergence_hint(settings.scheme.dynamic),
         },
         Failure::NotFinite { iterations } => {
-            StepError::NotFinite { time, iterations: *iterations, worst: worst.to_owned() }
+            StepError::NotFinite { time, iterations: *iterations, worst: worst.to_owned(), hint: SMALLER }
         }
         Failure::Factor(FactorError::ZeroPivot { unknown, pivot, .. }) => StepError::ZeroPivot {
             time,
@@ -226,7 +305,7 @@ pub(super) fn describe(
             after_pivoting: false,
         },
         Failure::Factor(FactorError::NotFinite { unknown }) => {
-            StepError::NotFinite { time, iterations: 0, worst: layout.name_of(*unknown) }
+            StepError::NotFinite { time, iterations: 0, worst: layout.name_of(*unknown), hint: SMALLER }
         }
         Failure::Interrupted => StepError::Interrupted { time },
     }

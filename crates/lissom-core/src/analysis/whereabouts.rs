@@ -11,6 +11,16 @@ pub struct Whereabouts<'e> {
     pub part: Option<&'e str>,
 }
 
+/// Whom an expression belongs to: `push` of "`scale` of load `push` = t", `pull` of "pull = t".
+fn owner(words: &str) -> Option<&str> {
+    match words.split_once(" = ") {
+        Some((name, _)) if !name.contains('`') => Some(name),
+        Some((name, _)) => name.rsplit('`').nth(1),
+        None if words.contains("` of ") => words.rsplit('`').nth(1),
+        None => named(words),
+    }
+}
+
 /// The first name in a sentence.
 fn named(words: &str) -> Option<&str> {
     words.split('`').nth(1)
@@ -20,20 +30,23 @@ impl StepError {
     /// When and where.
     pub fn whereabouts(&self) -> Whereabouts<'_> {
         let (time, part) = match self {
-            Self::NotConverged { time, worst, .. } | Self::NotFinite { time, worst, .. } => {
-                (*time, named(worst))
-            }
-            Self::TooInaccurate { time, .. }
-            | Self::EnergyFromNowhere { time, .. }
-            | Self::Interrupted { time } => (*time, None),
-            Self::Chatters { time, what } => (*time, named(what)),
+            Self::NotConverged { time, worst: words, .. }
+            | Self::NotFinite { time, worst: words, .. }
+            | Self::TooInaccurate { time, unknown: words, .. }
+            | Self::ZeroPivot { time, unknown: words, .. }
+            | Self::Contradiction { time, violated: words }
+            | Self::LoopIsSingular { time, joints: words, .. } => (*time, named(words)),
+            Self::FunctionNotFinite { time, what, .. }
+            | Self::Chatters { time, what }
+            | Self::Switches { time, what } => (*time, owner(what)),
+            Self::JointLosesHold { time, joint: part, .. }
+            | Self::EnergyFromNowhere { time, node: part, .. }
+            | Self::TurnsTooFar { time, node: part, .. }
+            | Self::ElementTurns { time, nodes: [part, _], .. } => (*time, Some(part.as_str())),
+            Self::Interrupted { time } => (*time, None),
             Self::NoTime { .. } => return Whereabouts::default(),
             Self::Signal(error) => (error.time, Some(error.part())),
-            Self::Contradiction { time, violated } => (*time, named(violated)),
-            Self::TurnsTooFar { time, node, .. } => (*time, Some(node.as_str())),
-            Self::ElementTurns { time, nodes, .. } => (*time, Some(nodes[0].as_str())),
             Self::Velocities { time, error } => (*time, error.whereabouts().part),
-            Self::ZeroPivot { time, unknown, .. } => (*time, named(unknown)),
         };
         Whereabouts { time: Some(time).filter(|time| time.is_finite()), part }
     }
@@ -57,9 +70,9 @@ impl InitialError {
 }
 
 impl crate::signals::SignalError {
-    /// Name of the signal without the marks around it.
-    fn part(&self) -> &str {
-        self.name.trim_matches('`')
+    /// Name of the signal, or of the load or joint that it belongs to, without the marks around it.
+    pub fn part(&self) -> &str {
+        self.name.rsplit('`').nth(1).unwrap_or(&self.name)
     }
 }
 
@@ -79,8 +92,10 @@ mod tests {
         assert_eq!(error.whereabouts(), Whereabouts { time: Some(0.5), part: Some("bar.2") });
         let initial = InitialError::NoEquilibrium(Box::new(error));
         assert_eq!(initial.whereabouts().part, Some("bar.2"));
-        let inaccurate = StepError::TooInaccurate { time: 0.25, size: 1e-9 };
-        assert_eq!(inaccurate.whereabouts(), Whereabouts { time: Some(0.25), part: None });
-        assert!(inaccurate.to_string().contains('`'), "a key of the model file is no part");
+        let stopped = StepError::Interrupted { time: 0.25 };
+        assert_eq!(stopped.whereabouts(), Whereabouts { time: Some(0.25), part: None });
+        let unknown = "translation 1 of node `bar.3`".to_owned();
+        let inaccurate = StepError::TooInaccurate { time: 0.25, size: 1e-9, unknown };
+        assert_eq!(inaccurate.whereabouts().part, Some("bar.3"), "a key of the model file is no part");
     }
 }

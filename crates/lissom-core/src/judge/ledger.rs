@@ -172,7 +172,12 @@ impl Ledger {
     }
 
     /// Fails where this ledger, after `before`, shows more energy than can be there.
-    pub(crate) fn refuse_gain(&self, before: &Self, time: f64) -> Result<(), StepError> {
+    pub(crate) fn refuse_gain(
+        &self,
+        before: &Self,
+        time: f64,
+        node: impl FnOnce() -> String,
+    ) -> Result<(), StepError> {
         let allowed = GROSS * self.turned_over + self.least_known();
         if self.surplus <= allowed || self.surplus <= before.surplus {
             return Ok(());
@@ -183,6 +188,7 @@ impl Ledger {
             surplus: self.surplus,
             turned_over: self.turned_over,
             in_this_step: gain > 0.5 * self.surplus,
+            node: node(),
         })
     }
 

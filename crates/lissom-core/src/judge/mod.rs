@@ -6,6 +6,7 @@
 //! scheme feeds motions which it does not resolve.
 
 pub(crate) mod contact;
+pub(crate) mod held;
 mod ledger;
 pub(crate) mod singular;
 pub(crate) mod start;
@@ -25,7 +26,7 @@ use crate::system::{Kinematics, State, System};
 /// and redundant constraints that agree leave some 1e-10.
 const LARGEST_VIOLATION: f64 = 1e-5;
 /// A node that turns further in one step than a quarter of a turn is not resolved by any of the schemes [rad].
-const LARGEST_TURN: f64 = 0.5 * PI;
+pub(crate) const LARGEST_TURN: f64 = 0.5 * PI;
 /// Nodes of an element that are turned against each other by more than this cannot be told from the other way round:
 /// part of half a turn.
 const LARGEST_RELATIVE_TURN: f64 = 0.9;
@@ -58,9 +59,21 @@ impl Judge<'_> {
         }
         let after = ledger.after(self.system, (&start.into(), &end.into()), (weighs, self.is_motion));
         if self.checks_energy && self.is_motion {
-            after.refuse_gain(ledger, end.kinematics.time)?;
+            after.refuse_gain(ledger, end.kinematics.time, || self.most_restless(start, end))?;
         }
         Ok(after)
+    }
+
+    /// Name of the node whose velocity changes most, a turn counting as that of an arc at the representative length.
+    fn most_restless(&self, start: &State, end: &State) -> String {
+        let length = self.representative.length;
+        let change = |node: usize| {
+            let change = end.kinematics.nodes[node].twist - start.kinematics.nodes[node].twist;
+            change.fixed_rows::<3>(0).norm().max(length * change.fixed_rows::<3>(3).norm())
+        };
+        let nodes = 0..start.kinematics.nodes.len();
+        let most = nodes.max_by(|&a, &b| change(a).total_cmp(&change(b))).unwrap_or(0);
+        self.system.layout().name_of_node(most).to_owned()
     }
 
     /// Fails where constraints are violated by more than solving leaves: they contradict each other, or a drive asks

@@ -20,6 +20,8 @@ const INDEPENDENT: f64 = 1e-7;
 const NEAR: f64 = 0.05;
 /// A pivot of this part of its largest value is singular: a thousandth of a radian beside it.
 const SINGULAR: f64 = 1e-6;
+/// A loop this far from a singular position may fail because of it [rad].
+const CLOSE: f64 = 0.1;
 /// What a parabola through values between which parts turn by a quarter of a radian leaves at its zero.
 const MISSED: f64 = 2e-3;
 /// A minimum is told from zero where it is this part of the smallest value found.
@@ -90,6 +92,26 @@ impl SingularPositions {
     /// Whether there is anything to look at.
     pub(crate) fn is_empty(&self) -> bool {
         self.loops.is_empty()
+    }
+
+    /// The loop that is closest to a singular position, where one is close: its joints in words, and how far it is from
+    /// there [rad].
+    pub(crate) fn closest(&mut self, system: &System, at: &Kinematics) -> Option<(String, f64)> {
+        let mut closest: Option<(String, f64)> = None;
+        for (found, known) in self.loops.iter().zip(&self.known) {
+            found.gradient(system, at, self.length, &mut self.gradient);
+            self.pivots.of(&mut self.gradient, found.multipliers.len());
+            for (equation, &reference) in known.references.iter().enumerate() {
+                let beside = (self.pivots.pivots[equation].max(0.0) / reference).sqrt().min(1.0).asin();
+                if reference > 0.0
+                    && beside < CLOSE
+                    && closest.as_ref().is_none_or(|(_, least)| beside < *least)
+                {
+                    closest = Some((self.pivots.names(system, found, equation), beside));
+                }
+            }
+        }
+        closest
     }
 
     /// Looks at where a step has led; `way` is how far the fastest node went, over the representative length. Gives the

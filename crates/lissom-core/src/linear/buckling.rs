@@ -52,12 +52,13 @@ pub struct Buckling {
 pub enum BucklingError {
     /// The model is not stable without loads.
     #[error(
-        "the model is not stable without loads ({0} unstable or free directions): linear buckling means nothing"
+        "the model is not stable without loads ({0} unstable or free directions): linear buckling means nothing; hold what is free, or follow the path by an analysis of kind \
+         `path`"
     )]
     Unstable(usize),
     /// The loads have no potential.
     #[error(
-        "the stiffness under the loads is not symmetric, as with loads that follow: follow the path instead"
+        "the stiffness under the loads is not symmetric, as with loads that follow; follow the path by an analysis of kind `path` instead"
     )]
     NotSymmetric,
     /// A factorisation stopped.

@@ -37,7 +37,7 @@ const NEUTRAL: f64 = 1e-6;
 pub enum LinearError {
     /// Signals are sampled.
     #[error(
-        "there is no linear model of a system with sampled signals, which change at instants only: give them no `sample` for \
+        "there is no linear model of a system with sampled signals, which change at instants only; give them no `sample` for \
          this analysis, as if they were sampled without end"
     )]
     Sampled,
@@ -52,7 +52,7 @@ pub enum LinearError {
     },
     /// A latch, which is a constraint between velocities.
     #[error(
-        "there is no linear model of a system with latches (`{coordinate}`), which these analyses do not know: leave the latch out, \
+        "there is no linear model of a system with latches (`{coordinate}`), which these analyses do not know; leave the latch out, \
          or hold its joint by a stiff spring"
     )]
     Latched {

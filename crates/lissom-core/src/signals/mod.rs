@@ -91,7 +91,8 @@ pub struct Signal {
 /// A signal that is not finite.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error(
-    "signal {name} = {text} is {value} at t = {time:.6e} s: an argument is outside of what its functions allow"
+    "signal {name} = {text} is {value} at t = {time:.6e} s: an argument is outside of what its functions allow; keep it \
+     within, for instance by `max(…, 0)` under a root or `clamp`, or end the run before"
 )]
 pub struct SignalError {
     /// Name of the signal.

@@ -10,6 +10,7 @@ mod dense;
 mod error_estimate;
 mod events;
 mod impacts;
+pub(crate) mod kinks;
 mod load_steps;
 mod method_memory;
 mod parts;
@@ -30,13 +31,14 @@ pub(crate) use resolution::Resolution;
 pub use snapshot::{Snapshot, SnapshotError};
 pub(crate) use watch::{Watch, Watched};
 
-use crate::analysis::{Phase, Simulation, StepError, StepReport, Stopwatch, Unwatched};
+use crate::analysis::{Phase, Simulation, StepError, StepReport, Stopwatch, Unwatched, cause};
 use crate::judge::Ledger;
 use crate::mechanisms::Mechanism;
 use crate::newton::{Memory, Outcome};
 use crate::scaling::ScaleBy;
 use crate::system::State;
 use error_estimate::{SMALLEST_ERROR, SMALLEST_REFERENCE, driven, excursion, inertial_part};
+use kinks::Kink;
 use load_steps::Attempts;
 
 /// Attempts at a step that are given up before the step is.
@@ -48,6 +50,8 @@ const SHARE_OF_STEP: f64 = 0.1;
 const SHARE_OF_FOURTH: f64 = 0.5;
 /// A node may turn by so much in a step of controlled size: what it turns further cannot be told from less [rad].
 const LARGEST_TURN: f64 = 1.0;
+/// Where parts of a planned step as short as this have no solution either, a smaller step hardly helps [-].
+const SHORT_PART: f64 = 1e-3;
 /// Times closer than this part of the largest step are the same [-].
 const NEAR: f64 = 1e-9;
 /// Steps shorter than this part of the largest one are not tried [-].
@@ -145,13 +149,14 @@ impl Simulation {
                     let may_help = error.may_need_a_smaller_step()
                         && report.rejected < MOST_REJECTED
                         && self.settings.limits.without.has(Mechanism::Parts);
-                    // The first failure tells more than those of its parts.
-                    let first = first_error.get_or_insert(error);
-                    if watch.is_cancelled() {
-                        *first = StepError::Interrupted { time: self.state.kinematics.time };
-                    }
+                    let told = cause::telling(first_error.take(), error);
+                    first_error = Some(told.clone());
                     if watch.is_cancelled() || !(may_help && self.parts.refuse()) {
-                        let error = first.clone();
+                        let error = if watch.is_cancelled() {
+                            StepError::Interrupted { time: self.state.kinematics.time }
+                        } else {
+                            self.with_cause(told, share <= SHORT_PART)
+                        };
                         if let Some(start) = start {
                             (self.state, self.ledger) = start;
                         }
@@ -177,8 +182,8 @@ impl Simulation {
         let now = self.state.kinematics.time + self.state.time_remainder;
         // A step across a kink of a load would not see what the load does between.
         let near = NEAR * control.max_step;
-        let ahead = |kink: &&f64| **kink > now + near && **kink < limit - near;
-        let limit = self.kinks.iter().find(ahead).map_or(limit, |kink| kink.next_down());
+        let ahead = |kink: &&Kink| kink.time > now + near && kink.time < limit - near;
+        let limit = self.kinks.iter().find(ahead).map_or(limit, |kink| kink.time.next_down());
         let rest = limit - now;
         let mut attempts = Attempts::default();
         let mut first_error = None;
@@ -238,10 +243,8 @@ impl Simulation {
         // close before it as numbers allow, so that its last stage does not see a jump either.
         let now = self.state.kinematics.time + self.state.time_remainder;
         // Where it must end anyway at a kink, or has begun at one, nothing is to be gained by another tiny step.
-        let near = NEAR * control.max_step;
-        let ahead = |kink: &&f64| **kink > now + near && **kink < limit - near;
-        let kink = self.kinks.iter().find(ahead).map(|kink| kink.next_down());
-        let limit = kink.unwrap_or(limit);
+        let landing = self.landing(now, limit, control.max_step);
+        let limit = landing.map_or(limit, |landing| landing.end);
         let rest = limit - now;
         let located = loop {
             let size = controller.propose(rest).min(control.max_step).min(self.turning_limit());
@@ -286,7 +289,12 @@ impl Simulation {
             {
                 self.controller = Some(controller);
                 let time = self.state.kinematics.time;
-                return Err(error.unwrap_or(StepError::TooInaccurate { time, size }));
+                let error = error.unwrap_or_else(|| StepError::TooInaccurate {
+                    time,
+                    size,
+                    unknown: self.most_inaccurate(),
+                });
+                return Err(self.with_cause(error, true));
             }
         };
         let taken = self.scaled.step_size();
@@ -294,13 +302,13 @@ impl Simulation {
         self.accept_step();
         if self.scaled.step_size() == rest {
             (self.state.kinematics.time, self.state.time_remainder) = (limit, 0.0);
-            if kink.is_some() {
-                self.work.forget_predictions();
-            }
         }
         self.farthest = self.farthest.max(self.excursion_of(&self.state));
         self.controller = Some(controller);
         self.is_last_step_known = true;
+        if let Some(landing) = landing.filter(|_| self.scaled.step_size() == rest) {
+            self.pass_kink(&landing, control.max_step)?;
+        }
         self.after_events(located.as_ref(), control.max_step)?;
         if self.watch.known.has_switched {
             self.work.forget_predictions();
@@ -426,6 +434,14 @@ impl Simulation {
         let states = self.error_of_states() / allowed;
         let error = if states <= places || places.is_nan() { places } else { states };
         error.powf(power)
+    }
+
+    /// Name of the unknown with the largest estimated error of the last attempt.
+    fn most_inaccurate(&self) -> String {
+        let errors =
+            self.work.filtered.iter().zip(&self.work.sizes).map(|(error, size)| (error * size).abs());
+        let most = errors.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
+        self.system.layout().name_of(most.map_or(0, |(row, _)| row))
     }
 
     /// The same of first-order states, each relative to its magnitude, unfiltered.

@@ -1,5 +1,5 @@
-//! Steps that end at samples of signals: a planned step across a sample is taken in pieces that end there, as one across
-//! an event is.
+//! Steps that end at samples of signals: a planned step across a sample, or a kink of a load or drive, is taken in pieces that
+//! end there, as one across an event is.
 
 use crate::analysis::{Simulation, StepError, StepReport, Stopwatch};
 
@@ -17,33 +17,47 @@ impl Simulation {
         self.system.signals().next_sample(self.origin.time, self.now())
     }
 
-    /// Takes a step of planned size, in pieces that end at the samples within it.
+    /// Takes a step of planned size, in pieces that end at the samples and kinks within it.
     pub(super) fn sampled_step(
         &mut self,
         watch: &mut dyn Stopwatch,
         report: &mut StepReport,
     ) -> Result<(), StepError> {
         let whole = self.settings.step_size;
-        if !self.system.signals().has_samples() && self.watch.is_empty() {
+        if !self.system.signals().has_samples() && self.watch.is_empty() && self.kinks.is_empty() {
             return self.planned_step(whole, watch, report);
         }
         let start = (self.state.clone(), self.ledger, self.watch.known.clone());
         let end = self.now() + whole;
         // Of the first piece the size is known to the last bit.
         let mut rest = whole;
+        let mut pieces = 0;
         let outcome = loop {
-            let next = self.next_sample().map_or(f64::INFINITY, |next| next - self.now());
-            let reaches_end = next >= rest * (1.0 - CLOSE);
-            let size = if reaches_end { rest } else { next };
             let began = self.now();
-            let result = self.planned_step(size, watch, report);
-            let result = result.and_then(|()| self.take_samples());
+            let next = self.next_sample().map_or(f64::INFINITY, |next| next - began);
+            let (mut reaches_end, mut size) = (true, rest);
+            if next < rest * (1.0 - CLOSE) {
+                (reaches_end, size) = (false, next);
+            }
+            let landing = self.landing(began, began + size, whole);
+            if let Some(landing) = &landing {
+                reaches_end &= landing.clock >= began + size;
+                size = landing.end - began;
+            }
+            pieces += 1;
+            let mut result = self.planned_step(size, watch, report);
             let is_whole = self.now() - began >= size * (1.0 - CLOSE);
+            if let Some(landing) = landing.filter(|_| result.is_ok() && is_whole) {
+                result = self.pass_kink(&landing, whole);
+            }
+            let result = result.and_then(|()| self.take_samples());
             if result.is_err() || (reaches_end && is_whole) || self.watch.known.stopped_by.is_some() {
                 break result;
             }
             rest = end - self.now();
         };
+        // What led to the state is known of the last piece alone.
+        self.is_last_step_known &= pieces == 1;
         if outcome.is_err() {
             (self.state, self.ledger, self.watch.known) = start;
         }

@@ -91,6 +91,7 @@ pub struct Builder {
     impulses: Vec<Impulse>,
     /// Inputs that engage latches.
     latches: Vec<HeldId>,
+    functions: Vec<(String, Function)>,
     graph: Graph,
     targets: Vec<(Target, SignalId)>,
     /// The signal that is the size of the loads being added.
@@ -129,6 +130,7 @@ impl Builder {
             states: Vec::new(),
             impulses: Vec::new(),
             latches: Vec::new(),
+            functions: Vec::new(),
             graph: Graph::default(),
             targets: Vec::new(),
             driver: None,
@@ -407,6 +409,7 @@ impl Builder {
             inertias,
             gravity: self.gravity,
             feedback,
+            functions: self.functions,
         };
         Ok((system, state))
     }
@@ -510,6 +513,11 @@ impl Builder {
             position_remainders: vec![Vector3::zeros(); self.nodes.len()],
             accumulated: Vec::new(),
         }
+    }
+
+    /// Lets a failure name a function of time, in words such as "`scale` of load `push`".
+    pub fn name_function(&mut self, words: String, function: Function) {
+        self.functions.push((words, function));
     }
 
     /// The ground's index, for symmetry with [`Self::add_node`].

@@ -36,6 +36,7 @@ use crate::joints::attached::AttachedJoint;
 use crate::joints::blocks::{Batches, JointStarts};
 use crate::joints::coupling::Coupling;
 use crate::joints::prescribed::Prescribed;
+use crate::registry::Function;
 use crate::signals::{Graph, HeldId};
 use batch::AnyBatch;
 pub(crate) use feedback::Feedback;
@@ -76,6 +77,8 @@ pub struct System {
     pub(crate) couplings: Vec<Coupling>,
     /// Inputs that engage latches.
     pub(crate) latches: Vec<HeldId>,
+    /// Functions of time, in words, by which loads, springs and drives are given.
+    pub(crate) functions: Vec<(String, Function)>,
     pub(crate) structure: Structure,
     /// Where every joint's local matrix lies in the pattern.
     pub(crate) joint_places: Places,
@@ -185,6 +188,16 @@ impl System {
     pub fn work_of_drives(&self, from: (&Kinematics, &[f64]), to: (&Kinematics, &[f64])) -> f64 {
         self.drives.iter().map(|drive| work_of_drive(drive, from, to)).sum::<f64>()
             + self.work_of_couplings(from, to)
+    }
+
+    /// The first function of time that has no finite value, or no finite derivative, at `time` [s]: its words and the
+    /// value.
+    pub(crate) fn function_without_value(&self, time: f64) -> Option<(&str, f64)> {
+        self.functions.iter().find_map(|(words, function)| {
+            let values =
+                [function.value(time), function.first_derivative(time), function.second_derivative(time)];
+            values.into_iter().find(|value| !value.is_finite()).map(|value| (words.as_str(), value))
+        })
     }
 
     /// Times at which loads and prescribed motions are known not to be smooth [s], in ascending order.

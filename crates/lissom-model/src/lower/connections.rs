@@ -34,6 +34,9 @@ pub(super) fn add(
                 Build::Coordinate(..) => 1,
                 Build::Coupling(..) => 2,
             };
+            if own == order {
+                name_functions("joint", component, builder);
+            }
             if own == order
                 && let Err(problem) = joint(document, (component, kind), builder, names)
             {
@@ -58,12 +61,23 @@ pub(super) fn add(
                 problems.push(unknown_kind(component));
                 continue;
             };
+            name_functions(if is_load { "load" } else { "spring" }, component, builder);
             let ramp = document.analysis.ramp.then_some((document.analysis.start, document.analysis.end));
             let ramp = ramp.filter(|_| is_load);
             if let Err(problem) = element(document, (component, kind), (&mut *builder, &mut *names), ramp) {
                 problems.push(problem);
             }
         }
+    }
+}
+
+/// Lets failures name the functions of time of a component.
+fn name_functions(what: &str, component: &Component, builder: &mut Builder) {
+    for (parameter, function) in
+        component.parameters.functions().filter(|(_, function)| !function.is_constant())
+    {
+        let words = format!("`{parameter}` of {what} `{}`", component.name.value);
+        builder.name_function(words, Function::clone(function));
     }
 }
 

@@ -8,7 +8,7 @@ use lissom_solver::{FactorError, FactorReport, LinearSolver};
 
 use super::super::StepError;
 use super::super::compliance::Compliance;
-use super::super::step_error::pivot_hint;
+use super::super::step_error::{NO_STEP_HELPS, pivot_hint};
 use super::super::workspace::sizes;
 use super::systems::PathSystems;
 use super::{PathSettings, Solution, Tangent};
@@ -448,12 +448,14 @@ impl PathEquations<'_> {
             let largest = (0..work.sizes.len()).max_by(|&a, &b| scaled(a).total_cmp(&scaled(b)));
             layout.name_of(largest.unwrap_or(0))
         };
+        let hint = NO_STEP_HELPS;
         match *failure {
             Failure::NotConverged { iterations, correction } => {
-                let hint = "take a smaller `step`";
                 StepError::NotConverged { time, iterations, correction, worst: worst(), hint }
             }
-            Failure::NotFinite { iterations } => StepError::NotFinite { time, iterations, worst: worst() },
+            Failure::NotFinite { iterations } => {
+                StepError::NotFinite { time, iterations, worst: worst(), hint }
+            }
             Failure::Factor(FactorError::ZeroPivot { unknown, pivot, .. }) => StepError::ZeroPivot {
                 time,
                 pivot,
@@ -462,7 +464,7 @@ impl PathEquations<'_> {
                 after_pivoting: false,
             },
             Failure::Factor(FactorError::NotFinite { unknown }) => {
-                StepError::NotFinite { time, iterations: 0, worst: layout.name_of(unknown) }
+                StepError::NotFinite { time, iterations: 0, worst: layout.name_of(unknown), hint }
             }
             Failure::Interrupted => StepError::Interrupted { time },
         }

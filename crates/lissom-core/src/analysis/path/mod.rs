@@ -61,7 +61,7 @@ pub enum PathError {
     NotAlike,
     /// Loads depend on the motion, or there are states.
     #[error(
-        "a path of a system with feedback is not known: remove loads and states whose signals depend on the motion"
+        "a path of a system with feedback is not known; remove loads and states whose signals depend on the motion"
     )]
     Feedback,
     /// No load acts.
@@ -71,7 +71,8 @@ pub enum PathError {
     NoLoad,
     /// The number changes nothing.
     #[error(
-        "a small change of `{name}` moves nothing in the equilibrium at {value}, where the path begins: there is no path along it"
+        "a small change of `{name}` moves nothing in the equilibrium at {value}, where the path begins, so that there is no path along it; vary a number that \
+         forces, stiffnesses or lengths depend on"
     )]
     NoEffect {
         /// What is varied.
@@ -91,7 +92,8 @@ pub enum PathError {
     },
     /// The number cannot go farther.
     #[error(
-        "the path ends at {name} {value:.6e}, {arc:.3e} along it: the model has no meaning beyond ({problem})"
+        "the path ends at {name} {value:.6e}, {arc:.3e} along it: the model has no meaning beyond ({problem}); end the path before that value, or take the sense in which \
+         it can go on"
     )]
     Beyond {
         /// What is varied.
@@ -133,7 +135,7 @@ pub enum PathError {
     /// There are fewer bifurcations than that at which the path was to be left.
     #[error(
         "after {steps} steps the {name} is {load_factor:.6e}, and the path has met {met} bifurcation(s), not the {wanted} \
-         that `branch` asks for: give more `steps`, a smaller first `step`, or another `branch`"
+         that `branch` asks for; give more `steps`, a smaller first `step`, or another `branch`"
     )]
     NoBifurcation {
         /// What changes along the path.
@@ -148,7 +150,10 @@ pub enum PathError {
         wanted: usize,
     },
     /// No other path was found at a bifurcation.
-    #[error("no branch is found at the bifurcation at {name} {load_factor:.6e}: {reason}")]
+    #[error(
+        "no branch is found at the bifurcation at {name} {load_factor:.6e}: {reason}; disturb the model a little, so that its path goes \
+         over to a branch by itself, or leave out `branch`"
+    )]
     NoBranchThere {
         /// What changes along the path.
         name: String,
@@ -159,7 +164,7 @@ pub enum PathError {
     },
     /// The number of steps is used up.
     #[error(
-        "after {steps} steps the {name} is {load_factor:.6e} and has not come to {end}: give more `steps`, or an `end` \
+        "after {steps} steps the {name} is {load_factor:.6e} and has not come to {end}; give more `steps`, or an `end` \
          that the path reaches"
     )]
     TooManySteps {

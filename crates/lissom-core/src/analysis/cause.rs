@@ -1,0 +1,84 @@
+//! Why a step has no solution however short: what can be seen of it where the motion stands.
+
+use super::dynamics::Simulation;
+use super::step_error::{NO_PART_CONVERGES, NO_PART_IS_FINITE, StepError};
+use crate::judge::{LARGEST_TURN, held};
+
+impl Simulation {
+    /// The failure of a step with its likely cause: a joint or a closed loop close to where it cannot go on, or a
+    /// force that switches. `no_part` tells that the shortest parts of the step were tried too.
+    pub(crate) fn with_cause(&mut self, error: StepError, no_part: bool) -> StepError {
+        let time = match &error {
+            StepError::NotConverged { time, .. }
+            | StepError::NotFinite { time, .. }
+            | StepError::ZeroPivot { time, after_pivoting: true, .. } => *time,
+            _ => return error,
+        };
+        let at = &self.state.kinematics;
+        if let Some((node, angle)) = self.turns_in_a_part() {
+            return StepError::TurnsTooFar { time, node, angle };
+        }
+        if let Some(found) = held::lost(&self.system, &self.origin, at, self.representative.length) {
+            let held::LostHold { joint, kind, equation, angle } = found;
+            return StepError::JointLosesHold { time, joint, kind, equation, angle: angle.to_degrees() };
+        }
+        if let Some((joints, beside)) = self.singular.closest(&self.system, at) {
+            return StepError::LoopIsSingular { time, joints, beside: beside.to_degrees() };
+        }
+        if !self.settings.scheme.dynamic {
+            return error;
+        }
+        if no_part && let Some(what) = self.switching() {
+            return StepError::Switches { time, what };
+        }
+        match error {
+            StepError::NotConverged { time, iterations, correction, worst, .. } if no_part => {
+                StepError::NotConverged { time, iterations, correction, worst, hint: NO_PART_CONVERGES }
+            }
+            StepError::NotFinite { time, iterations, worst, .. } if no_part => {
+                StepError::NotFinite { time, iterations, worst, hint: NO_PART_IS_FINITE }
+            }
+            other => other,
+        }
+    }
+
+    /// What changes its side between the state and the last iterate, in words: steps of planned size look for no
+    /// side that can stay.
+    fn switching(&self) -> Option<String> {
+        let reached = &self.work.motions.last()?.at;
+        let [before, after] = [&self.state.kinematics, reached].map(|at| {
+            let mut values = Vec::new();
+            self.system.signals().switches(at, &mut values);
+            self.system.switches(at, &mut values);
+            values
+        });
+        let has_switched = |which: &usize| before[*which] * after[*which] < 0.0;
+        let which = (0..before.len().min(after.len())).find(has_switched)?;
+        Some(self.system.name_of_switch(which))
+    }
+
+    /// The node that turns further in a part of a step, as short as the last one tried, than any step resolves; with the
+    /// angle [rad].
+    fn turns_in_a_part(&self) -> Option<(String, f64)> {
+        if !self.settings.scheme.dynamic {
+            return None;
+        }
+        let turning = |node: usize| self.state.kinematics.nodes[node].twist.fixed_rows::<3>(3).norm();
+        let nodes = 0..self.state.kinematics.nodes.len();
+        let fastest = nodes.max_by(|&a, &b| turning(a).total_cmp(&turning(b)))?;
+        let angle = turning(fastest) * self.scaled.step_size();
+        let name = || self.system.layout().name_of_node(fastest).to_owned();
+        (angle > LARGEST_TURN).then(|| (name(), angle))
+    }
+}
+
+/// Of the failures of a step and of its parts the one that tells more: the first, unless it tells only that numbers did not
+/// converge and a later one tells why.
+pub(crate) fn telling(first: Option<StepError>, later: StepError) -> StepError {
+    let tells_little =
+        |error: &StepError| matches!(error, StepError::NotConverged { .. } | StepError::NotFinite { .. });
+    match first {
+        Some(first) if !tells_little(&first) || tells_little(&later) => first,
+        _ => later,
+    }
+}
