@@ -11,7 +11,7 @@ use lissom_core::signals::{Argument, SignalFunction};
 use lissom_core::system::{CoordinateId, ElementId, Kinematics, NodeId, State, System};
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, rotation_part, translation_part};
 
-use crate::document::{NodeReference, Output, OutputKind, OutputSource, ReactionAxes};
+use crate::document::{NodeReference, Output, OutputKind, OutputSource, ReactionAxes, interface_name};
 use crate::expression::Formula;
 use crate::observers::{Observer, Seen};
 use crate::report::{Located, Problem};
@@ -425,6 +425,10 @@ fn place(
         NodeReference::Ground => Ok(carried(lissom_core::system::GROUND)),
         NodeReference::Body(name) | NodeReference::PointMass(name) => {
             names.nodes.get(name).map(|&node| carried(node)).ok_or_else(|| unknown(name))
+        }
+        NodeReference::Interface { superelement, interface } => {
+            let name = interface_name(superelement, interface);
+            names.nodes.get(&name).map(|&node| carried(node)).ok_or_else(|| unknown(&name))
         }
         NodeReference::Beam { beam, fraction } => {
             let line = names.lines.get(beam).ok_or_else(|| unknown(beam))?;

@@ -153,6 +153,7 @@ pub(crate) fn singular(table: &str) -> &'static str {
         "beams" => "beam",
         "bodies" => "body",
         "point_masses" => "point mass",
+        "superelements" => "superelement",
         "joints" => "joint",
         "springs" => "spring",
         "loads" => "load",

@@ -86,6 +86,8 @@ pub(crate) enum Shape {
     Stations,
     /// A list of nodes and locations on them.
     Places,
+    /// A list of names and places in the axes of the part.
+    Interfaces,
     /// A list of pairs of numbers.
     Rows,
     /// Two numbers.
@@ -115,6 +117,14 @@ impl Shape {
         vec![
             required("on", Self::Node, "", "the node that carries it"),
             optional("at", Self::Place, "m", "location at the start; default: the node's place"),
+        ]
+    }
+
+    /// Keys of an interface of a superelement.
+    pub(crate) fn interface_keys() -> Vec<Key> {
+        vec![
+            required("name", Self::Text, "", "its name: its node is `superelement.name`"),
+            optional("at", Self::Vector, "m", "place in the axes of the part; default its origin"),
         ]
     }
 

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
 use crate::files;
+use crate::npz;
+use crate::output::full_matrix;
 use crate::surface::Surface;
 
 /// Why there is no text.
@@ -72,6 +74,36 @@ impl Library {
         text
     }
 
+    /// The first of these arrays that the NPZ archive at `path` has, as a text in the Matrix Market format; none where it has
+    /// none of them. Each is kept as the text `path#name`, so that who has all texts needs no archive.
+    pub(crate) fn array(&self, path: &str, names: &[&str]) -> Result<Option<Arc<str>>, Missing> {
+        let prefix = format!("{path}#");
+        let mut found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
+        if !found.keys().any(|known| known.starts_with(&prefix)) {
+            let help = Some("write it by `numpy.savez`, or by `lissom reduce`".to_owned());
+            let Some(folder) = &self.folder else {
+                let message = format!("`{path}` was not among the files of the model");
+                return Err(Missing { message, help: None });
+            };
+            let told = |message: String| Missing { message, help: help.clone() };
+            let bytes = std::fs::read(folder.join(path))
+                .map_err(|error| told(format!("`{path}` cannot be read: {error}")))?;
+            let arrays = npz::arrays(&bytes).map_err(|error| told(format!("`{path}`: {error}")))?;
+            for (name, array) in arrays {
+                let text = array.map(|matrix| {
+                    let size = [matrix.nrows(), matrix.ncols()];
+                    Arc::from(full_matrix(&name, size, |row, column| matrix[(row, column)]))
+                });
+                found.insert(
+                    format!("{prefix}{name}"),
+                    text.map_err(|error| told(format!("`{path}`: {error}"))),
+                );
+            }
+        }
+        let known = names.iter().find_map(|name| found.get(&format!("{prefix}{name}")));
+        known.cloned().transpose()
+    }
+
     /// The surface in the STL or glTF file at `path`, which `joined` has made.
     pub(crate) fn surface(&self, path: &str) -> FoundSurface {
         let Some(folder) = &self.folder else { return Ok(None) };
@@ -106,7 +138,14 @@ impl Library {
         let found = self.found.lock().unwrap_or_else(PoisonError::into_inner);
         let folder = self.folder.clone().unwrap_or_default();
         let surfaces = self.surfaces.lock().unwrap_or_else(PoisonError::into_inner);
-        found.keys().chain(surfaces.keys()).map(|path| folder.join(path)).collect()
+        // Arrays of an archive are of its file.
+        let file = |path: &String| {
+            path.split_once(".npz#").map_or_else(|| path.clone(), |(own, _)| format!("{own}.npz"))
+        };
+        let mut files: Vec<PathBuf> =
+            found.keys().chain(surfaces.keys()).map(|path| folder.join(file(path))).collect();
+        files.dedup();
+        files
     }
 }
 

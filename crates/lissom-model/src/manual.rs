@@ -215,6 +215,7 @@ pub(crate) fn words(shape: &Shape) -> String {
         Shape::Shear => "a number, two numbers, or a word",
         Shape::Stations => "a list of tables",
         Shape::Places => "a list of `{ on, at }`, `at` may be left out",
+        Shape::Interfaces => "a list of `{ name, at }`",
         Shape::Rows => "a list of pairs",
         Shape::Pair => "two numbers",
         Shape::Words => "two texts",

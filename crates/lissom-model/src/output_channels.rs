@@ -10,7 +10,7 @@ use lissom_motion::{Motion, Vector3};
 use crate::accumulated::{Actor, AngleAboutAxis, Work};
 use crate::channels::{Channel, Resolver, Source, components, source};
 use crate::document::{
-    AnalysisKind, Document, NodeReference, Output, OutputKind, OutputSource, ReactionAxes,
+    AnalysisKind, Document, NodeReference, Output, OutputKind, OutputSource, ReactionAxes, interface_name,
 };
 use crate::expression::Formula;
 use crate::observers::Observer;
@@ -123,6 +123,10 @@ impl Made<'_> {
             NodeReference::Ground => (lissom_core::system::GROUND, Motion::IDENTITY),
             NodeReference::Body(name) | NodeReference::PointMass(name) => {
                 (*self.names.nodes.get(name).ok_or_else(|| unknown(name))?, Motion::IDENTITY)
+            }
+            NodeReference::Interface { superelement, interface } => {
+                let name = interface_name(superelement, interface);
+                (*self.names.nodes.get(&name).ok_or_else(|| unknown(&name))?, Motion::IDENTITY)
             }
             NodeReference::Beam { beam, fraction } => {
                 let line = self.names.lines.get(beam).ok_or_else(|| unknown(beam))?;

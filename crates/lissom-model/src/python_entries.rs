@@ -16,8 +16,8 @@ const FILES: [(&str, &str, &[&str]); 9] = [
     ("sections", "Materials and cross sections.", &["materials", "sections"]),
     (
         "parts",
-        "Beams, rigid bodies, point masses and sub-assemblies.",
-        &["beams", "bodies", "point_masses", "parts"],
+        "Beams, rigid bodies, point masses, superelements and sub-assemblies.",
+        &["beams", "bodies", "point_masses", "superelements", "parts"],
     ),
     ("joints", "What holds nodes together, one class per kind.", &["joints"]),
     ("springs", "What pulls nodes or joints back, one class per kind.", &["springs"]),
@@ -182,7 +182,7 @@ fn type_of(shape: &Shape) -> String {
         Shape::Stiffness => "Vector | list[Vector]",
         Shape::Inertia | Shape::SectionMass => "Vector | list[Vector] | Table",
         Shape::Shear => "Number | Vector",
-        Shape::Stations | Shape::Places => "list[Table]",
+        Shape::Stations | Shape::Places | Shape::Interfaces => "list[Table]",
         Shape::Friction | Shape::Solid | Shape::Table => "Table",
         Shape::Entries(_) => "Tables",
     };

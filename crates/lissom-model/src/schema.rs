@@ -152,6 +152,9 @@ fn of_shape(shape: &Shape) -> Value {
             json!({ "type": "array", "minItems": 2, "items": of_keys(&Shape::station_keys()) })
         }
         Shape::Places => json!({ "type": "array", "minItems": 2, "items": of_keys(&Shape::place_keys()) }),
+        Shape::Interfaces => {
+            json!({ "type": "array", "minItems": 1, "items": of_keys(&Shape::interface_keys()) })
+        }
         Shape::Rows => json!({ "type": "array", "minItems": 2, "items": list(&plain(), 2) }),
         Shape::Pair | Shape::Range => list(&plain(), 2),
         Shape::Words => list(&text(), 2),

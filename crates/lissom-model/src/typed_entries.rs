@@ -17,8 +17,13 @@ const FILES: [(&str, &str, &[TableAndId]); 9] = [
     ("sections", "Materials and cross sections.", &[("materials", "MaterialId"), ("sections", "SectionId")]),
     (
         "parts",
-        "Beams, rigid bodies and point masses.",
-        &[("beams", "BeamId"), ("bodies", "BodyId"), ("point_masses", "PointMassId")],
+        "Beams, rigid bodies, point masses and superelements.",
+        &[
+            ("beams", "BeamId"),
+            ("bodies", "BodyId"),
+            ("point_masses", "PointMassId"),
+            ("superelements", "SuperelementId"),
+        ],
     ),
     ("joints", "What holds nodes together, one type per kind.", &[("joints", "JointId")]),
     ("springs", "What pulls nodes or joints back, one type per kind.", &[("springs", "SpringId")]),
@@ -232,6 +237,7 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
         Shape::Shear => "Shear",
         Shape::Stations => "Vec<(f64, SectionId)>",
         Shape::Places => "Vec<(Node, Place)>",
+        Shape::Interfaces => "Vec<(String, [f64; 3])>",
         Shape::Pair | Shape::Range => "[f64; 2]",
     };
     Some(fixed.to_owned())
@@ -273,6 +279,7 @@ fn single(table: &str) -> &'static str {
         "beams" => "beam",
         "bodies" => "body",
         "point_masses" => "point_mass",
+        "superelements" => "superelement",
         "states" => "state",
         "events" => "event",
         "initial" => "initial_motion",
@@ -286,6 +293,7 @@ fn summary_of(table: &str) -> &'static str {
         "beams" => "A flexible beam.",
         "bodies" => "A rigid body.",
         "point_masses" => "A mass without extension.",
+        "superelements" => "A linear elastic part that is given by reduced matrices.",
         "states" => "A first-order state: a number whose derivative by time is an expression.",
         "events" => "What happens when an expression passes through zero.",
         "initial" => "A rigid motion of all parts at the start, or static equilibrium.",

@@ -301,6 +301,14 @@ impl ResultFolder {
         files::write(&self.path.join(name), text.as_bytes())
     }
 
+    /// Writes an archive of arrays under its name.
+    ///
+    /// # Errors
+    /// If it cannot be written.
+    pub fn write_archive(&self, name: &str, bytes: &[u8]) -> Result<(), FileError> {
+        files::write(&self.path.join(name), bytes)
+    }
+
     /// Writes names and times [s] of events.
     ///
     /// # Errors

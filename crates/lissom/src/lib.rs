@@ -135,6 +135,7 @@ pub mod picture;
 mod ports;
 mod prepared;
 mod recorded_modes;
+pub mod reduce;
 mod report;
 pub mod response;
 mod schedule;

@@ -82,6 +82,7 @@ pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered
     tell("tolerance", json!(settings.limits.tolerance));
     tell("bodies", json!(document.bodies.len() + document.point_masses.len()));
     tell("beams", json!(document.beams.len()));
+    tell("superelements", json!(document.superelements.len()));
     tell("elements", json!(document.beams.iter().map(|beam| beam.elements.value).sum::<usize>()));
     tell("nodes", json!(layout.node_count() - 1));
     tell("joints", json!(document.joints.len()));

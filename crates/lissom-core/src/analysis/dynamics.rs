@@ -475,6 +475,7 @@ impl Simulation {
     /// Takes note of reasons to doubt the step that is being accepted.
     fn note_doubts(&mut self) {
         judge::contact::tell(&self.system, &self.next, &mut self.warnings);
+        judge::linear_range::tell(&self.system, &self.next, &mut self.warnings);
         let (before, after) = (&self.ledger, &self.next_ledger);
         let time = self.next.kinematics.time;
         if self.settings.scheme.dynamic {

@@ -12,7 +12,7 @@ use lissom_motion::{Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times
 use super::blocks::Blocks;
 use super::inertia_blocks::InertiaBlocks;
 use super::step_stages::{STAGES, StepStages};
-use super::{Element, Energy, MOST_UNKNOWNS, Tangents, add_block, is_same};
+use super::{Element, Energy, Tangents, add_block, is_same};
 use crate::registry::Function;
 use crate::system::state::split;
 use crate::system::{Kinematics, NodeId};
@@ -119,7 +119,7 @@ impl Element for Inertia {
 
     /// Gravity is corrected along the momenta P_j, so that its work is exactly the change of potential energy:
     /// by ρ P_j with ρ Σ D_j V_j·P_j = -ΔW - Σ D_j V_j·M γ_j.
-    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
         for (at, out) in step.stages.iter().zip(out.iter_mut()) {
             self.forces(at, out);
         }

@@ -24,6 +24,7 @@ pub mod shape;
 pub mod sides;
 pub mod step_stages;
 pub mod stop;
+pub mod superelement;
 
 use crate::joints::Quantity;
 use crate::registry::{Parameter, ParameterError, Parameters};
@@ -33,8 +34,8 @@ use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
 use step_stages::{STAGES, StepStages};
 
-/// Most local unknowns an element may have: four nodes and two coordinates.
-pub const MOST_UNKNOWNS: usize = 26;
+/// Local unknowns that elements usually have at most: four nodes and two coordinates. Superelements may have more.
+pub const USUAL_UNKNOWNS: usize = 26;
 
 /// Energies of an element or a system [J].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -165,10 +166,9 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     /// Adds the forces at both stages of a step, for schemes that integrate strains. Their work over it is the
     /// change of the elements' energy, as far as the method's stages integrate squares exactly. Default, for
     /// forces without energy or with strains that the stages integrate exactly: `forces` at each stage.
-    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
-        let size = 6 * self.nodes().len() + self.coordinates().len();
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
         for (at, out) in step.stages.iter().zip(out) {
-            self.forces(at, &mut out[..size]);
+            self.forces(at, out);
         }
     }
 
@@ -190,6 +190,10 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     fn linearize_stressed(&self, at: &Kinematics, _stressed: &Kinematics, out: &mut Tangents) {
         self.linearize(at, out);
     }
+
+    /// Puts its mass matrix into `out`, row after row of its local unknowns, for elements with mass but [`inertia`], whose mass
+    /// the system knows. Default: nothing.
+    fn mass(&self, _at: &Kinematics, _out: &mut Vec<f64>) {}
 
     /// Kinetic, elastic and potential energy.
     fn energy(&self, at: &Kinematics) -> Energy;
@@ -224,6 +228,12 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     /// How fast it deforms [1/s]: the largest speed of its nodes relative to each other, over their distance, and one of
     /// the two nodes, for elements that can be bent. Default: none.
     fn deformation_rate(&self, _at: &Kinematics) -> Option<(f64, NodeId)> {
+        None
+    }
+
+    /// The largest deformation over that up to which its linear law is believed, and the node that has it, for elements that are
+    /// linear in a frame of their own. Default: none.
+    fn linear_range(&self, _at: &Kinematics) -> Option<(f64, NodeId)> {
         None
     }
 

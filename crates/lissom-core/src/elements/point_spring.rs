@@ -10,7 +10,7 @@ use nalgebra::SMatrix;
 use super::force_law::{ForceLaw, Response, SIDE_OF_LENGTH};
 use super::sides::Sides;
 use super::step_stages::{STAGES, StepStages, above_round_off};
-use super::{Attached, Attachment, Element, ElementKind, Energy, MOST_UNKNOWNS, Tangents, add_block};
+use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents, add_block};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 use crate::system::state::split;
 use crate::system::{Builder, Kinematics, NodeId, NodeMotion};
@@ -164,7 +164,7 @@ impl Element for PointSpring {
     }
 
     /// The elongation is integrated; what that misses is put back along the relative velocities of the points.
-    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
         let [a, b] = self.points(step.start);
         let before = b.position - a.position;
         let moved = |point: &Point, node: NodeId| {
@@ -188,7 +188,7 @@ impl Element for PointSpring {
             let sides = self.sides.of(step.stages[j]);
             let tension = self.law.evaluate(lengths[j] - self.length, rates[j], sides).force;
             let pull = tension * (tensions[j].0 + missed * inverse * speeds[j]);
-            add_pull(&points[j], &pull, &mut out[j]);
+            add_pull(&points[j], &pull, out[j]);
         }
     }
 

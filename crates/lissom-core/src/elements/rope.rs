@@ -14,7 +14,7 @@ use super::force_law::{ForceLaw, Response};
 use super::point_spring::Point;
 use super::sides::Sides;
 use super::step_stages::{STAGES, StepStages, above_round_off};
-use super::{Attached, Attachment, Element, ElementKind, Energy, MOST_UNKNOWNS, Tangents, add_block};
+use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents, add_block};
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters, Value};
 use crate::system::{Builder, GROUND, Kinematics, NodeId};
 
@@ -225,7 +225,7 @@ impl Element for Rope {
     }
 
     /// The length is integrated; what that misses is put back along the relative velocities of the places.
-    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
         let start = self.shape(step.start);
         let mut moves = [Vector3::zeros(); MOST_PLACES];
         for ((moved, point), (node, _)) in moves.iter_mut().zip(&start.points).zip(&self.places) {
@@ -256,7 +256,7 @@ impl Element for Rope {
             let tension = self.law.evaluate(elongation, rate, self.sides.of(step.stages[j])).force;
             let shape = &shapes[j];
             let along = |segment: &Segment| segment.direction + missed * inverse * segment.speed;
-            self.add_pulls(shape, |index| tension * shape.difference(index, along), &mut out[j]);
+            self.add_pulls(shape, |index| tension * shape.difference(index, along), out[j]);
         }
     }
 

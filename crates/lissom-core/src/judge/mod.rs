@@ -8,6 +8,7 @@
 pub(crate) mod contact;
 pub(crate) mod held;
 mod ledger;
+pub(crate) mod linear_range;
 pub(crate) mod singular;
 pub(crate) mod start;
 mod warning;

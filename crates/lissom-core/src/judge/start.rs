@@ -52,7 +52,15 @@ pub(crate) fn velocities(
                 let twist = nodes[inertia.node()].twist;
                 twist.dot(&(inertia.mass() * twist))
             };
-            system.inertias().iter().map(of).sum()
+            let mut sum: f64 = system.inertias().iter().map(of).sum();
+            system.masses(used, &mut |mass| {
+                // Modal coordinates start at rest.
+                let mut rates: Vec<f64> =
+                    mass.nodes.iter().flat_map(|&node| nodes[node].twist.iter().copied()).collect();
+                rates.resize(mass.rows.len(), 0.0);
+                mass.times(&rates, |row, momentum| sum += rates[row] * momentum);
+            });
+            sum
         };
         let (given_words, used_words) = (words(&given[worst]), words(&used.nodes[worst]));
         if energy(&used.nodes) < NOTHING * energy(given) {

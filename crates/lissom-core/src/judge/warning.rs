@@ -162,6 +162,20 @@ pub enum Warning {
         /// The directions that repeat, in words.
         repeated: String,
     },
+    /// A superelement deforms by more than linear matrices can tell.
+    #[error(
+        "from t = {time:.6e} s on the superelement's interface `{interface}` is displaced or turned by more than its linear \
+         matrices are good for: by up to {largest:.2} times 0.3 rad, or 0.3 of the distance between interfaces, from the floating \
+         frame; cut the part into several superelements, or model it by beams"
+    )]
+    BeyondLinear {
+        /// When it was first seen [s].
+        time: f64,
+        /// Name of the interface.
+        interface: String,
+        /// The largest deformation over that up to which the matrices are believed.
+        largest: f64,
+    },
     /// An output that goes on along the motion could not go on.
     #[error(
         "at t = {time:.6e} s the output `{output}` cannot go on: from one step to the next it changes by more than can be told,          and is not a number from there on; take smaller steps; an angle about an axis has no value where the axis is turned          by half a turn"
@@ -196,6 +210,7 @@ impl Warning {
             Self::WheelSlides { .. } => "wheel-slides",
             Self::SingularPosition { .. } => "singular-position",
             Self::ReactionsNotUnique { .. } => "reactions-not-unique",
+            Self::BeyondLinear { .. } => "beyond-linear",
             Self::AccumulationLost { .. } => "output-lost",
             Self::Model { .. } => "model",
         }

@@ -10,7 +10,7 @@ use super::model::LinearModel;
 use super::shapes::part_of;
 use crate::joints::Quantity;
 
-use crate::system::{Kinematics, LOCKED, NodeId, Owner};
+use crate::system::{Kinematics, LOCKED, Mass, NodeId, Owner};
 
 /// Largest displacement over the model's length, and rotation, at which energies are taken: errors are of its square.
 const SMALL: f64 = 1e-4;
@@ -69,6 +69,16 @@ impl LinearModel<'_> {
                 }
             }
         }
+        self.system.masses(&self.at, &mut |mass| {
+            for (k, sum) in participation.iter_mut().enumerate() {
+                let rigid = self.rigid_rates(mass, k, &centre);
+                mass.times(&rigid, |row, momentum| {
+                    if mass.rows[row] != LOCKED {
+                        *sum += mode.shape[mass.rows[row] as usize].conj() * momentum;
+                    }
+                });
+            }
+        });
         participation.map(|value| value.norm_sqr())
     }
 
@@ -80,8 +90,22 @@ impl LinearModel<'_> {
                 let twist = self.rigid_twist(inertia.node(), k, &centre);
                 twist.dot(&(inertia.mass() * twist))
             };
-            self.system.inertias().iter().map(of).sum()
+            let mut sum: f64 = self.system.inertias().iter().map(of).sum();
+            self.system.masses(&self.at, &mut |mass| {
+                let rigid = self.rigid_rates(mass, k, &centre);
+                mass.times(&rigid, |row, momentum| sum += rigid[row] * momentum);
+            });
+            sum
         })
+    }
+
+    /// Twists of an element's nodes in the rigid motion `k` of unit speed about `centre`; its coordinates are at rest.
+    fn rigid_rates(&self, mass: &Mass<'_>, k: usize, centre: &Vector3) -> Vec<f64> {
+        let twists = mass.nodes.iter().map(|&node| self.rigid_twist(node, k, centre));
+        let mut rates: Vec<f64> =
+            twists.flat_map(|twist| twist.iter().copied().collect::<Vec<_>>()).collect();
+        rates.resize(mass.rows.len(), 0.0);
+        rates
     }
 
     /// The state moved along a mode's shape, its real part, so far that the largest displacement over the model's length, or
@@ -115,6 +139,18 @@ impl LinearModel<'_> {
             mass += own;
             moment += own * self.at.nodes[inertia.node()].frame.transform_point(&offset);
         }
+        self.system.masses(&self.at, &mut |own| {
+            let origin = Vector3::zeros();
+            let product = |one: usize, other: usize| {
+                let (one, other) =
+                    (self.rigid_rates(own, one, &origin), self.rigid_rates(own, other, &origin));
+                let mut sum = 0.0;
+                own.times(&other, |row, momentum: f64| sum += one[row] * momentum);
+                sum
+            };
+            mass += product(0, 0);
+            moment += Vector3::new(product(1, 5), product(2, 3), product(0, 4));
+        });
         if mass > 0.0 { moment / mass } else { moment }
     }
 

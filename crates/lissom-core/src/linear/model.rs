@@ -91,7 +91,7 @@ pub struct LinearModel<'a> {
     pub(super) parts: Linearization,
     pub(super) representative: Representative,
     /// Whether there is no damping and no gyroscopic term, and the stiffness is symmetric.
-    is_conservative: bool,
+    pub(super) is_conservative: bool,
     is_at_rest: bool,
     imbalance: f64,
     unsteadiness: f64,
@@ -494,7 +494,7 @@ fn add_accelerated_mass(system: &System, at: &Kinematics, parts: &mut Linearizat
 }
 
 /// Whether stiffness and mass are symmetric but for round-off.
-fn is_symmetric(system: &System, representative: &Representative, parts: &Linearization) -> bool {
+pub(super) fn is_symmetric(system: &System, representative: &Representative, parts: &Linearization) -> bool {
     let pattern = system.pattern();
     let quantities = system.layout().quantities();
     let unit = |row: usize| match quantities[row] {

@@ -86,6 +86,15 @@ impl LinearModel<'_> {
                 .sum();
             *shares.entry(part_of(layout.node_name(inertia.node())).to_owned()).or_insert(0.0) += energy;
         }
+        self.system.masses(&self.at, &mut |mass| {
+            let value =
+                |&row: &u32| if row == LOCKED { Complex64::default() } else { mode.shape[row as usize] };
+            let local: Vec<Complex64> = mass.rows.iter().map(value).collect();
+            let mut energy = 0.0;
+            mass.times(&local, |row, momentum: Complex64| energy += (local[row].conj() * momentum).re);
+            let name = mass.nodes.first().map_or("", |&node| part_of(layout.node_name(node)));
+            *shares.entry(name.to_owned()).or_insert(0.0) += energy;
+        });
         let total: f64 = shares.values().sum();
         if total > 0.0 {
             for share in shares.values_mut() {

@@ -55,7 +55,7 @@ pub(crate) fn driven(system: &System, (from, to): (f64, f64), length: f64) -> f6
 }
 
 /// `out = M e` over the coordinate rows; zero where there is no mass.
-pub(crate) fn inertial_part(system: &System, error: &[f64], out: &mut [f64]) {
+pub(crate) fn inertial_part(system: &System, at: &Kinematics, error: &[f64], out: &mut [f64]) {
     out.fill(0.0);
     for inertia in system.inertias() {
         let rows = system.layout().rows_of_node(inertia.node());
@@ -67,4 +67,13 @@ pub(crate) fn inertial_part(system: &System, error: &[f64], out: &mut [f64]) {
             out[row as usize] += sum;
         }
     }
+    system.masses(at, &mut |mass| {
+        let value = |&row: &u32| if row == LOCKED { 0.0 } else { error[row as usize] };
+        let local: Vec<f64> = mass.rows.iter().map(value).collect();
+        mass.times(&local, |row, sum| {
+            if mass.rows[row] != LOCKED {
+                out[mass.rows[row] as usize] += sum;
+            }
+        });
+    });
 }

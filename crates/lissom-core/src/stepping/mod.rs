@@ -368,7 +368,7 @@ impl Simulation {
             motion.copy_from_slice(&work.error);
             self.system.layout().rate_rows().for_each(|row| motion[row] = 0.0);
         } else {
-            inertial_part(&self.system, &work.error, motion);
+            inertial_part(&self.system, &self.next.kinematics, &work.error, motion);
             constraints.fill(0.0);
             if let Some(equilibration) = &work.equilibration {
                 equilibration.scale(&mut work.filtered);

@@ -14,7 +14,7 @@ use super::receiver::{Place, Receiver};
 use super::state::{Kinematics, MotionChange};
 use super::threads::Threads;
 use super::{Drive, System};
-use crate::elements::{MOST_UNKNOWNS, Tangents};
+use crate::elements::{Tangents, USUAL_UNKNOWNS};
 use crate::joints::attached::Increments;
 use crate::joints::blocks::{Results, Wanted};
 use crate::joints::derivatives::{Derivatives, LOCAL, OWN, TIP};
@@ -89,7 +89,7 @@ pub struct Scratch {
 
 impl Default for Scratch {
     fn default() -> Self {
-        Self { local: Tangents::new(MOST_UNKNOWNS), joint: Derivatives::new() }
+        Self { local: Tangents::new(USUAL_UNKNOWNS), joint: Derivatives::new() }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Elements of one kind stored together: one virtual call per kind, a monomorphic loop inside.
 
 use std::any::Any;
+use std::cell::RefCell;
 use std::ops::Range;
 
 use lissom_motion::{Block, Matrix6, Vector3, WIDTH, lie_bracket_matrix};
@@ -15,7 +16,7 @@ use super::threads::Threads;
 use crate::elements::blocks::Blocks;
 use crate::elements::sides::Sides;
 use crate::elements::step_stages::{STAGES, StepStages};
-use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents, is_same};
+use crate::elements::{Element, Energy, Tangents, USUAL_UNKNOWNS, is_same};
 use crate::joints::derivatives::IncrementTangent;
 use crate::lanes::processor_for;
 
@@ -74,6 +75,10 @@ pub(crate) trait AnyBatch: Send + Sync {
     fn name_switches(&self, layout: &Layout, out: &mut Vec<String>);
     /// The largest rate at which an element deforms [1/s], with one of its nodes.
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)>;
+    /// The largest deformation of an element over that up to which its linear law is believed, with the node that has it.
+    fn linear_range(&self, at: &Kinematics) -> Option<(f64, NodeId)>;
+    /// Hands on the mass matrix of every item that has one, row after row: its nodes, its coordinates, its rows.
+    fn masses(&self, at: &Kinematics, each: &mut dyn FnMut(&Mass<'_>));
     /// The two nodes of an element that are turned most against each other, and the cosine of half that angle.
     fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])>;
     /// What of these elements differs from those of neighbouring models, which come with the weights of a difference; none
@@ -93,6 +98,28 @@ pub(crate) enum Changed {
     Derivative(Box<dyn AnyBatch>),
     /// These items, whose forces are to be compared.
     Items(Vec<usize>),
+}
+
+/// The mass matrix of an element with mass of its own.
+pub(crate) struct Mass<'a> {
+    pub(crate) nodes: &'a [NodeId],
+    /// Of each local unknown.
+    pub(crate) rows: &'a [u32],
+    /// Row after row.
+    pub(crate) matrix: &'a [f64],
+}
+
+impl Mass<'_> {
+    /// Each local unknown's part of M x, with its row.
+    pub(crate) fn times<T: Copy + std::iter::Sum<T> + std::ops::Mul<f64, Output = T>>(
+        &self,
+        local: &[T],
+        mut each: impl FnMut(usize, T),
+    ) {
+        for (i, row) in self.matrix.chunks_exact(self.rows.len()).enumerate() {
+            each(i, local.iter().zip(row).map(|(value, entry)| *value * *entry).sum());
+        }
+    }
 }
 
 /// Whom an element belongs to: its first node that is not the ground, or its first coordinate.
@@ -224,20 +251,24 @@ impl<E: Element> AnyBatch for Batch<E> {
         }
         for (index, item) in self.items.iter().enumerate() {
             let rows = self.item_rows(index);
-            let mut local = [0.0; MOST_UNKNOWNS];
-            item.forces(at, &mut local[..rows.len()]);
-            scatter(rows, &local, out);
+            with_room(rows.len(), |local| {
+                item.forces(at, local);
+                scatter(rows, local, out);
+            });
         }
     }
 
     fn stage_forces(&self, step: &StepStages<'_>, out: &mut [Vec<f64>]) {
         for (index, item) in self.items.iter().enumerate() {
             let rows = self.item_rows(index);
-            let mut local = [[0.0; MOST_UNKNOWNS]; STAGES];
-            item.stage_forces(step, &mut local);
-            for (local, out) in local.iter().zip(out.iter_mut()) {
-                scatter(rows, local, out);
-            }
+            with_room(STAGES * rows.len(), |locals| {
+                let (first, second) = locals.split_at_mut(rows.len());
+                let mut local = [first, second];
+                item.stage_forces(step, &mut local);
+                for (local, out) in local.iter().zip(out.iter_mut()) {
+                    scatter(rows, local, out);
+                }
+            });
         }
     }
 
@@ -340,6 +371,22 @@ impl<E: Element> AnyBatch for Batch<E> {
         rates.reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
     }
 
+    fn linear_range(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
+        let parts = self.items.iter().filter_map(|item| item.linear_range(at));
+        parts.reduce(|most, part| if part.0 > most.0 { part } else { most })
+    }
+
+    fn masses(&self, at: &Kinematics, each: &mut dyn FnMut(&Mass<'_>)) {
+        let mut matrix = Vec::new();
+        for (index, item) in self.items.iter().enumerate() {
+            item.mass(at, &mut matrix);
+            if !matrix.is_empty() {
+                each(&Mass { nodes: item.nodes(), rows: self.item_rows(index), matrix: &matrix });
+                matrix.clear();
+            }
+        }
+    }
+
     fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
         let pairs = self.items.iter().filter_map(|item| item.least_aligned(at));
         pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
@@ -378,9 +425,10 @@ impl<E: Element> AnyBatch for Batch<E> {
     fn forces_of(&self, items: &[usize], at: &Kinematics, out: &mut [f64]) {
         for &item in items {
             let rows = self.item_rows(item);
-            let mut local = [0.0; MOST_UNKNOWNS];
-            self.items[item].forces(at, &mut local[..rows.len()]);
-            scatter(rows, &local, out);
+            with_room(rows.len(), |local| {
+                self.items[item].forces(at, local);
+                scatter(rows, local, out);
+            });
         }
     }
 
@@ -423,13 +471,25 @@ pub(super) fn work<E: Element + ?Sized>(
     (from, to): (&Kinematics, &Kinematics),
     factors: [f64; 2],
 ) -> f64 {
-    let elapsed = to.time - from.time;
     let size = 6 * element.nodes().len() + element.coordinates().len();
-    let mut locals = [[0.0; MOST_UNKNOWNS]; 2];
-    for ((at, local), factor) in [from, to].into_iter().zip(&mut locals).zip(factors) {
-        element.forces(at, &mut local[..size]);
-        *local = local.map(|force| factor * force);
-    }
+    with_room(2 * size, |locals| {
+        let (first, second) = locals.split_at_mut(size);
+        let mut locals = [first, second];
+        for ((at, local), factor) in [from, to].into_iter().zip(&mut locals).zip(factors) {
+            element.forces(at, local);
+            local.iter_mut().for_each(|force| *force *= factor);
+        }
+        work_along(element, (from, to), &locals)
+    })
+}
+
+/// The work of these forces.
+fn work_along<E: Element + ?Sized>(
+    element: &E,
+    (from, to): (&Kinematics, &Kinematics),
+    locals: &[&mut [f64]; 2],
+) -> f64 {
+    let elapsed = to.time - from.time;
     let mut sum = 0.0;
     for (k, &node) in element.nodes().iter().enumerate() {
         let motions = [from, to].map(|at| &at.nodes[node]);
@@ -459,13 +519,32 @@ pub(super) fn work<E: Element + ?Sized>(
 
 /// Power of an element's forces on its nodes and coordinates [W].
 pub(super) fn power<E: Element + ?Sized>(element: &E, at: &Kinematics) -> f64 {
-    let mut forces = [0.0; MOST_UNKNOWNS];
     let size = 6 * element.nodes().len() + element.coordinates().len();
-    element.forces(at, &mut forces[..size]);
-    let twists = element.nodes().iter().flat_map(|&node| at.nodes[node].twist.iter().copied());
-    let rates = element.coordinates().iter().map(|&own| at.coordinates[own].rate);
-    // Forces stand on the left-hand side of the equations of motion.
-    -twists.chain(rates).zip(forces).map(|(rate, force)| rate * force).sum::<f64>()
+    with_room(size, |forces| {
+        element.forces(at, forces);
+        let twists = element.nodes().iter().flat_map(|&node| at.nodes[node].twist.iter().copied());
+        let rates = element.coordinates().iter().map(|&own| at.coordinates[own].rate);
+        // Forces stand on the left-hand side of the equations of motion.
+        -twists.chain(rates).zip(forces).map(|(rate, force)| rate * *force).sum::<f64>()
+    })
+}
+
+thread_local! {
+    /// Room for local forces that do not fit where those of most elements do.
+    static MORE_ROOM: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Calls `work` with so many zeros. Nothing is allocated but for the first large element of a thread.
+fn with_room<R>(size: usize, work: impl FnOnce(&mut [f64]) -> R) -> R {
+    if size <= STAGES * USUAL_UNKNOWNS {
+        return work(&mut [0.0; STAGES * USUAL_UNKNOWNS][..size]);
+    }
+    let mut room = MORE_ROOM.take();
+    room.clear();
+    room.resize(size, 0.0);
+    let result = work(&mut room);
+    MORE_ROOM.set(room);
+    result
 }
 
 /// ∫ f dx of a force that changes linearly in time along a cubic way of given ends and speeds at them:

@@ -163,6 +163,12 @@ impl Builder {
             Vector6::from_fn(|k, _| if freedoms.is_free(k) { twist[k] } else { 0.0 });
     }
 
+    /// Locks all freedoms of a node: it stays where it is.
+    pub fn lock(&mut self, node: NodeId) {
+        self.nodes[node].freedoms = Freedoms::Fixed;
+        self.nodes[node].motion.twist.fill(0.0);
+    }
+
     /// Place of a node at the start.
     pub fn initial_frame(&self, node: NodeId) -> Motion {
         self.nodes[node].motion.frame
@@ -171,6 +177,17 @@ impl Builder {
     /// Which freedoms of a node are free.
     pub fn freedoms(&self, node: NodeId) -> Freedoms {
         self.nodes[node].freedoms
+    }
+
+    /// Adds an algebraic coordinate that no joint has, at zero at the start.
+    pub(crate) fn add_coordinate(&mut self, name: &str, quantity: Quantity) -> CoordinateId {
+        self.coordinates.push(Coordinate { name: name.to_owned(), value: 0.0, quantity });
+        self.coordinates.len() - 1
+    }
+
+    /// Gravity and the part of it that acts.
+    pub(crate) fn gravity(&self) -> &Gravity {
+        &self.gravity
     }
 
     /// Adds to a node's mass matrix: 6x6, in the node's frame, about the node.

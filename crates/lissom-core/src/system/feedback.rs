@@ -14,14 +14,14 @@ use std::sync::Arc;
 use lissom_solver::Pattern;
 
 use super::System;
-use super::batch::{AnyBatch, Changed, Chart, Owner, power, scatter, through, work};
+use super::batch::{AnyBatch, Changed, Chart, Mass, Owner, power, scatter, through, work};
 use super::layout::Layout;
 use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
 use super::state::{CoordinateId, Kinematics, NodeId};
 use super::threads::Threads;
 use crate::elements::step_stages::StepStages;
-use crate::elements::{Element, Energy, MOST_UNKNOWNS, Tangents};
+use crate::elements::{Element, Energy, Tangents, USUAL_UNKNOWNS};
 use crate::signals::measurement::Measurement;
 use crate::signals::{Argument, Graph, HeldId, SignalId};
 
@@ -129,7 +129,7 @@ impl Driven {
 
     /// Adds its derivatives; `values` are those of all signals.
     fn linearize(&self, graph: &Graph, at: &Kinematics, values: &[f64], out: &mut Tangents) {
-        let mut factors = [0.0; MOST_UNKNOWNS];
+        let mut factors = [0.0; USUAL_UNKNOWNS];
         match &self.target {
             Target::Load(element) => {
                 out.clear(self.own);
@@ -218,7 +218,7 @@ impl Feedback {
     fn add_forces(&self, at: &Kinematics, out: &mut [f64]) {
         self.graph.evaluate(at, |values| {
             for driven in &self.driven {
-                let mut local = [0.0; MOST_UNKNOWNS];
+                let mut local = [0.0; USUAL_UNKNOWNS];
                 match &driven.target {
                     Target::Load(element) => {
                         element.forces(at, &mut local[..driven.own]);
@@ -246,7 +246,7 @@ impl Feedback {
                 if factor == 0.0 {
                     continue;
                 }
-                let mut local = [0.0; MOST_UNKNOWNS];
+                let mut local = [0.0; USUAL_UNKNOWNS];
                 match &driven.target {
                     Target::Load(element) => {
                         element.forces(at, &mut local[..driven.own]);
@@ -379,6 +379,12 @@ impl AnyBatch for Arc<Feedback> {
     fn deformation_rate(&self, _: &Kinematics) -> Option<(f64, NodeId)> {
         None
     }
+
+    fn linear_range(&self, _: &Kinematics) -> Option<(f64, NodeId)> {
+        None
+    }
+
+    fn masses(&self, _: &Kinematics, _: &mut dyn FnMut(&Mass<'_>)) {}
 
     fn least_aligned(&self, _: &Kinematics) -> Option<(f64, [NodeId; 2])> {
         None

@@ -39,6 +39,7 @@ use crate::joints::prescribed::Prescribed;
 use crate::registry::Function;
 use crate::signals::{Graph, HeldId};
 use batch::AnyBatch;
+pub(crate) use batch::Mass;
 pub(crate) use feedback::Feedback;
 use places::Places;
 
@@ -229,6 +230,18 @@ impl System {
         rates.reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
     }
 
+    /// The largest deformation of an element over that up to which its linear law is believed, with the node that has it; none
+    /// where no element is linear in a frame of its own.
+    pub(crate) fn linear_range(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
+        let parts = self.batches.iter().filter_map(|batch| batch.linear_range(at));
+        parts.reduce(|most, part| if part.0 > most.0 { part } else { most })
+    }
+
+    /// Hands on the mass matrix of every element that has one, besides [`inertias`](Self::inertias).
+    pub(crate) fn masses(&self, at: &Kinematics, each: &mut dyn FnMut(&Mass<'_>)) {
+        self.batches.iter().for_each(|batch| batch.masses(at, each));
+    }
+
     /// The two nodes of an element that are turned most against each other, and the cosine of half the angle between
     /// them; none where no element turns with two nodes.
     pub(crate) fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
@@ -247,7 +260,30 @@ impl System {
             linear += p;
             angular += node.frame.rotation.apply(&l) + node.frame.position.cross(&p);
         }
+        self.masses(at, &mut |mass| {
+            let rates = self.local_rates(mass, at);
+            let mut momenta = vec![0.0; rates.len()];
+            mass.times(&rates, |row, value| momenta[row] = value);
+            for (&node, momentum) in mass.nodes.iter().zip(momenta.chunks_exact(6)) {
+                let frame = &at.nodes[node].frame;
+                let p = frame.rotation.apply(&Vector3::from_column_slice(&momentum[..3]));
+                let l = frame.rotation.apply(&Vector3::from_column_slice(&momentum[3..]));
+                linear += p;
+                angular += l + frame.position.cross(&p);
+            }
+        });
         (linear, angular)
+    }
+
+    /// Twists of an element's nodes and rates of its coordinates.
+    fn local_rates(&self, mass: &Mass<'_>, at: &Kinematics) -> Vec<f64> {
+        let twists = mass.nodes.iter().flat_map(|&node| at.nodes[node].twist.iter().copied());
+        let coordinates = mass.rows[6 * mass.nodes.len()..].iter();
+        let rates = coordinates.map(|&row| {
+            let found = self.layout.coordinate_rows.iter().position(|own| *own == row);
+            found.map_or(0.0, |coordinate| at.coordinates[coordinate].rate)
+        });
+        twists.chain(rates).collect()
     }
 
     /// Violations of all constraints, evaluated outright from absolute places: by multiplier.

@@ -6,6 +6,7 @@ mod feedback;
 mod joint_lanes;
 mod locks;
 mod rolling;
+mod superelement;
 
 use configuration::{Configuration, Random, difference, sample_parameters};
 use lissom_core::elements::beam::{Beam, SectionLaw};

@@ -41,7 +41,7 @@ pub(super) fn keys() -> Vec<Key> {
             "fixed",
             Shape::Names,
             "",
-            "bodies, point masses, beams and entries of [parts] that do not move",
+            "bodies, point masses, beams, superelements and entries of [parts] that do not move",
         ),
         optional(
             "tolerance",

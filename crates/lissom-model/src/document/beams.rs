@@ -6,7 +6,7 @@ use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::decode::each;
 use super::places::PlaceOrNode;
-use super::{Beam, Body, DistributedForce, NodeReference, PointMass, Station};
+use super::{Beam, Body, DistributedForce, NodeReference, PointMass, Station, Superelement, interface_name};
 use crate::context::Context;
 use crate::expression::Expression;
 use crate::keys::Shape;
@@ -35,7 +35,12 @@ enum Form {
     Curve(Box<[Expression; 3]>),
 }
 
-pub(super) fn beams(context: &Context<'_>, bodies: &[Body], point_masses: &[PointMass]) -> Vec<Beam> {
+pub(super) fn beams(
+    context: &Context<'_>,
+    bodies: &[Body],
+    point_masses: &[PointMass],
+    superelements: &[Superelement],
+) -> Vec<Beam> {
     let drafts: Vec<Draft> = each(context, "beams", |reader, name| {
         let form = form(reader, name);
         let stations = stations(reader);
@@ -65,6 +70,12 @@ pub(super) fn beams(context: &Context<'_>, bodies: &[Body], point_masses: &[Poin
     }
     for mass in point_masses {
         fixed.insert(mass.name.value.clone(), mass.position);
+    }
+    for element in superelements {
+        let name = &element.name.value;
+        for own in &element.interfaces {
+            fixed.extend(element.place_of(&own.name).map(|place| (interface_name(name, &own.name), place)));
+        }
     }
     place(context, drafts, &fixed)
 }
@@ -234,6 +245,9 @@ fn line(
         PlaceOrNode::Node(node) => match &node.value {
             NodeReference::Ground => None,
             NodeReference::Body(name) | NodeReference::PointMass(name) => fixed.get(name).copied(),
+            NodeReference::Interface { superelement, interface } => {
+                fixed.get(&interface_name(superelement, interface)).copied()
+            }
             NodeReference::Beam { beam, fraction } => {
                 lines.get(beam)?.as_ref().map(|line| line.position(*fraction))
             }

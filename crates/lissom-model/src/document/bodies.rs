@@ -136,7 +136,7 @@ fn solid(reader: &Reader<'_, '_>, node: &Node, key: &str) -> Option<Solid> {
 }
 
 /// The place `position`, the origin of the axes around it where it is not given.
-fn position(reader: &Reader<'_, '_>) -> Option<Vector3> {
+pub(super) fn position(reader: &Reader<'_, '_>) -> Option<Vector3> {
     match reader.node("position") {
         None => reader.context.to_global(reader.scope, &Vector3::zeros()),
         Some(node) => reader.context.place(node, &reader.words("position")).map(|place| place.value),
@@ -144,7 +144,7 @@ fn position(reader: &Reader<'_, '_>) -> Option<Vector3> {
 }
 
 /// Body axes as columns in global axes.
-fn axes(reader: &Reader<'_, '_>) -> Option<Matrix3> {
+pub(super) fn axes(reader: &Reader<'_, '_>) -> Option<Matrix3> {
     let own = body_axes(reader.context, (reader.node("rotation"), reader.node("axes")), &reader.what)?;
     let around = reader.context.frame(reader.scope)?.rotation;
     Some(if around == Rotation::IDENTITY { own } else { around.matrix() * own })

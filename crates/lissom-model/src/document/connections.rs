@@ -4,7 +4,11 @@ use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 use lissom_motion::Vector3;
 
-use super::{AnalysisKind, Attachment, Beam, Body, Component, Document, NodeReference, PointMass};
+use super::decode::PARTS;
+use super::{
+    AnalysisKind, Attachment, Beam, Body, Component, Document, NodeReference, PointMass, Superelement,
+    interface_name,
+};
 use crate::context::Context;
 use crate::line::Line;
 use crate::report::{Located, Problem};
@@ -15,11 +19,19 @@ pub(super) struct Places {
     lines: BTreeMap<String, Line>,
 }
 
-pub(super) fn places(beams: &[Beam], bodies: &[Body], point_masses: &[PointMass]) -> Places {
+pub(super) fn places(
+    (beams, superelements): (&[Beam], &[Superelement]),
+    bodies: &[Body],
+    point_masses: &[PointMass],
+) -> Places {
     let lines = beams.iter().map(|beam| (beam.name.value.clone(), beam.line.clone())).collect();
     let bodies = bodies.iter().map(|body| (body.name.value.clone(), body.position));
     let masses = point_masses.iter().map(|mass| (mass.name.value.clone(), mass.position));
-    Places { points: bodies.chain(masses).collect(), lines }
+    let interfaces = superelements.iter().flat_map(|element| {
+        let place = |name: &str| Some((interface_name(&element.name.value, name), element.place_of(name)?));
+        element.interfaces.iter().filter_map(move |interface| place(&interface.name))
+    });
+    Places { points: bodies.chain(masses).chain(interfaces).collect(), lines }
 }
 
 impl Places {
@@ -30,6 +42,9 @@ impl Places {
             NodeReference::Body(name) | NodeReference::PointMass(name) => self.points.get(name).copied(),
             NodeReference::Beam { beam, fraction } => {
                 self.lines.get(beam).map(|line| line.position(*fraction))
+            }
+            NodeReference::Interface { superelement, interface } => {
+                self.points.get(&interface_name(superelement, interface)).copied()
             }
         }
     }
@@ -74,6 +89,7 @@ fn complete(context: &Context<'_>, document: &Document) {
         ("beams", document.beams.len()),
         ("bodies", document.bodies.len()),
         ("point_masses", document.point_masses.len()),
+        ("superelements", document.superelements.len()),
         ("joints", document.joints.len()),
         ("springs", document.springs.len()),
         ("loads", document.loads.len()),
@@ -132,6 +148,7 @@ fn part_of(node: &NodeReference) -> &str {
         NodeReference::Ground => GROUND,
         NodeReference::Body(name) | NodeReference::PointMass(name) => name,
         NodeReference::Beam { beam, .. } => beam,
+        NodeReference::Interface { superelement, .. } => superelement,
     }
 }
 
@@ -158,13 +175,13 @@ fn free_parts(context: &Context<'_>, document: &Document) {
     let parts: Vec<&Located<String>> = (document.beams.iter().map(|beam| &beam.name))
         .chain(document.bodies.iter().map(|body| &body.name))
         .chain(document.point_masses.iter().map(|mass| &mass.name))
+        .chain(document.superelements.iter().map(|element| &element.name))
         .collect();
     let statics = matches!(
         document.analysis.kind,
         AnalysisKind::Statics { .. } | AnalysisKind::Path { .. } | AnalysisKind::Buckling { .. }
     ) || document.starts_in_equilibrium();
-    let named: usize =
-        ["beams", "bodies", "point_masses"].iter().map(|table| context.names(table).len()).sum();
+    let named: usize = PARTS.iter().map(|table| context.names(table).len()).sum();
     let read = |table, read: &[Component]| context.names(table).len() == read.len();
     // With a part or joint that could not be read, connections are missing that were meant.
     if parts.len() != named || !read("joints", &document.joints) || !read("springs", &document.springs) {

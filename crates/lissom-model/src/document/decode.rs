@@ -9,7 +9,7 @@ use lissom_motion::Vector3;
 use super::tables::{self, Holds, Variants, variants};
 use super::{
     Document, analysis, assembly, beams, bodies, components, connections, events, initial, materials,
-    outputs, signals,
+    outputs, signals, superelements,
 };
 use crate::context::{Context, singular};
 use crate::expression;
@@ -81,8 +81,9 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
     let sections = materials::sections(context, registry, &materials);
     let bodies = bodies::bodies(context);
     let point_masses = bodies::point_masses(context);
-    let beams = beams::beams(context, &bodies, &point_masses);
-    let places = connections::places(&beams, &bodies, &point_masses);
+    let superelements = superelements::superelements(context);
+    let beams = beams::beams(context, &bodies, &point_masses, &superelements);
+    let places = connections::places((&beams, &superelements), &bodies, &point_masses);
     let joints = components::read(context, "joints", registry, &places);
     let springs = components::read(context, "springs", registry, &places);
     let loads = components::read(context, "loads", registry, &places);
@@ -105,6 +106,7 @@ fn decode(context: &Context<'_>, registry: &Registry) -> Option<Document> {
         beams,
         bodies,
         point_masses,
+        superelements,
         joints,
         springs,
         loads,
@@ -167,13 +169,18 @@ fn check_words(context: &Context<'_>) {
         let problem = Problem::error(Span::default(), message).help(format!("add it: {}", top.summary));
         context.tell(problem);
     }
-    let parts = ["beams", "bodies", "point_masses"];
+    let parts = PARTS;
     if parts.iter().all(|table| context.entries(table).is_empty()) {
-        let problem =
-            Problem::error(Span::default(), "the model is empty: it has no beam, body or point mass");
+        let problem = Problem::error(
+            Span::default(),
+            "the model is empty: it has no beam, body, point mass or superelement",
+        );
         context.tell(problem.help("add for example a table [bodies.top] with mass and inertia"));
     }
 }
+
+/// Tables of parts.
+pub(super) const PARTS: [&str; 4] = ["beams", "bodies", "point_masses", "superelements"];
 
 /// Names must be usable in references such as `beam.end`, and parts must differ from each other.
 fn check_names(context: &Context<'_>) {
@@ -190,7 +197,7 @@ fn check_names(context: &Context<'_>) {
         }
     }
     let mut parts: BTreeMap<&str, (Span, &str)> = BTreeMap::new();
-    for table in ["beams", "bodies", "point_masses"] {
+    for table in PARTS {
         for (name, span) in context.names(table) {
             if name == "ground" || name.ends_with(".ground") {
                 let message = format!("a {} cannot be called `ground`", singular(table));
@@ -199,7 +206,8 @@ fn check_names(context: &Context<'_>) {
             if let Some((first, other)) = parts.insert(name, (span, singular(table))) {
                 let message = format!("the {} `{name}` has the name of a {other}", singular(table));
                 let problem = Problem::error(span, message).label("again").also(first, "first here");
-                context.tell(problem.help("beams, bodies and point masses need different names"));
+                context
+                    .tell(problem.help("beams, bodies, point masses and superelements need different names"));
             }
             if context.instances.contains_key(name) {
                 let message = format!("the {} `{name}` has the name of a part", singular(table));

@@ -18,11 +18,13 @@ mod outputs;
 pub(crate) mod part_tables;
 mod places;
 mod signals;
+mod superelements;
 pub(crate) mod tables;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use lissom_core::elements::superelement::ReducedMatrices;
 use lissom_core::registry::Parameters;
 use lissom_motion::{Matrix3, Vector3};
 
@@ -84,6 +86,8 @@ pub struct Document {
     pub bodies: Vec<Body>,
     /// Point masses.
     pub point_masses: Vec<PointMass>,
+    /// Superelements.
+    pub superelements: Vec<Superelement>,
     /// Joints.
     pub joints: Vec<Component>,
     /// Springs.
@@ -161,6 +165,10 @@ impl Document {
             }
             NodeReference::Beam { beam, fraction } => {
                 self.beam(beam).map(|beam| beam.line.position(*fraction))
+            }
+            NodeReference::Interface { superelement, interface } => {
+                let found = self.superelements.iter().find(|own| own.name.value == *superelement)?;
+                found.place_of(interface)
             }
         }
     }
@@ -291,6 +299,45 @@ pub struct PointMass {
     pub velocity: Option<Located<Vector3>>,
 }
 
+/// A linear elastic part that is given by reduced matrices.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Superelement {
+    /// Name.
+    pub name: Located<String>,
+    /// Place of the origin of its axes [m].
+    pub position: Vector3,
+    /// Its axes as columns in global axes.
+    pub axes: Matrix3,
+    /// Its interfaces, in the order of the matrices.
+    pub interfaces: Vec<Interface>,
+    /// Index of the interface that carries the floating frame.
+    pub floating: usize,
+    /// Its matrices, checked.
+    pub matrices: ReducedMatrices,
+}
+
+impl Superelement {
+    /// Place of an interface at the start, in global axes [m].
+    pub fn place_of(&self, interface: &str) -> Option<Vector3> {
+        let found = self.interfaces.iter().find(|own| own.name == interface)?;
+        Some(self.position + self.axes * found.place)
+    }
+}
+
+/// An interface of a superelement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Interface {
+    /// Name within the superelement.
+    pub name: String,
+    /// Place in the axes of the part [m].
+    pub place: Vector3,
+}
+
+/// Name of an interface's node in the whole model.
+pub fn interface_name(superelement: &str, interface: &str) -> String {
+    format!("{superelement}.{interface}")
+}
+
 /// A node of the model, by name.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NodeReference {
@@ -306,6 +353,13 @@ pub enum NodeReference {
         beam: String,
         /// Fraction: 0 for its start, 1 for its end.
         fraction: f64,
+    },
+    /// An interface of a superelement.
+    Interface {
+        /// Name of the superelement.
+        superelement: String,
+        /// Name of the interface within it.
+        interface: String,
     },
 }
 

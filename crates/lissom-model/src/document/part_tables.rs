@@ -40,13 +40,62 @@ pub(crate) fn part() -> Vec<Key> {
     keys
 }
 
+/// Keys of a superelement.
+pub(super) fn superelement() -> Vec<Key> {
+    vec![
+        placed_in(),
+        required(
+            "interfaces",
+            Shape::Interfaces,
+            "",
+            "[{ name = \"root\" }, { name = \"tip\", at = [1, 0, 0] }]: what joints hold it by, in the order of the matrices",
+        ),
+        optional(
+            "matrices",
+            Shape::Text,
+            "",
+            "NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`) and `preload`, where these are not given",
+        ),
+        optional(
+            "mass",
+            Shape::Text,
+            "",
+            "Matrix Market file: six rows per interface, displacement and rotation in the axes of the part, then one per mode",
+        ),
+        optional("stiffness", Shape::Text, "", "Matrix Market file over the same rows"),
+        optional("damping", Shape::Text, "", "Matrix Market file over the same rows"),
+        optional(
+            "modal_damping",
+            Shape::NotNegative,
+            "",
+            "instead: ratio to critical damping of every mode of the free part",
+        ),
+        optional("stiffness_damping", Shape::NotNegative, "s", "instead: times the stiffness"),
+        optional(
+            "preload",
+            Shape::Text,
+            "",
+            "Matrix Market file of one column: forces of the undeformed part, which turn with it",
+        ),
+        optional(
+            "floating",
+            Shape::Text,
+            "",
+            "the interface that carries the floating frame, default the first",
+        ),
+        optional("position", Shape::Place, "m", "place of the origin of the part"),
+        optional("rotation", Shape::Vector, "rad", "rotation vector of its axes"),
+        optional("axes", Shape::Axes, "", "instead of rotation: first and second axis"),
+    ]
+}
+
 /// Keys of an entry of `[initial]`.
 pub(crate) fn part_motion() -> Vec<Key> {
     let mut keys = vec![required(
         "parts",
         Shape::Names,
         "",
-        "bodies, point masses, beams and entries of [parts] that move in this way",
+        "bodies, point masses, beams, superelements and entries of [parts] that move in this way",
     )];
     keys.extend(initial().into_iter().filter(|key| !matches!(key.name, "equilibrium" | "steady_rotation")));
     keys

@@ -3,6 +3,7 @@
 use lissom_motion::Vector3;
 
 use super::NodeReference;
+use super::decode::PARTS;
 use crate::context::Context;
 use crate::parts::ScopeId;
 use crate::report::{Located, Problem, Span};
@@ -58,8 +59,7 @@ impl Context<'_> {
 
     fn looks_like_node(&self, name: &str) -> bool {
         let part = name.split(['.', '@']).next().unwrap_or(name);
-        let parts = ["beams", "bodies", "point_masses"];
-        name == "ground" || name.contains(['.', '@']) || parts.iter().any(|table| self.has(table, part))
+        name == "ground" || name.contains(['.', '@']) || PARTS.iter().any(|table| self.has(table, part))
     }
 
     /// A node named in a text.
@@ -80,13 +80,16 @@ impl Context<'_> {
     /// The name in the whole model of a node, or of a part without a node of its own.
     fn node_resolved(&self, text: &str, scope: ScopeId) -> Option<String> {
         self.resolve(text, scope, &|full| {
-            let is_there =
-                |name: &str| ["beams", "bodies", "point_masses"].iter().any(|table| self.has(table, name));
+            let is_there = |name: &str| PARTS.iter().any(|table| self.has(table, name));
             let beam = full
                 .strip_suffix(".start")
                 .or(full.strip_suffix(".end"))
                 .or(full.split_once('@').map(|(beam, _)| beam));
-            full == "ground" || is_there(full) || beam.is_some_and(|beam| self.has("beams", beam))
+            let element = full.rsplit_once('.').map(|(element, _)| element);
+            full == "ground"
+                || is_there(full)
+                || beam.is_some_and(|beam| self.has("beams", beam))
+                || element.is_some_and(|element| self.has("superelements", element))
         })
     }
 
@@ -104,6 +107,9 @@ impl Context<'_> {
             let message = format!("{what} names the beam `{text}`, which is a line, not a node");
             let help = format!("say which node: \"{text}.start\", \"{text}.end\" or \"{text}@0.5\"");
             return self.fail(span, message, help);
+        }
+        if let Some((superelement, interface)) = self.interface_in(text) {
+            return self.interface((superelement, interface), span, what);
         }
         let (beam, fraction) =
             match (text.strip_suffix(".start"), text.strip_suffix(".end"), text.split_once('@')) {
@@ -127,7 +133,7 @@ impl Context<'_> {
                 let problem =
                     Problem::error(span, format!("{what} names the node `{text}`, which does not exist"));
                 let other = "nodes are \"ground\", the names of bodies and point masses, and \"beam.start\", \
-                             \"beam.end\", \"beam@0.5\"";
+                             \"beam.end\", \"beam@0.5\", \"superelement.interface\"";
                 self.tell(problem.label("no such node").help(other).maybe_help(help));
                 None
             }
@@ -142,6 +148,47 @@ impl Context<'_> {
         for (beam, _) in self.names("beams") {
             names.extend([format!("{beam}.start"), format!("{beam}.end")]);
         }
+        for (element, _) in self.names("superelements") {
+            names.extend(self.interface_names(element).map(|interface| format!("{element}.{interface}")));
+        }
         names
+    }
+
+    /// The superelement and the interface of a name that is like one.
+    fn interface_in<'t>(&self, text: &'t str) -> Option<(&'t str, &'t str)> {
+        if self.has("superelements", text) {
+            return Some((text, ""));
+        }
+        text.rsplit_once('.').filter(|(element, _)| self.has("superelements", element))
+    }
+
+    /// Names of the interfaces of a superelement, as far as they can be read.
+    fn interface_names(&self, element: &str) -> impl Iterator<Item = &str> {
+        let table = self.entry("superelements", element).and_then(Node::table);
+        let list = table.and_then(|table| match &table.get("interfaces")?.node.value {
+            Value::List(list) => Some(list.as_slice()),
+            _ => None,
+        });
+        list.unwrap_or_default().iter().filter_map(|entry| match &entry.table()?.get("name")?.node.value {
+            Value::Text(name) => Some(name.as_str()),
+            _ => None,
+        })
+    }
+
+    fn interface(&self, (element, interface): (&str, &str), span: Span, what: &str) -> Option<NodeReference> {
+        if self.interface_names(element).any(|known| known == interface) {
+            return Some(NodeReference::Interface {
+                superelement: element.to_owned(),
+                interface: interface.to_owned(),
+            });
+        }
+        let message = if interface.is_empty() {
+            format!("{what} names the superelement `{element}`, not one of its interfaces")
+        } else {
+            format!("{what} names `{interface}`, which is no interface of the superelement `{element}`")
+        };
+        let known: Vec<String> =
+            self.interface_names(element).map(|known| format!("\"{element}.{known}\"")).collect();
+        self.fail(span, message, format!("its interfaces are {}", known.join(", ")))
     }
 }

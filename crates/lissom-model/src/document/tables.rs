@@ -5,7 +5,7 @@ use std::borrow::Cow;
 use lissom_core::joints::Quantity;
 
 use super::analysis_tables::analyses;
-use super::part_tables::{initial, part, placed_in};
+use super::part_tables::{initial, part, placed_in, superelement};
 use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
 use crate::registry::{ActsOn, FrameRule, KindEntry, Registry};
 
@@ -38,7 +38,7 @@ const fn top(name: &'static str, holds: Holds, required: bool, summary: &'static
 pub const VERSION: usize = 1;
 
 /// All the words at the top.
-pub(crate) static TOP: [Top; 21] = [
+pub(crate) static TOP: [Top; 22] = [
     top("lissom", Holds::Value(Shape::Version), true, "Version of the file format."),
     top("title", Holds::Value(Shape::Text), false, "One line about the model."),
     top("gravity", Holds::Value(Shape::Vector), false, "Acceleration of gravity [m/s²]; none when left out."),
@@ -55,6 +55,7 @@ pub(crate) static TOP: [Top; 21] = [
     top("beams", Holds::Entries, false, "Flexible beams."),
     top("bodies", Holds::Entries, false, "Rigid bodies."),
     top("point_masses", Holds::Entries, false, "Masses without extension."),
+    top("superelements", Holds::Entries, false, "Linear elastic parts that are given by reduced matrices."),
     top("joints", Holds::Entries, false, "What holds nodes together."),
     top("springs", Holds::Entries, false, "What pulls nodes or joints back."),
     top("loads", Holds::Entries, false, "Forces and moments from outside, and of actuators."),
@@ -135,6 +136,7 @@ pub(crate) fn variants(name: &str, registry: &Registry) -> Variants {
         "bodies" => (None, vec![single(body())]),
         "parts" => (None, vec![single(part())]),
         "point_masses" => (None, vec![single(point_mass())]),
+        "superelements" => (None, vec![single(superelement())]),
         "joints" => (Some("kind"), joints(&registry.joints)),
         "springs" => (Some("kind"), kinds(&registry.springs)),
         "loads" => (Some("kind"), kinds(&registry.loads)),

@@ -97,10 +97,13 @@ pub(super) fn assembled(
 ) -> Result<Assembly, Problem> {
     let nodes_of = |part: &str| -> Vec<NodeId> {
         let node = names.nodes.get(part).map(std::slice::from_ref);
-        node.or(names.lines.get(part).map(|line| line.nodes.as_slice())).unwrap_or_default().to_vec()
+        let nodes = node.or(names.lines.get(part).map(|line| line.nodes.as_slice()));
+        nodes.or(names.superelements.get(part).map(Vec::as_slice)).unwrap_or_default().to_vec()
     };
     let request = Request {
-        rigid: names.lines.values().map(|line| line.nodes.as_slice()).collect(),
+        rigid: (names.lines.values().map(|line| line.nodes.as_slice()))
+            .chain(names.superelements.values().map(Vec::as_slice))
+            .collect(),
         fixed: asked.fixed.iter().flat_map(|(part, _)| nodes_of(part)).collect(),
         values: values.to_vec(),
         tolerance: asked.tolerance,
@@ -109,7 +112,8 @@ pub(super) fn assembled(
     let found = assemble(system, at, &request).map_err(|error| problem(document, asked, &error))?;
     let parts = (document.bodies.iter().map(|body| &body.name.value))
         .chain(document.point_masses.iter().map(|mass| &mass.name.value))
-        .chain(document.beams.iter().map(|beam| &beam.name.value));
+        .chain(document.beams.iter().map(|beam| &beam.name.value))
+        .chain(document.superelements.iter().map(|element| &element.name.value));
     let size = before.nodes.iter().map(|node| node.frame.position.norm()).fold(0.0, f64::max);
     let moved = parts.filter_map(|part| {
         let of_nodes = nodes_of(part).into_iter().map(|node| found.moved[node]);

@@ -7,7 +7,7 @@ use lissom_motion::Vector3;
 
 use super::Names;
 use super::signals::relative_components;
-use crate::document::{Document, NodeReference, Output, OutputKind, OutputSource};
+use crate::document::{Document, NodeReference, Output, OutputKind, OutputSource, interface_name};
 use crate::suggest;
 
 /// Why a name cannot be measured.
@@ -171,6 +171,10 @@ fn carried(
         NodeReference::Ground => Ok((GROUND, at(GROUND))),
         NodeReference::Body(name) | NodeReference::PointMass(name) => {
             names.nodes.get(name).map(|&node| (node, at(node))).ok_or_else(|| unknown(name))
+        }
+        NodeReference::Interface { superelement, interface } => {
+            let name = interface_name(superelement, interface);
+            names.nodes.get(&name).map(|&node| (node, at(node))).ok_or_else(|| unknown(&name))
         }
         NodeReference::Beam { beam, fraction } => {
             let line = names.lines.get(beam).ok_or_else(|| unknown(beam))?;

@@ -14,6 +14,7 @@ mod redundancy;
 pub mod registry;
 mod signals;
 mod size;
+mod superelements;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -29,7 +30,7 @@ use lissom_core::system::{Builder, CoordinateId, ElementId, NodeId, State, Syste
 use lissom_motion::Motion;
 
 use crate::channels::{self, Channel};
-use crate::document::{Component, Document, NodeReference};
+use crate::document::{Component, Document, NodeReference, interface_name};
 use crate::functions::Ramp;
 use crate::output_channels;
 use crate::report::{Located, Problem, Report};
@@ -76,6 +77,8 @@ impl Lowered {
 pub struct Names {
     /// Node of each body and point mass.
     pub nodes: BTreeMap<String, NodeId>,
+    /// Nodes of each superelement, in the order of its interfaces; they are also among `nodes`, as `superelement.interface`.
+    pub superelements: BTreeMap<String, Vec<NodeId>>,
     /// Nodes and elements of each beam.
     pub lines: BTreeMap<String, BeamLine>,
     /// Coordinates of each joint; a drive has those of the joint it drives.
@@ -101,6 +104,10 @@ impl Names {
             NodeReference::Ground => Ok(lissom_core::system::GROUND),
             NodeReference::Body(name) | NodeReference::PointMass(name) => {
                 self.nodes.get(name).copied().ok_or_else(|| unknown(name))
+            }
+            NodeReference::Interface { superelement, interface } => {
+                let name = interface_name(superelement, interface);
+                self.nodes.get(&name).copied().ok_or_else(|| unknown(&name))
             }
             NodeReference::Beam { beam, fraction } => {
                 let line = self.lines.get(beam).ok_or_else(|| unknown(beam))?;
@@ -133,6 +140,14 @@ fn parameter_problem(component: &Component, error: &ParameterError) -> Problem {
 /// # Errors
 /// All problems found, underlined in the model's text.
 pub fn lower(document: &Document) -> Result<Lowered, Report> {
+    lower_locked(document, &[])
+}
+
+/// The same with all freedoms of some nodes locked.
+///
+/// # Errors
+/// As [`lower`].
+pub fn lower_locked(document: &Document, locked: &[NodeId]) -> Result<Lowered, Report> {
     let mut problems = Vec::new();
     size::check(document, &mut problems);
     stop_at(document, &mut problems)?;
@@ -147,6 +162,9 @@ pub fn lower(document: &Document) -> Result<Lowered, Report> {
         builder.assemble_later();
     }
     parts::add(document, &mut builder, &mut names, &mut problems);
+    for &node in locked {
+        builder.lock(node);
+    }
     stop_at(document, &mut problems)?;
     connections::add(document, &mut builder, &mut names, &mut problems);
     stop_at(document, &mut problems)?;

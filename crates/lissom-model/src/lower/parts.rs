@@ -20,6 +20,7 @@ pub(super) fn add(
 ) {
     bodies(document, builder, names);
     point_masses(document, builder, names);
+    super::superelements::add(document, builder, names, problems);
     beams(document, builder, names, problems);
 }
 
@@ -69,6 +70,12 @@ pub(super) fn velocities(document: &Document, names: &Names, system: &System, at
             let (velocity, angular) = initial_motion(document.initial_motion(&mass.name.value), frame);
             (mass.velocity.as_ref().map_or(velocity, |given| given.value), angular)
         });
+    }
+    for element in &document.superelements {
+        let name = &element.name.value;
+        for &node in names.superelements.get(name).into_iter().flatten() {
+            set(node, &|frame| initial_motion(document.initial_motion(name), frame));
+        }
     }
     for beam in &document.beams {
         let Some(line) = names.lines.get(&beam.name.value) else { continue };

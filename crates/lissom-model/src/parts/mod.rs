@@ -26,7 +26,8 @@ pub(crate) const ROOT: ScopeId = 0;
 const MOST_PARTS: usize = 20_000;
 
 /// Tables whose entries may be placed relative to another part by `in`.
-const PLACED_TABLES: [&str; 7] = ["points", "bodies", "point_masses", "beams", "joints", "springs", "loads"];
+const PLACED_TABLES: [&str; 8] =
+    ["points", "bodies", "point_masses", "beams", "superelements", "joints", "springs", "loads"];
 
 /// Where a text was written: what its names, parameters and places mean.
 #[derive(Clone, Debug)]

@@ -10,13 +10,14 @@ mod parts;
 mod path_values;
 mod shapes;
 mod solids;
+mod superelements;
 mod symbols;
 
 use lissom_core::system::NodeId;
 use lissom_motion::{Motion, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::document::{Document, NodeReference, OutputSource};
+use crate::document::{Document, NodeReference, OutputSource, interface_name};
 use crate::lower::Lowered;
 use crate::report::Located;
 
@@ -110,7 +111,10 @@ impl Scene {
     /// How `document`, lowered to `lowered`, looks.
     pub fn of(document: &Document, lowered: &Lowered) -> Self {
         let places = Places { lowered };
-        let (symbols, rods) = symbols::symbols(document, &places);
+        let (mut symbols, mut rods) = symbols::symbols(document, &places);
+        let (interfaces, lines) = superelements::superelements(document, &places);
+        symbols.extend(interfaces);
+        rods.extend(lines);
         Self {
             lissom_scene: VERSION,
             title: document.title.clone(),
@@ -189,6 +193,9 @@ impl Places<'_> {
         match reference {
             NodeReference::Ground => Some(lissom_core::system::GROUND),
             NodeReference::Body(name) | NodeReference::PointMass(name) => names.nodes.get(name).copied(),
+            NodeReference::Interface { superelement, interface } => {
+                names.nodes.get(&interface_name(superelement, interface)).copied()
+            }
             NodeReference::Beam { beam, fraction } => names.lines.get(beam)?.node_at(*fraction),
         }
     }
@@ -246,5 +253,6 @@ fn part_of(reference: &NodeReference) -> &str {
         NodeReference::Ground => "ground",
         NodeReference::Body(name) | NodeReference::PointMass(name) => name,
         NodeReference::Beam { beam, .. } => beam,
+        NodeReference::Interface { superelement, .. } => superelement,
     }
 }

@@ -96,6 +96,8 @@ tables! {
     BodyId: Bodies = "bodies", "body";
     /// A point mass.
     PointMassId: PointMasses = "point_masses", "point mass";
+    /// A superelement.
+    SuperelementId: Superelements = "superelements", "superelement";
     /// A joint.
     JointId: Joints = "joints", "joint";
     /// A spring.

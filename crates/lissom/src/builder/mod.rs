@@ -60,7 +60,7 @@ pub use feedback::{Input, Signal};
 pub(crate) use ids::IdNames;
 pub use ids::{
     AnalysisId, BeamId, BodyId, EventId, ForeignId, InitialId, InputId, JointId, LoadId, MaterialId,
-    MotionId, OutputId, PointMassId, SectionId, SignalId, SpringId, StateId,
+    MotionId, OutputId, PointMassId, SectionId, SignalId, SpringId, StateId, SuperelementId,
 };
 pub use values::{GROUND, Inertia, Mass, Matrix, Node, Part, Place, Quantity, SectionMass, Shear, Solid};
 

@@ -3,6 +3,7 @@
 use super::entries::sections::SliceMass;
 use super::ids::{
     AnyId, BeamId, BodyId, InputId, JointId, MaterialId, PointMassId, SectionId, SignalId, SpringId, StateId,
+    SuperelementId,
 };
 use super::written::{Fields, NameOf, Written};
 
@@ -17,6 +18,7 @@ pub(crate) enum At {
     Start,
     End,
     Fraction(f64),
+    Interface(&'static str),
 }
 
 /// The fixed frame.
@@ -36,6 +38,13 @@ impl BeamId {
     /// The node at a fraction of the beam, from 0 to 1.
     pub fn at(self, fraction: f64) -> Node {
         Node(Some((self.0, At::Fraction(fraction))))
+    }
+}
+
+impl SuperelementId {
+    /// The node of the interface of this name.
+    pub fn interface(self, name: &'static str) -> Node {
+        Node(Some((self.0, At::Interface(name))))
     }
 }
 
@@ -103,6 +112,16 @@ impl From<(Node, Place)> for Written {
     }
 }
 
+/// An interface of a superelement: its name and its place in the axes of the part [m].
+impl From<(String, [f64; 3])> for Written {
+    fn from((name, at): (String, [f64; 3])) -> Self {
+        let mut fields = Fields::default();
+        fields.set("name", name);
+        fields.set("at", at);
+        Self::Fields(fields)
+    }
+}
+
 /// Declares types that hold the name of one of several tables.
 macro_rules! names {
     ($($(#[$doc:meta])* $name:ident of $($id:ident)*;)*) => {
@@ -134,8 +153,8 @@ macro_rules! names {
 }
 
 names! {
-    /// A body, a point mass or a beam.
-    Part of BodyId PointMassId BeamId;
+    /// A body, a point mass, a beam or a superelement.
+    Part of BodyId PointMassId BeamId SuperelementId;
     /// A number that a simulation knows by name: a signal, an input or a state.
     Quantity of SignalId InputId StateId;
 }

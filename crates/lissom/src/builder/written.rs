@@ -109,6 +109,7 @@ fn node_text(node: Node, names: &IdNames) -> Result<String, ForeignId> {
                 At::Itself => name.to_owned(),
                 At::Start => format!("{name}.start"),
                 At::End => format!("{name}.end"),
+                At::Interface(interface) => format!("{name}.{interface}"),
                 At::Fraction(fraction) => format!("{name}@{}", number_text(fraction)),
             }
         }

@@ -89,6 +89,7 @@ impl Check {
             "bodies": document.bodies.len(),
             "point_masses": document.point_masses.len(),
             "beams": document.beams.len(),
+            "superelements": document.superelements.len(),
             "elements": document.beams.iter().map(|beam| beam.elements.value).sum::<usize>(),
             "nodes": layout.node_count() - 1,
             "joints": document.joints.len(),
@@ -156,8 +157,12 @@ fn told(name: &str, document: &Document, lowered: &Lowered, freedom: &Mobility) 
 
 fn parts(document: &Document, lowered: &Lowered) -> String {
     let elements: usize = document.beams.iter().map(|beam| beam.elements.value).sum();
+    let superelements = match document.superelements.len() {
+        0 => String::new(),
+        number => format!("{}, ", count(number, "superelement", "superelements")),
+    };
     format!(
-        "{}, {}, {} of {}, {}",
+        "{}, {}, {} of {}, {superelements}{}",
         count(document.bodies.len(), "body", "bodies"),
         count(document.point_masses.len(), "point mass", "point masses"),
         count(document.beams.len(), "beam", "beams"),

@@ -19,6 +19,7 @@ mod modes;
 mod new;
 mod path;
 mod plot;
+mod reduce;
 mod response;
 mod results;
 mod run;
@@ -128,6 +129,7 @@ enum Command {
     Campbell(campbell::Campbell),
     Response(response::Response),
     Linearize(linearize::Linearize),
+    Reduce(reduce::Reduce),
     Fmu(fmu::Fmu),
     Kinds(kinds::Kinds),
     Schema(schema::Schema),
@@ -157,6 +159,7 @@ impl Line {
             Command::Campbell(command) => command.run(),
             Command::Response(command) => command.run(),
             Command::Linearize(command) => command.run(),
+            Command::Reduce(command) => command.run(),
             Command::Fmu(command) => command.run(),
             Command::Kinds(command) => command.run(),
             Command::Schema(command) => command.run(),

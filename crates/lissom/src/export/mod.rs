@@ -2,7 +2,7 @@
 
 mod buffer;
 mod gltf;
-mod npy;
+pub(crate) mod npy;
 mod npz;
 mod parquet;
 mod vtk;

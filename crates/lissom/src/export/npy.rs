@@ -1,17 +1,17 @@
 //! Arrays as NumPy stores them: version 1.0 of the format `.npy`, little-endian, by rows.
 
 /// An array of numbers.
-pub(super) fn numbers(shape: &[usize], values: &[f64]) -> Vec<u8> {
+pub(crate) fn numbers(shape: &[usize], values: &[f64]) -> Vec<u8> {
     with_header("<f8", shape, values.iter().flat_map(|value| value.to_le_bytes()))
 }
 
 /// An array of numbers in half the bytes.
-pub(super) fn short_numbers(shape: &[usize], values: &[f32]) -> Vec<u8> {
+pub(crate) fn short_numbers(shape: &[usize], values: &[f32]) -> Vec<u8> {
     with_header("<f4", shape, values.iter().flat_map(|value| value.to_le_bytes()))
 }
 
 /// A list of texts.
-pub(super) fn texts(values: &[String]) -> Vec<u8> {
+pub(crate) fn texts(values: &[String]) -> Vec<u8> {
     let longest = values.iter().map(|text| text.chars().count()).max().unwrap_or(0).max(1);
     let padded = |text: &String| -> Vec<u8> {
         let letters = text.chars().map(u32::from).chain(std::iter::repeat(0)).take(longest);

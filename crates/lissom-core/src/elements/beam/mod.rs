@@ -39,7 +39,7 @@ use super::blocks::Blocks;
 use super::quadrature::gauss_legendre;
 use super::shape::lagrange;
 use super::step_stages::{STAGES, StepStages};
-use super::{Element, Energy, MOST_UNKNOWNS, Tangents, add_block};
+use super::{Element, Energy, Tangents, add_block};
 use crate::system::state::split;
 use crate::system::{Kinematics, NodeId};
 
@@ -347,7 +347,7 @@ impl<const N: usize> Element for Beam<N> {
         })
     }
 
-    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
         self.add_stage_forces(step, out);
     }
 

@@ -7,7 +7,6 @@ use lissom_motion::{
 };
 
 use super::{Beam, Relative, Station, combine};
-use crate::elements::MOST_UNKNOWNS;
 use crate::elements::step_stages::{STAGES, StepStages, above_round_off, weigh};
 use crate::system::Kinematics;
 
@@ -46,7 +45,7 @@ pub(super) struct Strains {
 
 impl<const N: usize> Beam<N> {
     /// Adds the forces at the stages of `step`.
-    pub(super) fn add_stage_forces(&self, step: &StepStages<'_>, out: &mut [[f64; MOST_UNKNOWNS]; STAGES]) {
+    pub(super) fn add_stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
         let mut visits = step.stages.map(|at| self.visit(at));
         let inverse = self.integrate(step, &mut visits, |visits, station, strains| {
             for (visit, strain) in visits.iter_mut().zip(&strains.stressing) {

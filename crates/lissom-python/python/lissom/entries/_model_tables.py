@@ -8,7 +8,7 @@ from typing import Any
 from . import sections, parts, joints, springs, loads, feedback, motions, outputs, analyses
 from ._entry import Entry, ModelTree
 from .sections import Material, Section
-from .parts import Beam, Body, PointMass, Part
+from .parts import Beam, Body, PointMass, Superelement, Part
 from .joints import Joint
 from .springs import Spring
 from .loads import Load
@@ -30,6 +30,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
     "beams": parts.Beam,
     "bodies": parts.Body,
     "point_masses": parts.PointMass,
+    "superelements": parts.Superelement,
     "joints": {
         "cam": joints.Cam,
         "clamp": joints.Clamp,
@@ -127,6 +128,7 @@ ORDER = (
     "beams",
     "bodies",
     "point_masses",
+    "superelements",
     "joints",
     "springs",
     "loads",
@@ -245,6 +247,16 @@ class ModelTables(ModelTree):
     @point_masses.setter
     def point_masses(self, of: dict[str, PointMass]) -> None:
         self._set("point_masses", of)
+
+    @property
+    def superelements(self) -> dict[str, Superelement]:
+        """Linear elastic parts that are given by reduced matrices."""
+        of: dict[str, Superelement] = self._table("superelements")
+        return of
+
+    @superelements.setter
+    def superelements(self, of: dict[str, Superelement]) -> None:
+        self._set("superelements", of)
 
     @property
     def joints(self) -> dict[str, Joint]:

@@ -37,7 +37,7 @@ class PartMotion(Entry):
     """A rigid motion of some parts at the start.
 
     Args:
-        parts: bodies, point masses, beams and entries of [parts] that move in this way; a list of names of parts.
+        parts: bodies, point masses, beams, superelements and entries of [parts] that move in this way; a list of names of parts.
         velocity: velocity of the point `about` [m/s]; three numbers, or nothing.
         angular_velocity: global axes [rad/s]; three numbers, or nothing.
         about: a point of the rigid motion; default the origin [m]; a place, or nothing.

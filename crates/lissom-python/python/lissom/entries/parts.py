@@ -1,5 +1,5 @@
 # Made by `cargo xtask reference` of the program's own tables: do not edit.
-"""Beams, rigid bodies, point masses and sub-assemblies."""
+"""Beams, rigid bodies, point masses, superelements and sub-assemblies."""
 
 from __future__ import annotations
 
@@ -101,6 +101,43 @@ class PointMass(Entry):
 
 
 @dataclass(kw_only=True, slots=True)
+class Superelement(Entry):
+    """Linear elastic parts that are given by reduced matrices.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        interfaces: [{ name = "root" }, { name = "tip", at = [1, 0, 0] }]: what joints hold it by, in the order of the matrices; a list of `{ name, at }`.
+        matrices: NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`) and `preload`, where these are not given; a text, or nothing.
+        mass: Matrix Market file: six rows per interface, displacement and rotation in the axes of the part, then one per mode; a text, or nothing.
+        stiffness: Matrix Market file over the same rows; a text, or nothing.
+        damping: Matrix Market file over the same rows; a text, or nothing.
+        modal_damping: instead: ratio to critical damping of every mode of the free part; a number ≥ 0, or nothing.
+        stiffness_damping: instead: times the stiffness [s]; a number ≥ 0, or nothing.
+        preload: Matrix Market file of one column: forces of the undeformed part, which turn with it; a text, or nothing.
+        floating: the interface that carries the floating frame, default the first; a text, or nothing.
+        position: place of the origin of the part [m]; a place, or nothing.
+        rotation: rotation vector of its axes [rad]; three numbers, or nothing.
+        axes: instead of rotation: first and second axis; two vectors, or nothing.
+    """
+
+    _table: ClassVar[str] = "superelements"
+
+    in_: str | None = None
+    interfaces: list[Table]
+    matrices: str | None = None
+    mass: str | None = None
+    stiffness: str | None = None
+    damping: str | None = None
+    modal_damping: Number | None = None
+    stiffness_damping: Number | None = None
+    preload: str | None = None
+    floating: str | None = None
+    position: Place | None = None
+    rotation: Vector | None = None
+    axes: list[Vector] | None = None
+
+
+@dataclass(kw_only=True, slots=True)
 class Part(Entry):
     """Sub-assemblies that are named, placed and repeated; names inside are `part.name`.
 
@@ -120,6 +157,7 @@ class Part(Entry):
         beams: Flexible beams; entries as in `[beams]`, or nothing.
         bodies: Rigid bodies; entries as in `[bodies]`, or nothing.
         point_masses: Masses without extension; entries as in `[point_masses]`, or nothing.
+        superelements: Linear elastic parts that are given by reduced matrices; entries as in `[superelements]`, or nothing.
         joints: What holds nodes together; entries as in `[joints]`, or nothing.
         springs: What pulls nodes or joints back; entries as in `[springs]`, or nothing.
         loads: Forces and moments from outside, and of actuators; entries as in `[loads]`, or nothing.
@@ -147,6 +185,7 @@ class Part(Entry):
     beams: Tables | None = None
     bodies: Tables | None = None
     point_masses: Tables | None = None
+    superelements: Tables | None = None
     joints: Tables | None = None
     springs: Tables | None = None
     loads: Tables | None = None

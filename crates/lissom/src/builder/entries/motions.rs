@@ -22,7 +22,7 @@ entry! {
     []
     /// With what must be given.
     ///
-    /// - `parts`: bodies, point masses, beams and entries of \[parts\] that move in this way
+    /// - `parts`: bodies, point masses, beams, superelements and entries of \[parts\] that move in this way
     new(parts: Vec<Part> = "parts")
 }
 

@@ -1,5 +1,5 @@
 // Made by `cargo xtask reference` of the program's own tables: do not edit.
-//! Beams, rigid bodies and point masses.
+//! Beams, rigid bodies, point masses and superelements.
 
 use super::words;
 use crate::builder::entry::entry;
@@ -80,4 +80,36 @@ entry! {
     plane: words::Plane = "plane";
     /// At the start, global axes \[m/s\].
     velocity: [f64; 3] = "velocity";
+}
+
+entry! {
+    /// A linear elastic part that is given by reduced matrices.
+    Superelement => SuperelementId, "superelement";
+    []
+    /// With what must be given.
+    ///
+    /// - `interfaces`: \[{ name = "root" }, { name = "tip", at = \[1, 0, 0\] }\]: what joints hold it by, in the order of the matrices
+    new(interfaces: Vec<(String, [f64; 3])> = "interfaces")
+    /// NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`) and `preload`, where these are not given.
+    matrices: String = "matrices";
+    /// Matrix Market file: six rows per interface, displacement and rotation in the axes of the part, then one per mode.
+    mass: String = "mass";
+    /// Matrix Market file over the same rows.
+    stiffness: String = "stiffness";
+    /// Matrix Market file over the same rows.
+    damping: String = "damping";
+    /// Instead: ratio to critical damping of every mode of the free part.
+    modal_damping: f64 = "modal_damping";
+    /// Instead: times the stiffness \[s\].
+    stiffness_damping: f64 = "stiffness_damping";
+    /// Matrix Market file of one column: forces of the undeformed part, which turn with it.
+    preload: String = "preload";
+    /// The interface that carries the floating frame, default the first.
+    floating: String = "floating";
+    /// Place of the origin of the part \[m\].
+    position: [f64; 3] = "position";
+    /// Rotation vector of its axes \[rad\].
+    rotation: [f64; 3] = "rotation";
+    /// Instead of rotation: first and second axis.
+    axes: [[f64; 3]; 2] = "axes";
 }

@@ -1,0 +1,86 @@
+//! Adds superelements to a system.
+
+use lissom_motion::{Motion, Vector3};
+use nalgebra::DMatrix;
+
+use super::matrices::{Damping, rigid_motion};
+use super::{ReducedMatrices, Superelement};
+use crate::joints::Quantity;
+use crate::registry::ParameterError;
+use crate::system::{Builder, CoordinateId, Freedoms, NodeId};
+
+/// Most unknowns of a superelement.
+const MOST: usize = 255;
+
+/// An interface of a superelement.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InterfacePlace {
+    /// Name of its node in the model.
+    pub name: String,
+    /// Place in the axes of the part [m].
+    pub place: Vector3,
+}
+
+/// What a superelement is made from.
+#[derive(Clone, Debug)]
+pub struct SuperelementDescription<'a> {
+    /// Name in the model.
+    pub name: &'a str,
+    /// Place of the part at the start.
+    pub frame: Motion,
+    /// Its interfaces, in the order of the matrices.
+    pub interfaces: &'a [InterfacePlace],
+    /// Index of the interface that carries the floating frame.
+    pub floating: usize,
+    /// The matrices, as [`ReducedMatrices::check`] has left them.
+    pub matrices: ReducedMatrices,
+}
+
+/// Adds a superelement; gives its nodes and modal coordinates. Modal coordinates are measured so that each has the mass of
+/// the part: then they are of the size of displacements.
+///
+/// # Errors
+/// If it has too many unknowns.
+pub fn add_superelement(
+    builder: &mut Builder,
+    description: &SuperelementDescription<'_>,
+) -> Result<(Vec<NodeId>, Vec<CoordinateId>), ParameterError> {
+    let SuperelementDescription { name, frame, interfaces, floating, matrices } = description;
+    let (size, first) = (matrices.mass.nrows(), 6 * interfaces.len());
+    if size > MOST {
+        let words =
+            format!("has {size} rows: a superelement has at most {MOST}; leave out interfaces or modes");
+        return Err(ParameterError::new("mass", words));
+    }
+    let nodes: Vec<NodeId> = interfaces
+        .iter()
+        .map(|interface| {
+            let place = Motion::new(frame.rotation, frame.transform_point(&interface.place));
+            builder.add_node(&interface.name, place, Freedoms::Full)
+        })
+        .collect();
+    let coordinates: Vec<CoordinateId> = (1..=size - first)
+        .map(|k| builder.add_coordinate(&format!("{name}.mode{k}"), Quantity::Length))
+        .collect();
+    let places: Vec<Vector3> = interfaces.iter().map(|interface| interface.place).collect();
+    let total = rigid_motion(&matrices.mass, &places).total;
+    let factor = |k: usize| if k < first { 1.0 } else { (total / matrices.mass[(k, k)]).sqrt() };
+    let scaled =
+        |matrix: &DMatrix<f64>| DMatrix::from_fn(size, size, |i, j| factor(i) * factor(j) * matrix[(i, j)]);
+    let damping = match &matrices.damping {
+        Damping::Matrix(matrix) => Damping::Matrix(scaled(matrix)),
+        other => other.clone(),
+    };
+    let preload = matrices.preload.iter().enumerate().map(|(k, value)| factor(k) * value).collect();
+    let scaled = ReducedMatrices {
+        mass: scaled(&matrices.mass),
+        stiffness: scaled(&matrices.stiffness),
+        damping,
+        preload,
+    };
+    let gravity = builder.gravity().clone();
+    let element =
+        Superelement::new((nodes.clone(), coordinates.clone()), (*floating, &places), scaled, gravity);
+    builder.add_element(element);
+    Ok((nodes, coordinates))
+}

@@ -1,0 +1,304 @@
+//! Superelement: a linear elastic part that is reduced to a few interfaces and modal coordinates, on a floating frame
+//! [Géradin and Cardona 2001, ch. 9].
+//!
+//! Legend: interface i has the place x_i and the rotation R_i, and X_i in the undeformed part, whose interfaces have parallel
+//! axes; f is the interface that carries the floating frame, q are the modal coordinates, E_i = R_fᵀ R_i.
+//!
+//! ```text
+//! u = (r_i - X_i + X_f,  log E_i,  q),        r_i = R_fᵀ (x_i - x_f)                elastic energy  f₀·u + ½ u·K u
+//! η = (E_i v_i,  E_i ω_i,  q̇),                v_i, ω_i twist in the node's axes     kinetic energy  ½ η·M η
+//! weight: -g·(m x_f + R_f (m c + G u)),       G = Tᵀ M, T translations
+//! ```
+//!
+//! Interfaces are nodes and modal coordinates are coordinates: there is no further constraint. With matrices that know the
+//! rigid motions the inertia of a rigid motion is exact. K acts on the relative motion alone, so that nothing changes when
+//! the element moves rigidly. What turns with the frame of the kinetic energy are the interfaces' velocities; displacements
+//! of the modal coordinates have no lever of their own.
+//!
+//! With p = M η, the equations of motion of the kinetic energy in body axes (Poincaré's) are
+//!
+//! ```text
+//! force on i   E_iᵀ (ṗ_i + ω_f × p_i),     moment on i   E_iᵀ (ṗ_i + (ω_f - E_i ω_i) × p_i),     on q   ṗ_q
+//! moment on f, besides:   Σ (E_i v_i) × p_i + (E_i ω_i) × p_i    with p_i of force, and of moment
+//! ```
+
+mod build;
+mod linearize;
+mod matrices;
+mod room;
+mod step_stages;
+
+use std::cell::RefCell;
+
+use lissom_motion::Vector3;
+use nalgebra::{DMatrix, DVector, Matrix3xX};
+
+pub use self::build::{InterfacePlace, SuperelementDescription, add_superelement};
+use self::linearize::Maps;
+pub use self::matrices::{Damping, ReducedMatrices};
+use self::matrices::{RigidMotion, rigid_motion};
+use self::room::{Room, product};
+use super::inertia::Gravity;
+use super::step_stages::{STAGES, StepStages};
+use super::{Element, Energy, Tangents};
+use crate::system::{CoordinateId, Kinematics, NodeId};
+
+/// Elastic rotation of an interface against the floating frame from which on linear matrices are in doubt [rad].
+pub const LARGEST_ROTATION: f64 = 0.3;
+/// Elastic displacement of an interface from which on they are, as part of its distance from the floating frame.
+pub const LARGEST_DISPLACEMENT: f64 = 0.3;
+
+/// A reduced part.
+#[derive(Clone, Debug)]
+pub struct Superelement {
+    nodes: Vec<NodeId>,
+    coordinates: Vec<CoordinateId>,
+    /// The interface that carries the floating frame.
+    frame: usize,
+    /// X_i - X_f [m].
+    places: Vec<Vector3>,
+    mass: DMatrix<f64>,
+    stiffness: DMatrix<f64>,
+    damping: Option<DMatrix<f64>>,
+    /// f₀.
+    preload: DVector<f64>,
+    /// m, and m c from the interface f.
+    total: f64,
+    moment: Vector3,
+    /// G.
+    carried: Matrix3xX<f64>,
+    gravity: Gravity,
+}
+
+/// Room of this thread, so that nothing is allocated once it is large enough.
+#[derive(Default)]
+struct Rooms {
+    own: Room,
+    stages: [Room; STAGES],
+    maps: Maps,
+}
+
+thread_local! {
+    static ROOMS: RefCell<Rooms> = RefCell::default();
+}
+
+impl Superelement {
+    /// The element between `nodes`, whose places in the undeformed part are `places` [m], with the modal `coordinates`;
+    /// interface `frame` carries the floating frame. The matrices are taken as they are: see [`ReducedMatrices::check`].
+    pub fn new(
+        (nodes, coordinates): (Vec<NodeId>, Vec<CoordinateId>),
+        (frame, places): (usize, &[Vector3]),
+        matrices: ReducedMatrices,
+        gravity: Gravity,
+    ) -> Self {
+        let places: Vec<Vector3> = places.iter().map(|place| place - places[frame]).collect();
+        let RigidMotion { total, moment, carried, .. } = rigid_motion(&matrices.mass, &places);
+        let ReducedMatrices { mass, stiffness, damping, preload } = matrices;
+        let damping = match damping {
+            Damping::None => None,
+            Damping::Matrix(matrix) => Some(matrix),
+            Damping::OfStiffness(time) => Some(&stiffness * time),
+        };
+        let size = mass.nrows();
+        let preload = if preload.is_empty() { DVector::zeros(size) } else { DVector::from_vec(preload) };
+        Self {
+            nodes,
+            coordinates,
+            frame,
+            places,
+            mass,
+            stiffness,
+            damping,
+            preload,
+            total,
+            moment,
+            carried,
+            gravity,
+        }
+    }
+
+    fn size(&self) -> usize {
+        6 * self.nodes.len() + self.coordinates.len()
+    }
+
+    /// K u + D u̇ + f₀ - Gᵀ R_fᵀ g.
+    fn stress(&self, room: &mut Room) {
+        room.stress.copy_from_slice(self.preload.as_slice());
+        product(&self.stiffness, &room.displacement, &mut room.stress);
+        if let Some(damping) = &self.damping {
+            product(damping, &room.rate, &mut room.stress);
+        }
+        for (stress, column) in room.stress.iter_mut().zip(self.carried.column_iter()) {
+            *stress -= column.dot(&room.gravity);
+        }
+    }
+
+    /// m c + G u [kg m].
+    fn carried_moment(&self, displacement: &[f64]) -> Vector3 {
+        let columns = self.carried.column_iter().zip(displacement);
+        columns.fold(self.moment, |sum, (column, value)| sum + column * *value)
+    }
+
+    /// Adds forces that are conjugate to u: by the transposed gradient of u.
+    fn add_conjugate(&self, room: &Room, stress: &[f64], out: &mut [f64]) {
+        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
+        for i in (0..self.nodes.len()).filter(|&i| i != self.frame) {
+            let (f, m) = (three(stress, 6 * i), three(stress, 6 * i + 3));
+            let own = room.inverse_tangents[i].tr_mul(&m);
+            add(out, 6 * i, &room.turns[i].tr_mul(&f));
+            add(out, 6 * i + 3, &own);
+            force -= f;
+            moment -= room.arms[i].cross(&f) + room.turns[i] * own;
+        }
+        add(out, 6 * self.frame, &force);
+        add(out, 6 * self.frame + 3, &moment);
+        for k in 6 * self.nodes.len()..self.size() {
+            out[k] += stress[k];
+        }
+    }
+
+    /// Adds what inertia and weight need besides the forces conjugate to u.
+    fn add_inertia(&self, room: &Room, out: &mut [f64]) {
+        let mut on_frame = -self.carried_moment(&room.displacement).cross(&room.gravity);
+        for i in 0..self.nodes.len() {
+            let (p, l) = (three(&room.momentum, 6 * i), three(&room.momentum, 6 * i + 3));
+            let (v, w) = (three(&room.velocity, 6 * i), three(&room.velocity, 6 * i + 3));
+            let [force, moment] = room.inertial(i);
+            add(out, 6 * i, &room.turns[i].tr_mul(&force));
+            add(out, 6 * i + 3, &room.turns[i].tr_mul(&moment));
+            on_frame += v.cross(&p) + w.cross(&l);
+        }
+        add(out, 6 * self.frame, &(-self.total * room.gravity));
+        add(out, 6 * self.frame + 3, &on_frame);
+        for k in 6 * self.nodes.len()..self.size() {
+            out[k] += room.inertia[k];
+        }
+    }
+
+    /// Momentum, and the inertial forces before they are turned.
+    fn momenta(&self, room: &mut Room) {
+        room.momentum.fill(0.0);
+        room.inertia.fill(0.0);
+        product(&self.mass, &room.velocity, &mut room.momentum);
+        product(&self.mass, &room.acceleration, &mut room.inertia);
+    }
+
+    /// The largest distance of an interface from the floating frame [m].
+    fn reach(&self) -> f64 {
+        self.places.iter().map(Vector3::norm).fold(0.0, f64::max)
+    }
+}
+
+/// Three numbers of a vector.
+fn three(values: &[f64], first: usize) -> Vector3 {
+    Vector3::new(values[first], values[first + 1], values[first + 2])
+}
+
+/// Adds to three numbers of a vector.
+fn add(values: &mut [f64], first: usize, vector: &Vector3) {
+    for k in 0..3 {
+        values[first + k] += vector[k];
+    }
+}
+
+impl Element for Superelement {
+    fn nodes(&self) -> &[NodeId] {
+        &self.nodes
+    }
+
+    fn coordinates(&self) -> &[CoordinateId] {
+        &self.coordinates
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        ROOMS.with_borrow_mut(|Rooms { own: room, .. }| {
+            room.enter(self, at);
+            self.stress(room);
+            self.momenta(room);
+            self.add_conjugate(room, &room.stress, out);
+            self.add_inertia(room, out);
+        });
+    }
+
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
+        ROOMS.with_borrow_mut(|Rooms { own, stages, .. }| self.add_stage_forces(step, own, stages, out));
+    }
+
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        self.linearize_stressed(at, at, out);
+    }
+
+    fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
+        ROOMS.with_borrow_mut(|Rooms { own, stages: [other, _], maps }| {
+            other.enter(self, stressed);
+            self.stress(other);
+            own.enter(self, at);
+            own.stress.copy_from_slice(&other.stress);
+            self.momenta(own);
+            maps.add_tangents(self, own, out);
+        });
+    }
+
+    fn mass(&self, at: &Kinematics, out: &mut Vec<f64>) {
+        ROOMS.with_borrow_mut(|Rooms { own, maps, .. }| {
+            own.enter(self, at);
+            maps.mass(self, own, out);
+        });
+    }
+
+    fn energy(&self, at: &Kinematics) -> Energy {
+        ROOMS.with_borrow_mut(|Rooms { own: room, .. }| {
+            room.enter(self, at);
+            self.momenta(room);
+            let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+            let kinetic = 0.5 * dot(&room.velocity, &room.momentum);
+            room.stress.fill(0.0);
+            product(&self.stiffness, &room.displacement, &mut room.stress);
+            let strain = 0.5 * dot(&room.stress, &room.displacement)
+                + dot(self.preload.as_slice(), &room.displacement);
+            let node = &at.nodes[self.nodes[self.frame]].frame;
+            let moment = node.rotation.apply(&self.carried_moment(&room.displacement));
+            let potential = -self.gravity.acceleration.dot(&(self.total * node.position + moment));
+            Energy { kinetic, strain, potential }
+        })
+    }
+
+    fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
+        let reach = self.reach();
+        ROOMS.with_borrow_mut(|Rooms { own: room, .. }| {
+            room.enter(self, at);
+            let rate = |i: usize| {
+                let (linear, angular) = (three(&room.rate, 6 * i), three(&room.rate, 6 * i + 3));
+                let linear = if reach > 0.0 { linear.norm() / reach } else { 0.0 };
+                (linear + angular.norm(), self.nodes[i])
+            };
+            (0..self.nodes.len()).map(rate).reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
+        })
+    }
+
+    fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+        let quaternion = |node: NodeId| at.nodes[node].frame.rotation.quaternion();
+        let frame = self.nodes[self.frame];
+        let base = quaternion(frame);
+        let others = self.nodes.iter().filter(|&&node| node != frame);
+        let pairs = others.map(|&node| {
+            let cosine: f64 = quaternion(node).iter().zip(base).map(|(a, b)| a * b).sum();
+            (cosine, [frame, node])
+        });
+        pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
+    }
+
+    fn linear_range(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
+        let reach = self.reach();
+        ROOMS.with_borrow_mut(|Rooms { own: room, .. }| {
+            room.enter(self, at);
+            let part = |i: usize| {
+                let (linear, angular) =
+                    (three(&room.displacement, 6 * i).norm(), three(&room.displacement, 6 * i + 3).norm());
+                let by_length = if reach > 0.0 { linear / (LARGEST_DISPLACEMENT * reach) } else { 0.0 };
+                (by_length.max(angular / LARGEST_ROTATION), self.nodes[i])
+            };
+            (0..self.nodes.len()).map(part).reduce(|most, part| if part.0 > most.0 { part } else { most })
+        })
+    }
+}

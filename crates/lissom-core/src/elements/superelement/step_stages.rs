@@ -1,0 +1,122 @@
+//! A superelement's forces at the stages of a step, with u integrated from its rates: see `elements::step_stages` for the
+//! formulas. With σ_j = u̇_j the remainder r acts by s_j + W σ_j (r·s_j) / Q instead of the stress s_j. Inertia and weight are
+//! those of the stages.
+
+use lissom_motion::{Vector3, rotation_inverse_tangent, rotation_part};
+
+use super::room::{Room, product};
+use super::{Superelement, three};
+use crate::elements::step_stages::{STAGES, StepStages, above_round_off};
+
+/// What rates miss of u is noise below this part of the way that the element comes.
+const ROUND_OFF: f64 = 4096.0 * f64::EPSILON;
+/// Turns below this lose digits in a difference of two logarithms [rad].
+const SMALL: f64 = 1e-3;
+
+impl Superelement {
+    /// Adds the forces at the stages of `step`.
+    pub(super) fn add_stage_forces(
+        &self,
+        step: &StepStages<'_>,
+        start: &mut Room,
+        stages: &mut [Room; STAGES],
+        out: &mut [&mut [f64]; STAGES],
+    ) {
+        for (room, at) in stages.iter_mut().zip(step.stages) {
+            room.enter(self, at);
+            self.momenta(room);
+        }
+        start.enter(self, step.start);
+        self.missed(step, start, stages);
+        let squares =
+            [0, 1].map(|j| self.weighted(&stages[j].rate).zip(&stages[j].rate).map(|(w, v)| w * v).sum());
+        let (inverse, shares) = step.shares(squares);
+        let noise = ROUND_OFF * self.way(step, stages);
+        // The remainder lies in the stress of the start, which nothing else needs.
+        let size = self.weighted(&start.stress).zip(&start.stress).map(|(w, r)| w * r).sum::<f64>().sqrt();
+        let weight = above_round_off(size, noise);
+        start.stress.iter_mut().for_each(|missed| *missed *= weight);
+        // Rates with the remainder shared out lie where the start's own velocities and accelerations were.
+        for row in 0..self.size() {
+            let rates = [0, 1].map(|j| stages[j].rate[row] + shares[j] * start.stress[row]);
+            let values = step.at_stages(start.displacement[row], rates);
+            for (room, value) in stages.iter_mut().zip(values) {
+                room.displacement[row] = value;
+            }
+            (start.velocity[row], start.acceleration[row]) = (rates[0], rates[1]);
+        }
+        let rates = [&start.velocity, &start.acceleration];
+        for ((room, rates), out) in stages.iter_mut().zip(rates).zip(out) {
+            room.stress.copy_from_slice(self.preload.as_slice());
+            product(&self.stiffness, &room.displacement, &mut room.stress);
+            if let Some(damping) = &self.damping {
+                product(damping, rates, &mut room.stress);
+            }
+            let work: f64 =
+                room.stress.iter().zip(&start.stress).map(|(stress, missed)| stress * missed).sum();
+            let factor = inverse * work;
+            for (stress, weighted) in room.stress.iter_mut().zip(self.weighted(&room.rate)) {
+                *stress += factor * weighted;
+            }
+            for (stress, column) in room.stress.iter_mut().zip(self.carried.column_iter()) {
+                *stress -= column.dot(&room.gravity);
+            }
+            self.add_conjugate(room, &room.stress, out);
+            self.add_inertia(room, out);
+        }
+    }
+
+    /// Leaves in the stress of the start what the rates at the stages miss of the change of u over the step.
+    fn missed(&self, step: &StepStages<'_>, start: &mut Room, stages: &[Room; STAGES]) {
+        let frame = self.nodes[self.frame];
+        let base = step.start.nodes[frame].frame;
+        let (first, last) = (step.start, step.end);
+        for (i, &node) in self.nodes.iter().enumerate().filter(|&(i, _)| i != self.frame) {
+            let relative = first.nodes[node].frame.relative_to(&base);
+            let seen = step.changes[node].relative_to(&step.changes[frame].carried_at(&relative));
+            let arm = start.turns[i] * seen.shift;
+            let angles = three(&start.displacement, 6 * i + 3);
+            let turn = if seen.turn.amax() < SMALL {
+                // From θ' = T(θ)⁻¹ η along the way, by one step of the classical Runge-Kutta method.
+                let eta = rotation_part(&seen.small_logarithm());
+                let slope = |way: Vector3| rotation_inverse_tangent(&(angles + way)) * eta;
+                let one = slope(Vector3::zeros());
+                let two = slope(0.5 * one);
+                let three = slope(0.5 * two);
+                (one + 2.0 * (two + three) + slope(three)) / 6.0
+            } else {
+                last.nodes[node].frame.relative_to(&last.nodes[frame].frame).rotation.logarithm() - angles
+            };
+            start.stress[6 * i..6 * i + 3].copy_from_slice(arm.as_slice());
+            start.stress[6 * i + 3..6 * i + 6].copy_from_slice(turn.as_slice());
+        }
+        for (k, &coordinate) in self.coordinates.iter().enumerate() {
+            let of = [first, last].map(|at| at.coordinates[coordinate].value);
+            start.stress[6 * self.nodes.len() + k] = of[1] - of[0];
+        }
+        for row in 0..self.size() {
+            start.stress[row] -= step.whole([stages[0].rate[row], stages[1].rate[row]]);
+        }
+    }
+
+    /// W times a vector like u: rotations weigh as arcs at the element's reach.
+    fn weighted<'a>(&self, values: &'a [f64]) -> impl Iterator<Item = f64> + use<'a> {
+        let reach = self.reach();
+        let (interfaces, radian) = (6 * self.nodes.len(), if reach > 0.0 { reach * reach } else { 1.0 });
+        let is_rotation = move |row: usize| row < interfaces && row % 6 >= 3;
+        values
+            .iter()
+            .enumerate()
+            .map(move |(row, value)| if is_rotation(row) { radian * value } else { *value })
+    }
+
+    /// How far the element comes over a step, in both directions [m].
+    fn way(&self, step: &StepStages<'_>, stages: &[Room; STAGES]) -> f64 {
+        let of = |j: usize| {
+            let square: f64 =
+                self.weighted(&stages[j].velocity).zip(&stages[j].velocity).map(|(w, v)| w * v).sum();
+            step.lasting[j].abs() * square.sqrt()
+        };
+        of(0).max(of(1))
+    }
+}

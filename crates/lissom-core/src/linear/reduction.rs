@@ -1,0 +1,387 @@
+//! Reduction of a flexible assembly to its interfaces and some of its modes with these held [Craig and Bampton 1968].
+//!
+//! ```text
+//! x = ψ b + φ q:      K ψ + Bᵀ μ = 0,  B ψ = 0  with the interfaces displaced by one unknown of b
+//!                     K φ + Bᵀ μ = ω² M φ,  B φ = 0  with the interfaces held
+//! M_r = Tᵀ M T,   D_r = Tᵀ D T,   K_r = Tᵀ K T,   T = [ψ φ]
+//! ```
+//!
+//! K is that of body variations, and holds the stresses of the state. Forces f₀ that the interfaces are under there turn
+//! with them. A superelement has an energy f₀·u + ½ u·K u instead, in displacements u relative to one interface, whose forces
+//! in body axes are the same to first order:
+//!
+//! ```text
+//! δ(Eᵀ f) = δf - θ × f₀,      δ(T⁻ᵀ m) = δm - ½ θ × m₀
+//! ```
+
+use lissom_motion::{Matrix3, Vector3, skew};
+use nalgebra::DMatrix;
+
+use super::mode::{Completeness, ModeError, ModeOptions};
+use super::model::{LinearError, LinearModel, is_symmetric, nothing, point};
+use super::shifted::RealShift;
+use crate::elements::superelement::{Damping, ReducedMatrices};
+use crate::system::{Chart, LOCKED, Linearization, NodeId, State, System};
+
+/// Forces on parts between the interfaces that displace them by less than this part of the model's length are round-off.
+const BALANCED: f64 = 1e-7;
+/// Forces of rigid displacements below this part of the terms they are made of are round-off.
+const RIGID: f64 = 1e-6;
+/// Preload that displaces by less than this part of the model's length is none.
+const NO_PRELOAD: f64 = 1e-9;
+
+/// A reduction that does not exist.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReductionError {
+    /// A factorisation stopped.
+    #[error(
+        "with its interfaces held the assembly cannot be solved for: {0}; what moves freely between the interfaces must be joined, \
+         or be an interface itself"
+    )]
+    Linear(#[from] LinearError),
+    /// There are no modes.
+    #[error("the modes with interfaces held: {0}")]
+    Modes(#[from] ModeError),
+    /// With the interfaces held the stiffness belongs to no energy, or rates have forces that do not damp.
+    #[error(
+        "with its interfaces held the assembly is not conservative: a superelement is linear elastic; leave out loads that follow and \
+         signals, and reduce it at rest"
+    )]
+    NotConservative,
+    /// With the interfaces held there is an unstable mode.
+    #[error(
+        "with its interfaces held the assembly is unstable: the state is beyond buckling, or parts are held by nothing but their stress"
+    )]
+    Unstable,
+    /// Forces act between the interfaces.
+    #[error(
+        "forces act between the interfaces that nothing in the assembly balances: they would displace it by {0:.1e} of its length; make \
+         what they act on an interface, or take the load away"
+    )]
+    Unbalanced(f64),
+    /// Something holds the assembly, or pulls at it, in directions fixed in space.
+    #[error(
+        "a rigid motion of the assembly is not free of forces: the {unknown} has {force:.1e} of terms of {terms:.1e}; leave out what \
+         leads from it to the ground, and loads with directions fixed in space"
+    )]
+    Held {
+        /// Name of the unknown.
+        unknown: String,
+        /// Force per unit of the rigid motion.
+        force: f64,
+        /// Sum of the terms' sizes.
+        terms: f64,
+    },
+}
+
+/// A reduced assembly.
+#[derive(Clone, Debug)]
+pub struct Reduction {
+    /// Its matrices: six unknowns of each interface in inertial axes, then the modes of unit modal mass.
+    pub matrices: ReducedMatrices,
+    /// Places of the interfaces [m].
+    pub places: Vec<Vector3>,
+    /// Frequencies of the modes with the interfaces held [Hz].
+    pub frequencies: Vec<f64>,
+    /// Whether a count shows that no mode was missed.
+    pub is_counted: bool,
+    /// Number of unknowns that were reduced.
+    pub unknowns: usize,
+}
+
+/// What is reduced: the assembly, the same with its interfaces locked (none where nothing is left then), and where it is.
+pub struct Assembly<'a> {
+    /// With free interfaces.
+    pub free: &'a System,
+    /// With locked interfaces: the same nodes, coordinates and joints.
+    pub locked: Option<&'a System>,
+    /// Places in equilibrium, without velocities.
+    pub state: &'a State,
+    /// The interfaces, the first of which will carry the floating frame.
+    pub interfaces: &'a [NodeId],
+    /// What finds accelerations.
+    pub solver: &'a lissom_solver::SolverKind,
+}
+
+impl Assembly<'_> {
+    /// Reduces to the interfaces and at most so many modes.
+    ///
+    /// # Errors
+    /// If the assembly with its interfaces held is a mechanism, not elastic, or not in equilibrium; if something else holds it.
+    pub fn reduce(&self, modes: usize) -> Result<Reduction, ReductionError> {
+        let model = self.locked.map(|system| LinearModel::of(system, self.state, self.solver)).transpose()?;
+        let multipliers = model.as_ref().map_or_else(
+            || vec![0.0; self.free.layout().multiplier_rows().len()],
+            |model| model.multipliers().to_vec(),
+        );
+        let whole = Whole::of(self, &multipliers);
+        let length = model.as_ref().map_or(1.0, LinearModel::length);
+        if let Some(model) = model.as_ref().filter(|model| model.imbalance() > BALANCED) {
+            return Err(ReductionError::Unbalanced(model.imbalance()));
+        }
+        whole.check_rigid(self)?;
+        let mut columns = self.boundary_columns();
+        let (mut frequencies, mut is_counted) = (Vec::new(), true);
+        if let (Some(mut model), Some(locked)) = (model, self.locked) {
+            self.add_static_shapes(&whole, &model, locked, &mut columns)?;
+            model.parts.damping.fill(0.0);
+            if !is_symmetric(locked, &model.representative, &model.parts) {
+                return Err(ReductionError::NotConservative);
+            }
+            model.is_conservative = true;
+            if modes > 0 {
+                let found = model.modes(&ModeOptions { count: modes, shift: None })?;
+                is_counted = found.completeness == Completeness::Counted;
+                for mode in found.modes {
+                    if mode.kind.is_unstable() || mode.frequency == 0.0 {
+                        return Err(ReductionError::Unstable);
+                    }
+                    let mut column = vec![0.0; whole.size];
+                    for (free, inner) in self.inner_rows(locked) {
+                        column[free] = mode.shape[inner].re;
+                    }
+                    columns.push(column);
+                    frequencies.push(mode.frequency);
+                }
+            }
+        }
+        let matrices = self.projected(&whole, &columns, length);
+        let places = self.interfaces.iter().map(|&node| self.state.kinematics.nodes[node].frame.position);
+        Ok(Reduction {
+            matrices,
+            places: places.collect(),
+            frequencies,
+            is_counted,
+            unknowns: self.free.layout().coordinate_count(),
+        })
+    }
+
+    /// Rows of unknowns in the free assembly and in the one with locked interfaces.
+    fn inner_rows(&self, locked: &System) -> Vec<(usize, usize)> {
+        let (free, inner) = (self.free.layout(), locked.layout());
+        let of_nodes = (0..free.node_count()).flat_map(|node| {
+            let rows = free.rows_of_node(node).iter().zip(inner.rows_of_node(node));
+            rows.filter(|(_, row)| **row != LOCKED)
+                .map(|(one, other)| (*one as usize, *other as usize))
+                .collect::<Vec<_>>()
+        });
+        let of_coordinates = (0..free.coordinate_rows.len())
+            .map(|coordinate| (free.row_of_coordinate(coordinate), inner.row_of_coordinate(coordinate)));
+        of_nodes.chain(of_coordinates).collect()
+    }
+
+    /// One column per unknown of the interfaces, in inertial axes: zero elsewhere.
+    fn boundary_columns(&self) -> Vec<Vec<f64>> {
+        let layout = self.free.layout();
+        let mut columns = Vec::with_capacity(6 * self.interfaces.len());
+        for &node in self.interfaces {
+            let rotation = self.state.kinematics.nodes[node].frame.rotation;
+            let rows = layout.rows_of_node(node);
+            for k in 0..6 {
+                let own = rotation.apply_inverse(&Vector3::ith(k % 3, 1.0));
+                let mut column = vec![0.0; layout.size()];
+                for i in 0..3 {
+                    column[rows[k / 3 * 3 + i] as usize] = own[i];
+                }
+                columns.push(column);
+            }
+        }
+        columns
+    }
+
+    /// Adds what the assembly between the interfaces does when they are displaced.
+    fn add_static_shapes(
+        &self,
+        whole: &Whole,
+        model: &LinearModel<'_>,
+        locked: &System,
+        columns: &mut [Vec<f64>],
+    ) -> Result<(), ReductionError> {
+        let mut solver = RealShift::new(locked, &model.representative);
+        solver.factor(&model.parts, 0.0).map_err(|error| model.stopped(&error))?;
+        let (free_count, count) = (self.free.layout().coordinate_count(), locked.layout().coordinate_count());
+        let inner = self.inner_rows(locked);
+        let multipliers = self.free.layout().multiplier_rows().len();
+        let mut right = vec![0.0; locked.layout().size()];
+        for column in columns {
+            // Refined once: what is left of forces and violations is solved for again.
+            for _ in 0..2 {
+                let forces = whole.times_constrained(self.free, &column[..]);
+                for &(free, own) in &inner {
+                    right[own] = -forces[free];
+                }
+                for k in 0..multipliers {
+                    right[count + k] = -forces[free_count + k];
+                }
+                solver.solve(&mut right);
+                for &(free, own) in &inner {
+                    column[free] += right[own];
+                }
+                let factor = solver.multiplier_factor();
+                for k in 0..multipliers {
+                    column[free_count + k] += factor * right[count + k];
+                }
+            }
+            column[free_count..].fill(0.0);
+        }
+        Ok(())
+    }
+
+    /// The matrices among the columns.
+    fn projected(&self, whole: &Whole, columns: &[Vec<f64>], length: f64) -> ReducedMatrices {
+        let among = |values: &[f64]| {
+            let pattern = self.free.pattern();
+            let mut image = vec![0.0; whole.size];
+            let mut matrix = DMatrix::zeros(columns.len(), columns.len());
+            for (j, column) in columns.iter().enumerate() {
+                pattern.multiply(values, column, &mut image);
+                for (i, other) in columns.iter().enumerate() {
+                    matrix[(i, j)] = other.iter().zip(&image).map(|(a, b)| a * b).sum::<f64>();
+                }
+            }
+            matrix
+        };
+        let mass = among(&whole.parts.mass);
+        let damping = among(&whole.parts.damping);
+        let mut stiffness = among(&whole.parts.stiffness);
+        let count = self.free.layout().coordinate_count();
+        let forces = columns.iter().map(|column| {
+            column[..count].iter().zip(&whole.residual).map(|(shape, force)| shape * force).sum::<f64>()
+        });
+        let mut preload: Vec<f64> = forces.collect();
+        let is_loaded = preload.iter().enumerate().any(|(row, force)| {
+            let unit = if row % 6 < 3 { length } else { 1.0 };
+            force.abs() > NO_PRELOAD * unit * stiffness[(row, row)].abs()
+        });
+        if is_loaded {
+            self.to_energy(&preload, &mut stiffness);
+        } else {
+            preload.clear();
+        }
+        let relative = self.relative(columns.len());
+        let is_damped = damping.amax() > 0.0;
+        let symmetric = |matrix: DMatrix<f64>| 0.5 * (&matrix + matrix.transpose());
+        // Through displacements relative to the first interface: rigid motions are free of forces to the last digits.
+        let through = |matrix: DMatrix<f64>| relative.transpose() * matrix * &relative;
+        ReducedMatrices {
+            mass: symmetric(mass),
+            stiffness: symmetric(through(stiffness)),
+            damping: if is_damped { Damping::Matrix(symmetric(through(damping))) } else { Damping::None },
+            preload,
+        }
+    }
+
+    /// From forces in body axes to those of an energy, by the displacements relative to the first interface.
+    fn to_energy(&self, preload: &[f64], stiffness: &mut DMatrix<f64>) {
+        for i in 1..self.interfaces.len() {
+            let part = |first: usize| Vector3::from_column_slice(&preload[6 * i + first..6 * i + first + 3]);
+            for (first, factor) in [(0, 1.0), (3, 0.5)] {
+                let turned: Matrix3 = factor * skew(&part(first));
+                let mut block = stiffness.fixed_view_mut::<3, 3>(6 * i + first, 6 * i + 3);
+                block -= turned;
+            }
+        }
+    }
+
+    /// From displacements to those relative to the first interface, which are zero there.
+    fn relative(&self, size: usize) -> DMatrix<f64> {
+        let mut map = DMatrix::identity(size, size);
+        let nodes = &self.state.kinematics.nodes;
+        let origin = nodes[self.interfaces[0]].frame.position;
+        for (i, &node) in self.interfaces.iter().enumerate() {
+            let arm = skew(&(nodes[node].frame.position - origin));
+            for k in 0..6 {
+                map[(6 * i + k, k)] -= 1.0;
+            }
+            let mut block = map.fixed_view_mut::<3, 3>(6 * i, 3);
+            block += arm;
+        }
+        map
+    }
+}
+
+/// The free assembly, linearised.
+struct Whole {
+    parts: Linearization,
+    /// Forces of the state in the rows of the coordinates.
+    residual: Vec<f64>,
+    size: usize,
+}
+
+impl Whole {
+    fn of(assembly: &Assembly<'_>, multipliers: &[f64]) -> Self {
+        let Assembly { free, state, .. } = assembly;
+        let zeros = vec![0.0; multipliers.len()];
+        let mut at = state.kinematics.clone();
+        for node in &mut at.nodes {
+            node.twist.fill(0.0);
+            node.acceleration.fill(0.0);
+        }
+        for coordinate in &mut at.coordinates {
+            (coordinate.rate, coordinate.acceleration) = (0.0, 0.0);
+        }
+        let (still, unchanged) = nothing(&at);
+        let point = point(&at, (&still, &unchanged), multipliers, &zeros);
+        let mut parts = Linearization::new(free);
+        free.linearize(&point, Chart::Body, &mut parts);
+        let size = free.layout().size();
+        let mut residual = vec![0.0; size];
+        free.residual(&point, &mut residual);
+        residual.truncate(free.layout().coordinate_count());
+        Self { parts, residual, size }
+    }
+
+    /// Forces K x + Bᵀ μ and violations B x.
+    fn times_constrained(&self, system: &System, x: &[f64]) -> Vec<f64> {
+        let pattern = system.pattern();
+        let (mut forces, mut constrained) = (vec![0.0; self.size], vec![0.0; self.size]);
+        pattern.multiply(&self.parts.stiffness, x, &mut forces);
+        pattern.multiply(&self.parts.constraint, x, &mut constrained);
+        for (force, other) in forces.iter_mut().zip(&constrained) {
+            *force += other;
+        }
+        forces
+    }
+
+    /// Fails where a rigid motion has forces: coordinates of joints stay as they are in it.
+    fn check_rigid(&self, assembly: &Assembly<'_>) -> Result<(), ReductionError> {
+        let (system, at) = (assembly.free, &assembly.state.kinematics);
+        let layout = system.layout();
+        let pattern = system.pattern();
+        let origin = at.nodes[assembly.interfaces[0]].frame.position;
+        for k in 0..6 {
+            let axis = Vector3::ith(k % 3, 1.0);
+            let (mut motion, mut forces, mut terms) =
+                (vec![0.0; self.size], vec![0.0; self.size], vec![0.0; self.size]);
+            for (node, place) in at.nodes.iter().enumerate().skip(1) {
+                let (linear, angular) = if k < 3 {
+                    (axis, Vector3::zeros())
+                } else {
+                    (axis.cross(&(place.frame.position - origin)), axis)
+                };
+                let parts = [linear, angular].map(|own| place.frame.rotation.apply_inverse(&own));
+                for (i, &row) in
+                    layout.rows_of_node(node).iter().enumerate().filter(|(_, row)| **row != LOCKED)
+                {
+                    motion[row as usize] = parts[i / 3][i % 3];
+                }
+            }
+            pattern.multiply(&self.parts.stiffness, &motion, &mut forces);
+            let sizes: Vec<f64> = self.parts.stiffness.iter().map(|value| value.abs()).collect();
+            let motion: Vec<f64> = motion.iter().map(|value| value.abs()).collect();
+            pattern.multiply(&sizes, &motion, &mut terms);
+            let largest = terms.iter().fold(0.0_f64, |most, &value| most.max(value));
+            let wrong = (0..layout.coordinate_count())
+                .find(|&row| forces[row].abs() > RIGID * terms[row] + f64::EPSILON * largest);
+            if let Some(row) = wrong {
+                return Err(ReductionError::Held {
+                    unknown: layout.name_of(row),
+                    force: forces[row].abs(),
+                    terms: terms[row],
+                });
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,179 @@
+//! Superelements of a model file: parts that are given by reduced matrices over their interfaces and modes.
+
+use lissom_core::elements::superelement::{Damping, ReducedMatrices};
+use lissom_motion::Vector3;
+use nalgebra::DMatrix;
+
+use super::bodies::{axes, position};
+use super::decode::each;
+use super::{Interface, Superelement};
+use crate::context::Context;
+use crate::keys::Shape;
+use crate::library::joined;
+use crate::matrix_file;
+use crate::reader::Reader;
+use crate::report::{Located, Problem};
+use crate::suggest;
+use crate::text::Value;
+
+pub(super) fn superelements(context: &Context<'_>) -> Vec<Superelement> {
+    each(context, "superelements", |reader, name| {
+        let (position, axes, interfaces) = (position(reader), axes(reader), interfaces(reader));
+        let (mass, stiffness) = (needed(reader, "mass"), needed(reader, "stiffness"));
+        let preload = matrix(reader, "preload")?.map_or_else(Vec::new, |column| column.as_slice().to_vec());
+        let damping = damping(reader);
+        let (interfaces, stiffness, mass) = (interfaces?, stiffness?, mass?);
+        let floating = match reader.text("floating") {
+            None => 0,
+            Some(named) => interface_named(reader, &interfaces, &named)?,
+        };
+        let places: Vec<Vector3> = interfaces.iter().map(|interface| interface.place).collect();
+        let (damping, ratio) = damping?;
+        let checked = ReducedMatrices { mass, stiffness, damping, preload }.check(&places);
+        let damped = checked.and_then(|mut matrices| {
+            if let Some(ratio) = ratio {
+                matrices.damping = Damping::Matrix(matrices.modal_damping(ratio)?);
+            }
+            Ok(matrices)
+        });
+        let matrices = match damped {
+            Ok(matrices) => matrices,
+            Err(error) => {
+                let span = reader.node(&error.parameter).map_or(reader.name, |node| node.span);
+                let problem = Problem::error(span, format!("{}: {error}", reader.what));
+                context.tell(problem.label("of these matrices"));
+                return None;
+            }
+        };
+        Some(Superelement {
+            name: Located::new(name.to_owned(), reader.name),
+            position: position?,
+            axes: axes?,
+            interfaces,
+            floating,
+            matrices,
+        })
+    })
+}
+
+/// The interfaces with their places in the axes of the part.
+fn interfaces(reader: &Reader<'_, '_>) -> Option<Vec<Interface>> {
+    let (context, node) = (reader.context, reader.node("interfaces")?);
+    let what = reader.words("interfaces");
+    let Value::List(list) = &node.value else {
+        return context.wrong_type(node, &what, "a list of interfaces");
+    };
+    if list.is_empty() {
+        return context.fail(
+            node.span,
+            format!("{what} is empty"),
+            "give at least one, as { name = \"root\" }",
+        );
+    }
+    let mut all: Vec<Interface> = Vec::new();
+    for (index, entry) in list.iter().enumerate() {
+        let words = format!("interface {} of {}", index + 1, reader.what);
+        let own = Reader::open(context, entry, (words, entry.span), Shape::interface_keys())?;
+        let name = own.text("name")?;
+        if name.value.is_empty() || !name.value.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-'))
+        {
+            let message = format!("`{}` cannot be the name of an interface", name.value);
+            return context.fail(name.span, message, "names are made of letters, digits, `_` and `-`");
+        }
+        if all.iter().any(|known| known.name == name.value) {
+            let message = format!("two interfaces of {} are called `{}`", reader.what, name.value);
+            return context.fail(name.span, message, "give each a name of its own");
+        }
+        let place = match own.node("at") {
+            None => Vector3::zeros(),
+            Some(_) => own.vector("at")?.value,
+        };
+        all.push(Interface { name: name.value.to_owned(), place });
+    }
+    Some(all)
+}
+
+fn interface_named(
+    reader: &Reader<'_, '_>,
+    interfaces: &[Interface],
+    named: &Located<&str>,
+) -> Option<usize> {
+    let found = interfaces.iter().position(|interface| interface.name == named.value);
+    if found.is_none() {
+        let help = suggest::help(named.value, interfaces.iter().map(|interface| interface.name.as_str()));
+        let message =
+            format!("{} names `{}`, which is none of its interfaces", reader.words("floating"), named.value);
+        reader.context.tell(Problem::error(named.span, message).label("no such interface").maybe_help(help));
+    }
+    found
+}
+
+/// Damping as it is given, and the ratio of all modes where that is.
+fn damping(reader: &Reader<'_, '_>) -> Option<(Damping, Option<f64>)> {
+    let keys = ["damping", "modal_damping", "stiffness_damping"];
+    let given: Vec<&str> = keys.into_iter().filter(|key| reader.has(key)).collect();
+    match given.as_slice() {
+        [] | ["damping"] => Some((matrix(reader, "damping")?.map_or(Damping::None, Damping::Matrix), None)),
+        ["modal_damping"] => Some((Damping::None, Some(reader.number("modal_damping")?.value))),
+        ["stiffness_damping"] => {
+            Some((Damping::OfStiffness(reader.number("stiffness_damping")?.value), None))
+        }
+        [first, others @ ..] => {
+            let second = others.first().unwrap_or(first);
+            let message = format!("{} has both `{first}` and `{second}`", reader.what);
+            reader.context.fail(reader.node(second)?.span, message, "leave one out")
+        }
+    }
+}
+
+/// The matrix under `key`, which must be there.
+fn needed(reader: &Reader<'_, '_>, key: &str) -> Option<DMatrix<f64>> {
+    let found = matrix(reader, key)?;
+    if found.is_none() {
+        let span = reader.node("matrices").map_or(reader.name, |node| node.span);
+        let message = format!("{} lacks `{key}`", reader.what);
+        let help =
+            format!("add `{key} = \"file.mtx\"`, or `matrices = \"file.npz\"` with an array of this name");
+        return reader.context.fail(span, message, help);
+    }
+    found
+}
+
+/// The matrix in the file that `key` names, or in the archive; the outer none tells of a mistake.
+#[expect(clippy::option_option, reason = "a mistake, or nothing given")]
+fn matrix(reader: &Reader<'_, '_>, key: &str) -> Option<Option<DMatrix<f64>>> {
+    let context = reader.context;
+    let own = reader.has(key);
+    let Some(named) = reader.text(if own { key } else { "matrices" }) else {
+        return (!own && !reader.has("matrices")).then_some(None);
+    };
+    let path = joined(context.sources.file(named.span), named.value);
+    let fail = |message: String, help: Option<String>| {
+        let problem = Problem::error(named.span, format!("{}: {message}", reader.words(key)));
+        context.tell(problem.label("named here").maybe_help(help));
+        None
+    };
+    let found = if own {
+        context.library.text(&path).map(Some)
+    } else {
+        let short = match key {
+            "mass" => "M",
+            "stiffness" => "K",
+            "damping" => "D",
+            other => other,
+        };
+        context.library.array(&path, &[key, short])
+    };
+    let text = match found {
+        Ok(Some(text)) => text,
+        Ok(None) => return Some(None),
+        Err(missing) => return fail(missing.message, missing.help),
+    };
+    match matrix_file::matrix(&text) {
+        Ok(matrix) => Some(Some(matrix)),
+        Err(error) => {
+            let help = "the Matrix Market format is that of SciPy's `mmwrite`, MATLAB's `mmwrite` and `lissom reduce`";
+            fail(format!("`{path}` is no matrix: {error}"), Some(help.to_owned()))
+        }
+    }
+}

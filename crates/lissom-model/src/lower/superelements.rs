@@ -1,0 +1,42 @@
+//! Superelements as nodes, modal coordinates and elements.
+
+use lissom_core::elements::superelement::{InterfacePlace, SuperelementDescription, add_superelement};
+use lissom_core::system::{Builder, NodeId};
+use lissom_motion::{Motion, Rotation};
+
+use super::Names;
+use super::order::by_name;
+use crate::document::{Document, interface_name};
+use crate::report::Problem;
+
+/// Adds all superelements to the system.
+pub(super) fn add(
+    document: &Document,
+    builder: &mut Builder,
+    names: &mut Names,
+    problems: &mut Vec<Problem>,
+) {
+    for element in by_name(&document.superelements, |element| &element.name.value) {
+        let name = &element.name.value;
+        let interfaces: Vec<InterfacePlace> = element
+            .interfaces
+            .iter()
+            .map(|own| InterfacePlace { name: interface_name(name, &own.name), place: own.place })
+            .collect();
+        let description = SuperelementDescription {
+            name,
+            frame: Motion::new(Rotation::from_matrix(&element.axes), element.position),
+            interfaces: &interfaces,
+            floating: element.floating,
+            matrices: element.matrices.clone(),
+        };
+        match add_superelement(builder, &description) {
+            Ok((nodes, _)) => {
+                let own: Vec<NodeId> = nodes.clone();
+                names.superelements.insert(name.clone(), own);
+                names.nodes.extend(interfaces.into_iter().map(|interface| interface.name).zip(nodes));
+            }
+            Err(error) => problems.push(Problem::error(element.name.span, format!("`{name}`: {error}"))),
+        }
+    }
+}

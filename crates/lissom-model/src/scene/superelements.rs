@@ -1,0 +1,32 @@
+//! Superelements as they look: their interfaces, joined by lines to the one that carries the floating frame.
+
+use lissom_motion::Vector3;
+
+use super::solids::{Axes, Tone};
+use super::symbols::{Rod, Symbol};
+use super::{Anchor, Places};
+use crate::document::Document;
+
+/// Symbols of the interfaces, and the lines between them.
+pub(super) fn superelements(document: &Document, places: &Places<'_>) -> (Vec<Symbol>, Vec<Rod>) {
+    let (mut symbols, mut rods) = (Vec::new(), Vec::new());
+    let axes = Axes::of(&Vector3::x(), None);
+    for element in &document.superelements {
+        let name = &element.name.value;
+        let Some(nodes) = places.lowered.names.superelements.get(name) else { continue };
+        let anchors: Vec<Anchor> = nodes.iter().map(|&node| Anchor { node, position: [0.0; 3] }).collect();
+        for (index, &anchor) in anchors.iter().enumerate() {
+            let is_floating = index == element.floating;
+            let solid = if is_floating {
+                axes.block([0.9, 0.9, 0.9], [0.0; 3], Tone::Light)
+            } else {
+                axes.ball(0.5, [0.0; 3], Tone::Light)
+            };
+            symbols.push(Symbol { name: name.clone(), anchor, around: 0.0, solids: vec![solid] });
+            if !is_floating {
+                rods.push(Rod { name: name.clone(), anchors: [anchors[element.floating], anchor] });
+            }
+        }
+    }
+    (symbols, rods)
+}

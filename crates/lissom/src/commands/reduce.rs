@@ -1,0 +1,133 @@
+//! `lissom reduce`: a flexible assembly as a superelement.
+
+use std::fmt::Write;
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use lissom::modes::{About, ModesError};
+use lissom::reduce::{ReduceError, ReduceReport, ReduceRequest, reduce};
+use lissom::summary;
+
+use super::results::{folder_for, unwritable};
+use super::{Exit, Failure, ModelArguments, show_warnings};
+use crate::terminal;
+
+/// Frequencies that are listed on the terminal.
+const LISTED: usize = 6;
+
+/// Reduce flexible parts to a superelement: matrices over a few interfaces and modes.
+///
+/// The results go to a folder: the matrices in the Matrix Market format and as NumPy archive, and NAME.toml with the table
+/// `[superelements.NAME]` that uses them. The stiffness holds the stresses of the state, static equilibrium without gravity
+/// unless `--about` says otherwise. Joints, springs and loads between an interface and the rest of the model are left out.
+#[derive(Args)]
+#[command(after_help = "\
+Examples:
+  lissom reduce examples/cantilever.toml --interfaces beam.start,beam.end --modes 6
+  lissom reduce turbine.toml --part blade1 --interfaces blade1.beam.start --modes 10 --name blade
+
+Exit code: 0 all is done; 2 wrong model or command line; 3 no state, or no elastic assembly.")]
+pub(super) struct Reduce {
+    #[command(flatten)]
+    model: ModelArguments,
+
+    /// Parts to be reduced: bodies, point masses, beams, superelements, entries of [parts] [default: all].
+    #[arg(long, value_name = "NAME,…", value_delimiter = ',')]
+    part: Vec<String>,
+
+    /// Nodes that joints will hold it by, as beam.start,beam.end; the first one carries the floating frame.
+    #[arg(long, value_name = "NODE,…", value_delimiter = ',', required = true)]
+    interfaces: Vec<String>,
+
+    /// Number of modes with the interfaces held.
+    #[arg(long, value_name = "NUMBER", default_value_t = 10)]
+    modes: usize,
+
+    /// State that is reduced: `static`, `undeformed` or a time of the model's analysis [s].
+    #[arg(long, value_name = "STATE|TIME", default_value = "static", allow_negative_numbers = true)]
+    about: About,
+
+    /// Name of the superelement [default: that of the only part, or of the model file].
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+
+    /// Folder for the results [default: out/<name of the model file>-reduced].
+    #[arg(long, value_name = "DIR")]
+    out: Option<PathBuf>,
+
+    /// Nothing on the terminal.
+    #[arg(long, short)]
+    quiet: bool,
+}
+
+impl Reduce {
+    pub(super) fn run(self) -> Result<Exit, Failure> {
+        let (model, document) = self.model.read()?;
+        if !self.quiet {
+            show_warnings(&document);
+        }
+        let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        let given = self.name.unwrap_or(match self.part.as_slice() {
+            [part] => part.clone(),
+            _ => stem,
+        });
+        let name: String = given
+            .chars()
+            .map(|c| if c.is_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' })
+            .collect();
+        let request = ReduceRequest {
+            parts: self.part,
+            interfaces: self.interfaces,
+            modes: self.modes,
+            about: self.about,
+            name,
+        };
+        let found = match reduce(&model, &self.model.set, &request) {
+            Err(ReduceError::State(ModesError::Model(report))) => return Err(report.into()),
+            Err(error) if error.is_of_question() => return Err(Failure::new(Exit::BadModel, error)),
+            other => other,
+        };
+        let path = self.model.folder(self.out, "reduced");
+        let (folder, found) = folder_for(&path, found, || {
+            summary::of_request("reduce", model.name(), &self.model.set, &document)
+        })?;
+        for (name, text) in &found.files {
+            folder.write_table(name, text).map_err(unwritable)?;
+        }
+        folder.write_archive(&format!("{}.npz", request.name), &found.archive).map_err(unwritable)?;
+        let summary = found.summary(model.name(), &self.model.set, &document);
+        folder.write_summary(&summary).map_err(unwritable)?;
+        if !self.quiet {
+            for warning in &found.warnings {
+                terminal::complain(&format!("warning: {warning}\n"));
+            }
+            let heading = document.title.as_deref().unwrap_or(model.name());
+            terminal::print(&told(heading, &request.name, &found, &path));
+        }
+        Ok(Exit::Done)
+    }
+}
+
+/// A few lines for a person.
+fn told(heading: &str, name: &str, found: &ReduceReport, folder: &Path) -> String {
+    let mut text = format!("{heading}\n");
+    let [before, after] = found.unknowns;
+    // Writing to a string cannot fail.
+    let _ = writeln!(
+        text,
+        "  superelement `{name}`: {before} coordinates to {after}, {} interfaces and {} modes, {:.6} kg{}, {:.3} s",
+        found.interfaces.len(),
+        found.frequencies.len(),
+        found.mass,
+        if found.is_preloaded { ", preloaded" } else { "" },
+        found.wall.as_secs_f64()
+    );
+    if !found.frequencies.is_empty() {
+        let listed: Vec<String> =
+            found.frequencies.iter().take(LISTED).map(|frequency| format!("{frequency:.4}")).collect();
+        let more = if found.frequencies.len() > LISTED { ", …" } else { "" };
+        let _ = writeln!(text, "  frequencies with the interfaces held [Hz]: {}{more}", listed.join(", "));
+    }
+    let _ = writeln!(text, "  use it by the table in {}", folder.join(format!("{name}.toml")).display());
+    text
+}

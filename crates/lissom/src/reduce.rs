@@ -1,0 +1,540 @@
+//! Reduction of a flexible assembly to the matrices of a superelement: which part of the model is reduced, where it is, and
+//! the files that describe the superelement.
+
+use std::collections::BTreeSet;
+use std::fmt::Write;
+use std::time::{Duration, Instant};
+
+use lissom_core::elements::superelement::{Damping, ReducedMatrices};
+use lissom_core::linear::{Assembly, Reduction, ReductionError};
+use lissom_core::registry::ParameterError;
+use lissom_core::system::{Kinematics, LOCKED, Layout, NodeId};
+use lissom_model::Document;
+use lissom_model::document::{Attachment, Component, NodeReference};
+use lissom_model::lower::{Lowered, Names, lower, lower_locked};
+use lissom_model::output::{Summary, full_matrix};
+use lissom_model::toml_text::quoted;
+use lissom_motion::Vector3;
+use serde_json::{Value, json};
+
+use crate::about::About;
+use crate::export::npy;
+use crate::model::{Model, Override};
+use crate::modes::ModesError;
+
+/// What is asked for.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ReduceRequest {
+    /// Names of bodies, point masses, beams, superelements or entries of `[parts]` that are reduced; all where there are none.
+    pub parts: Vec<String>,
+    /// The interfaces by the names of their nodes; the first one carries the floating frame.
+    pub interfaces: Vec<String>,
+    /// Number of modes with the interfaces held.
+    pub modes: usize,
+    /// The state, whose stresses the stiffness holds.
+    pub about: About,
+    /// Name of the superelement.
+    pub name: String,
+}
+
+/// A reduced assembly, as files and as facts.
+#[derive(Clone, Debug)]
+pub struct ReduceReport {
+    /// Names of text files and their texts.
+    pub files: Vec<(String, String)>,
+    /// The matrices as a NumPy archive.
+    pub archive: Vec<u8>,
+    /// Frequencies of the modes with the interfaces held [Hz].
+    pub frequencies: Vec<f64>,
+    /// Names of the interfaces.
+    pub interfaces: Vec<String>,
+    /// Coordinates before and after.
+    pub unknowns: [usize; 2],
+    /// Mass [kg].
+    pub mass: f64,
+    /// Whether the state has forces at the interfaces.
+    pub is_preloaded: bool,
+    /// What may be wrong with it.
+    pub warnings: Vec<String>,
+    /// How long it took.
+    pub wall: Duration,
+}
+
+/// A reduction that does not exist.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReduceError {
+    /// There is no state to reduce about, or the model is wrong.
+    #[error(transparent)]
+    State(#[from] ModesError),
+    /// The question makes no sense for the model.
+    #[error("{0}")]
+    Question(String),
+    /// It cannot be computed.
+    #[error(transparent)]
+    Reduction(#[from] ReductionError),
+    /// The matrices are those of no free part.
+    #[error("the reduced {0}; this is no reduction to be used")]
+    Matrices(#[from] ParameterError),
+    /// The archive could not be packed.
+    #[error("the archive of matrices cannot be packed: {0}")]
+    Archive(#[from] std::io::Error),
+}
+
+impl ReduceError {
+    /// Whether the question is wrong rather than the answer missing.
+    pub fn is_of_question(&self) -> bool {
+        matches!(self, Self::Question(_) | Self::State(ModesError::Time { .. }))
+    }
+}
+
+fn question<T>(words: impl Into<String>) -> Result<T, ReduceError> {
+    Err(ReduceError::Question(words.into()))
+}
+
+/// Reduces parts of `model`, with `overrides` put in place. Gravity is left out: weight is that of the model which uses the
+/// superelement.
+///
+/// # Errors
+/// If the question makes no sense for the model, the state cannot be reached, or the parts are no elastic assembly.
+pub fn reduce(
+    model: &Model,
+    overrides: &[Override],
+    request: &ReduceRequest,
+) -> Result<ReduceReport, ReduceError> {
+    let began = Instant::now();
+    let mut document = model.document(overrides).map_err(ModesError::from)?;
+    let has_gravity = document.gravity.norm() > 0.0;
+    document.gravity.fill(0.0);
+    let names = lower(&document).map_err(ModesError::from)?;
+    let found: Result<(Kinematics, Layout, Vec<String>), ModesError> =
+        request.about.linearized(&document, |reached| {
+            let layout = reached.model.system().layout().clone();
+            Ok((reached.model.kinematics().clone(), layout, reached.warnings))
+        });
+    let (at, layout, mut warnings) = found?;
+    if has_gravity {
+        warnings
+            .push("gravity is left out: weight is that of the model that uses the superelement".to_owned());
+    }
+    let chosen = Chosen::of(&document, request, &names.names)?;
+    let own = chosen.document(&document)?;
+    let Lowered { system, mut state, settings, names: own_names, .. } =
+        lower(&own).map_err(ModesError::from)?;
+    take_places(system.layout(), &mut state.kinematics, (&layout, &at))?;
+    let interfaces: Vec<NodeId> =
+        chosen.interfaces.iter().map(|name| node_of(&own_names, name)).collect::<Result<_, _>>()?;
+    if let Some(&node) = interfaces.iter().find(|&&node| system.layout().rows_of_node(node).contains(&LOCKED))
+    {
+        let name = system.layout().node_name(node);
+        return question(format!(
+            "`{name}` cannot be an interface: it has no rotations; clamp it to a body or a beam"
+        ));
+    }
+    let inner = system.layout().coordinate_count() - 6 * interfaces.len();
+    let locked =
+        if inner == 0 { None } else { Some(lower_locked(&own, &interfaces).map_err(ModesError::from)?) };
+    let assembly = Assembly {
+        free: &system,
+        locked: locked.as_ref().map(|lowered| &*lowered.system),
+        state: &state,
+        interfaces: &interfaces,
+        solver: settings.solver,
+    };
+    // The lowest mode tells whether something moves freely while the interfaces are held, also where no mode is asked for.
+    let mut found = assembly.reduce(request.modes.max(usize::from(inner > 0)))?;
+    keep(&mut found, request.modes);
+    if found.frequencies.len() < request.modes {
+        let number = found.frequencies.len();
+        return question(format!(
+            "there are only {number} modes with the interfaces held: ask for no more `--modes`"
+        ));
+    }
+    if !found.is_counted && request.modes > 0 {
+        warnings
+            .push("whether a mode was missed among those with the interfaces held is not known".to_owned());
+    }
+    let matrices = found.matrices.check(&found.places)?;
+    let labels: Vec<String> = chosen.interfaces.iter().map(|name| label(name)).collect();
+    let unknowns = [found.unknowns, matrices.mass.nrows()];
+    let mass = (0..3).map(|k| total(&matrices, labels.len(), k)).sum::<f64>() / 3.0;
+    Ok(ReduceReport {
+        files: files(request, (&labels, &found.places), &matrices),
+        archive: archive((&labels, &found.places), &matrices)?,
+        frequencies: found.frequencies,
+        interfaces: labels,
+        unknowns,
+        mass,
+        is_preloaded: !matrices.preload.is_empty(),
+        warnings,
+        wall: began.elapsed(),
+    })
+}
+
+/// Leaves out all but so many modes.
+fn keep(found: &mut Reduction, modes: usize) {
+    found.frequencies.truncate(modes);
+    let size = 6 * found.places.len() + found.frequencies.len();
+    let matrices = &mut found.matrices;
+    let of = [Some(&mut matrices.mass), Some(&mut matrices.stiffness)];
+    let damping = match &mut matrices.damping {
+        Damping::Matrix(matrix) => Some(matrix),
+        _ => None,
+    };
+    for matrix in of.into_iter().chain([damping]).flatten() {
+        *matrix = matrix.view((0, 0), (size, size)).into_owned();
+    }
+    matrices.preload.truncate(size);
+}
+
+/// Mass in translations along an axis.
+fn total(matrices: &ReducedMatrices, interfaces: usize, axis: usize) -> f64 {
+    let rows = || (0..interfaces).map(|i| 6 * i + axis);
+    rows().flat_map(|row| rows().map(move |column| (row, column))).map(|at| matrices.mass[at]).sum()
+}
+
+/// The node of this name: a body, a point mass, an interface, or a place on a beam.
+fn node_of(names: &Names, name: &str) -> Result<NodeId, ReduceError> {
+    if let Some(&node) = names.nodes.get(name) {
+        return Ok(node);
+    }
+    let (beam, fraction) =
+        match (name.strip_suffix(".start"), name.strip_suffix(".end"), name.split_once('@')) {
+            (Some(beam), ..) => (beam, Some(0.0)),
+            (_, Some(beam), _) => (beam, Some(1.0)),
+            (.., Some((beam, fraction))) => (beam, fraction.trim().parse::<f64>().ok()),
+            _ => (name, None),
+        };
+    let Some(line) = names.lines.get(beam) else {
+        return question(format!(
+            "there is no node `{name}` among what is reduced: name a body, \"beam.start\", \"beam.end\" or \"beam@0.5\""
+        ));
+    };
+    match fraction.and_then(|fraction| line.node_at(fraction)) {
+        Some(node) => Ok(node),
+        None => question(format!(
+            "beam `{beam}` has no node at `{name}`: name its start or end, or a node between"
+        )),
+    }
+}
+
+/// The name of a node as that of an interface.
+fn label(name: &str) -> String {
+    name.chars().map(|c| if c.is_alphanumeric() || matches!(c, '_' | '-') { c } else { '_' }).collect()
+}
+
+/// Takes places and coordinates of the whole model into those of a part of it, by their names.
+fn take_places(
+    own: &Layout,
+    at: &mut Kinematics,
+    (layout, whole): (&Layout, &Kinematics),
+) -> Result<(), ReduceError> {
+    for node in 1..own.node_count() {
+        let name = own.node_name(node);
+        let found = (1..layout.node_count()).find(|&other| layout.node_name(other) == name);
+        match found {
+            Some(other) => at.nodes[node] = whole.nodes[other],
+            None => return question(format!("the node `{name}` is not there without the rest of the model")),
+        }
+    }
+    for coordinate in 0..at.coordinates.len() {
+        let name = own.coordinate_name(coordinate);
+        let found = (0..whole.coordinates.len()).find(|&other| layout.coordinate_name(other) == name);
+        match found {
+            Some(other) => at.coordinates[coordinate] = whole.coordinates[other],
+            None => {
+                return question(format!(
+                    "the coordinate `{name}` is not there without the rest of the model"
+                ));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// What of a model is reduced.
+struct Chosen {
+    /// Names of parts.
+    parts: BTreeSet<String>,
+    /// Names of the interfaces' nodes.
+    interfaces: Vec<String>,
+    /// Names of the interfaces' nodes and those that stand for them in the whole model.
+    nodes: Vec<NodeId>,
+    names: Names,
+}
+
+/// How a component touches the parts that are reduced.
+enum Touches {
+    /// Nothing of them.
+    Nothing,
+    /// Nothing else.
+    Inside,
+    /// Interfaces from outside.
+    Interfaces,
+}
+
+impl Chosen {
+    fn of(document: &Document, request: &ReduceRequest, names: &Names) -> Result<Self, ReduceError> {
+        let all: Vec<&String> = (document.beams.iter().map(|beam| &beam.name.value))
+            .chain(document.bodies.iter().map(|body| &body.name.value))
+            .chain(document.point_masses.iter().map(|mass| &mass.name.value))
+            .chain(document.superelements.iter().map(|element| &element.name.value))
+            .collect();
+        let mut parts = BTreeSet::new();
+        for asked in &request.parts {
+            let inside = format!("{asked}.");
+            let before = parts.len();
+            parts.extend(
+                all.iter()
+                    .filter(|name| **name == asked || name.starts_with(&inside))
+                    .map(|name| (*name).clone()),
+            );
+            if parts.len() == before {
+                let known = all.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ");
+                return question(format!("there is no part `{asked}` to be reduced; there are {known}"));
+            }
+        }
+        if request.parts.is_empty() {
+            parts.extend(all.into_iter().cloned());
+        }
+        if request.interfaces.is_empty() {
+            return question("name at least one interface by `--interfaces`, as beam.start,beam.end");
+        }
+        let nodes: Vec<NodeId> =
+            request.interfaces.iter().map(|name| node_of(names, name)).collect::<Result<_, _>>()?;
+        for (index, node) in nodes.iter().enumerate() {
+            if nodes[..index].contains(node) {
+                return question(format!("the interface `{}` is named twice", request.interfaces[index]));
+            }
+        }
+        let interfaces = request.interfaces.clone();
+        Ok(Self { parts, interfaces, nodes, names: names.clone() })
+    }
+
+    fn is_part(&self, node: &NodeReference) -> bool {
+        match node {
+            NodeReference::Ground => false,
+            NodeReference::Body(name) | NodeReference::PointMass(name) => self.parts.contains(name),
+            NodeReference::Beam { beam, .. } => self.parts.contains(beam),
+            NodeReference::Interface { superelement, .. } => self.parts.contains(superelement),
+        }
+    }
+
+    fn is_interface(&self, node: &NodeReference) -> bool {
+        let found = match node {
+            NodeReference::Ground => None,
+            NodeReference::Body(name) | NodeReference::PointMass(name) => self.names.nodes.get(name).copied(),
+            NodeReference::Beam { beam, fraction } => {
+                self.names.lines.get(beam).and_then(|line| line.node_at(*fraction))
+            }
+            NodeReference::Interface { superelement, interface } => {
+                self.names.nodes.get(&format!("{superelement}.{interface}")).copied()
+            }
+        };
+        found.is_some_and(|node| self.nodes.contains(&node))
+    }
+
+    /// How nodes touch the parts.
+    fn touches(&self, component: &Component, nodes: &[&NodeReference]) -> Result<Touches, ReduceError> {
+        let inside = nodes.iter().filter(|node| self.is_part(node)).count();
+        if inside == 0 {
+            return Ok(Touches::Nothing);
+        }
+        if inside == nodes.len() && nodes.len() > 1 {
+            return Ok(Touches::Inside);
+        }
+        if nodes.iter().all(|node| !self.is_part(node) || self.is_interface(node)) {
+            return Ok(Touches::Interfaces);
+        }
+        question(format!(
+            "`{}` leads from outside to a node between the interfaces: make that node an interface, or leave `{0}` out by `--unset`",
+            component.name.value
+        ))
+    }
+
+    /// The document of the parts alone: what acts on the interfaces from outside is left out.
+    fn document(&self, whole: &Document) -> Result<Document, ReduceError> {
+        let mut own = whole.clone();
+        let is_in = |name: &String| self.parts.contains(name);
+        own.beams.retain(|beam| is_in(&beam.name.value));
+        own.bodies.retain(|body| is_in(&body.name.value));
+        own.point_masses.retain(|mass| is_in(&mass.name.value));
+        own.superelements.retain(|element| is_in(&element.name.value));
+        own.outputs.clear();
+        own.events.clear();
+        own.signals.clear();
+        own.states.clear();
+        own.inputs.clear();
+        own.initial = None;
+        own.initial_of_parts.clear();
+        for beam in &own.beams {
+            if !beam.distributed.is_empty() {
+                return question(format!(
+                    "beam `{}` has forces per length, which a superelement does not hold: leave them out",
+                    beam.name.value
+                ));
+            }
+            for shared in beam.shared_start.iter().chain(&beam.shared_end) {
+                if !self.is_part(&shared.value) {
+                    return question(format!(
+                        "beam `{}` shares a node of a part that is not reduced: reduce that part, too, or join them by a clamp",
+                        beam.name.value
+                    ));
+                }
+            }
+        }
+        let mut joints: BTreeSet<String> = BTreeSet::new();
+        let keep = |component: &Component, joints: &BTreeSet<String>| -> Result<bool, ReduceError> {
+            let nodes: Vec<&NodeReference> = match &component.attachment {
+                Attachment::TwoNodes { base, tip, .. } | Attachment::TwoPlaces { base, tip, .. } => {
+                    vec![&base.value, &tip.value]
+                }
+                Attachment::OneNode { on, .. } => vec![&on.value],
+                Attachment::Places(places) => places.iter().map(|(on, _)| &on.value).collect(),
+                Attachment::JointCoordinate { joint } => return Ok(joints.contains(&joint.value)),
+                Attachment::JointCoordinates { joint, other } => {
+                    return Ok(joints.contains(&joint.value) && joints.contains(&other.value));
+                }
+                Attachment::NamedCoordinates => {
+                    let names = component.signal.iter().flat_map(|(_, formula)| formula.value.arguments());
+                    let owners: Vec<String> =
+                        names.filter_map(|name| Some(name.text.rsplit_once('.')?.0.to_owned())).collect();
+                    return Ok(!owners.is_empty() && owners.iter().all(|owner| joints.contains(owner)));
+                }
+            };
+            Ok(matches!(self.touches(component, &nodes)?, Touches::Inside))
+        };
+        // Joints between nodes come before what acts on their coordinates.
+        for pass in [true, false] {
+            for component in &whole.joints {
+                let is_between = matches!(
+                    component.attachment,
+                    Attachment::TwoNodes { .. } | Attachment::TwoPlaces { .. }
+                );
+                if is_between == pass && keep(component, &joints)? {
+                    joints.insert(component.name.value.clone());
+                }
+            }
+        }
+        own.joints.retain(|component| joints.contains(&component.name.value));
+        let mut springs = Vec::new();
+        for component in &whole.springs {
+            if keep(component, &joints)? {
+                springs.push(component.clone());
+            }
+        }
+        own.springs = springs;
+        let mut loads = Vec::new();
+        for component in &whole.loads {
+            if keep(component, &joints)? {
+                loads.push(component.clone());
+            }
+        }
+        own.loads = loads;
+        let by_signal = own.springs.iter().chain(&own.loads).find(|component| component.signal.is_some());
+        if let Some(component) = by_signal {
+            return question(format!(
+                "`{}` acts by a signal, which a superelement does not hold: leave it out by `--unset`",
+                component.name.value
+            ));
+        }
+        Ok(own)
+    }
+}
+
+/// The files that describe the superelement.
+fn files(
+    request: &ReduceRequest,
+    (labels, places): (&[String], &[Vector3]),
+    matrices: &ReducedMatrices,
+) -> Vec<(String, String)> {
+    let name = &request.name;
+    let mut keys = vec![("mass", &matrices.mass), ("stiffness", &matrices.stiffness)];
+    if let Damping::Matrix(damping) = &matrices.damping {
+        keys.push(("damping", damping));
+    }
+    let mut files = Vec::new();
+    let mut text = format!(
+        "# {name}: reduced by `lissom reduce`. Copy the table into a model beside the files of its matrices, or include this file as\n\
+         # an entry of [parts]. Joints hold its interfaces as {}.\n\
+         lissom = 1\n\n[superelements.{name}]\ninterfaces = [\n",
+        labels.iter().map(|label| format!("\"{name}.{label}\"")).collect::<Vec<_>>().join(", ")
+    );
+    for (label, place) in labels.iter().zip(places) {
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "  {{ name = {}, at = [{:?}, {:?}, {:?}] }},",
+            quoted(label),
+            place.x,
+            place.y,
+            place.z
+        );
+    }
+    text += "]\n";
+    let size = matrices.mass.nrows();
+    let comment =
+        format!("six rows for each of {}, then {} modes", labels.join(", "), size - 6 * labels.len());
+    for (key, matrix) in keys {
+        let file = format!("{name}-{key}.mtx");
+        let _ = writeln!(text, "{key} = {}", quoted(&file));
+        files.push((
+            file,
+            full_matrix(&format!("{key} of {name}: {comment}"), [size, size], |i, j| matrix[(i, j)]),
+        ));
+    }
+    if !matrices.preload.is_empty() {
+        let file = format!("{name}-preload.mtx");
+        let _ = writeln!(text, "preload = {}", quoted(&file));
+        let column =
+            full_matrix(&format!("preload of {name}: {comment}"), [size, 1], |i, _| matrices.preload[i]);
+        files.push((file, column));
+    }
+    files.push((format!("{name}.toml"), text));
+    files
+}
+
+/// The matrices as arrays for NumPy.
+fn archive(
+    (labels, places): (&[String], &[Vector3]),
+    matrices: &ReducedMatrices,
+) -> std::io::Result<Vec<u8>> {
+    let size = matrices.mass.nrows();
+    // By rows is by columns: the matrices are symmetric.
+    let square = |values: &[f64]| npy::numbers(&[size, size], values);
+    let mut arrays = vec![
+        ("mass.npy", square(matrices.mass.as_slice())),
+        ("stiffness.npy", square(matrices.stiffness.as_slice())),
+    ];
+    if let Damping::Matrix(damping) = &matrices.damping {
+        arrays.push(("damping.npy", square(damping.as_slice())));
+    }
+    if !matrices.preload.is_empty() {
+        arrays.push(("preload.npy", npy::numbers(&[size], &matrices.preload)));
+    }
+    let flat: Vec<f64> = places.iter().flat_map(|place| place.iter().copied()).collect();
+    arrays.push(("interfaces.npy", npy::texts(labels)));
+    arrays.push(("places.npy", npy::numbers(&[places.len(), 3], &flat)));
+    let arrays: Vec<(&str, &[u8])> = arrays.iter().map(|(name, bytes)| (*name, bytes.as_slice())).collect();
+    crate::archive::zip(&arrays)
+}
+
+impl ReduceReport {
+    /// The facts of `summary.json`.
+    pub fn summary(&self, name: &str, overrides: &[Override], document: &Document) -> Summary {
+        let mut summary = crate::summary::of_request("reduce", name, overrides, document);
+        let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
+        let of_document = document.warnings.problems().map(|problem| json!(problem.message));
+        tell("stopped", json!("end"));
+        tell("interfaces", json!(self.interfaces));
+        tell("unknowns", json!(self.unknowns[0]));
+        tell("reduced_unknowns", json!(self.unknowns[1]));
+        tell("frequencies", json!(self.frequencies));
+        tell("mass", json!(self.mass));
+        tell("preloaded", json!(self.is_preloaded));
+        tell("files", self.files.iter().map(|(name, _)| json!(name)).collect());
+        tell("warnings", of_document.chain(self.warnings.iter().map(|words| json!(words))).collect());
+        tell("wall_seconds", json!(self.wall.as_secs_f64()));
+        summary
+    }
+}
