@@ -180,6 +180,58 @@ fn two_halves() -> ([Vector3; 2], ReducedMatrices) {
     (places, ReducedMatrices { mass, stiffness, damping: Damping::None, preload: Vec::new() })
 }
 
+/// Seen from a frame that moves on steadily, nothing is different: also for modes that carry momentum.
+#[test]
+fn a_steady_translation_changes_no_force() {
+    let mut random = Random::new(12);
+    let (places, mut matrices) = two_halves();
+    let size = 14;
+    for matrix in [&mut matrices.mass, &mut matrices.stiffness] {
+        *matrix = matrix.clone().resize(size, size, 0.0);
+        for k in 12..size {
+            matrix[(k, k)] = 1.5;
+        }
+    }
+    for row in 0..12 {
+        for mode in 12..size {
+            let coupling = 0.05 * random.number();
+            matrices.mass[(row, mode)] = coupling;
+            matrices.mass[(mode, row)] = coupling;
+        }
+    }
+    matrices.damping = Damping::OfStiffness(1e-3);
+    let interfaces = [0, 1].map(|k| InterfacePlace { name: format!("part.{k}"), place: places[k] });
+    let mut builder = Builder::new();
+    builder.set_gravity(random.vector());
+    let description = SuperelementDescription {
+        name: "part",
+        frame: random.motion(),
+        interfaces: &interfaces,
+        floating: 1,
+        matrices: matrices.check(&places).expect("good matrices"),
+    };
+    add_superelement(&mut builder, &description).expect("small enough");
+    let (system, state) = builder.build(0.0).expect("valid");
+    let here = Configuration::random(&system, &state, 0.2, &mut random);
+    let mut moved = Configuration::random(&system, &state, 0.2, &mut Random::new(9));
+    moved.at = here.at.clone();
+    let speed = Vector3::new(30.0, -20.0, 10.0);
+    for node in moved.at.nodes.iter_mut().skip(1) {
+        let own = node.frame.rotation.apply_inverse(&speed);
+        let spin = Vector3::new(node.twist[3], node.twist[4], node.twist[5]);
+        let turning = -spin.cross(&own);
+        for k in 0..3 {
+            node.twist[k] += own[k];
+            node.acceleration[k] += turning[k];
+        }
+    }
+    let (one, other) = (here.residual(&system, 0.0), moved.residual(&system, 0.0));
+    let largest = one.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+    for (one, other) in one.iter().zip(&other) {
+        assert!((one - other).abs() < 1e-11 * largest, "{one} at rest, {other} at speed");
+    }
+}
+
 #[test]
 fn matrices_that_are_those_of_no_free_part_are_refused() {
     let (places, good) = two_halves();

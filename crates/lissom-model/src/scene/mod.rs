@@ -69,7 +69,7 @@ pub struct Scene {
     pub point_masses: Vec<PointMass>,
     /// Beams.
     pub beams: Vec<Beam>,
-    /// Joints and drives.
+    /// Joints and drives, and superelements, which hold their interfaces.
     pub joints: Vec<Joint>,
     /// Springs.
     pub springs: Vec<Spring>,
@@ -112,7 +112,9 @@ impl Scene {
     pub fn of(document: &Document, lowered: &Lowered) -> Self {
         let places = Places { lowered };
         let (mut symbols, mut rods) = symbols::symbols(document, &places);
-        let (interfaces, lines) = superelements::superelements(document, &places);
+        let (listed, interfaces, lines) = superelements::superelements(document, &places);
+        let mut joints = connections::joints(document, &places);
+        joints.extend(listed);
         symbols.extend(interfaces);
         rods.extend(lines);
         Self {
@@ -126,7 +128,7 @@ impl Scene {
             bodies: parts::bodies(document, &places),
             point_masses: parts::point_masses(document, &places),
             beams: parts::beams(document, &places),
-            joints: connections::joints(document, &places),
+            joints,
             springs: connections::springs(document, &places),
             loads: connections::loads(document, &places),
             beam_loads: connections::beam_loads(document, &places),

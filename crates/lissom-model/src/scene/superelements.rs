@@ -4,16 +4,24 @@ use lissom_motion::Vector3;
 
 use super::solids::{Axes, Tone};
 use super::symbols::{Rod, Symbol};
-use super::{Anchor, Places};
+use super::{Anchor, Joint, Places};
 use crate::document::Document;
 
-/// Symbols of the interfaces, and the lines between them.
-pub(super) fn superelements(document: &Document, places: &Places<'_>) -> (Vec<Symbol>, Vec<Rod>) {
-    let (mut symbols, mut rods) = (Vec::new(), Vec::new());
+/// What they are listed as, symbols of the interfaces, and the lines between them.
+pub(super) fn superelements(document: &Document, places: &Places<'_>) -> (Vec<Joint>, Vec<Symbol>, Vec<Rod>) {
+    let (mut joints, mut symbols, mut rods) = (Vec::new(), Vec::new(), Vec::new());
     let axes = Axes::of(&Vector3::x(), None);
     for element in &document.superelements {
         let name = &element.name.value;
         let Some(nodes) = places.lowered.names.superelements.get(name) else { continue };
+        joints.push(Joint {
+            name: name.clone(),
+            kind: "superelement".to_owned(),
+            parts: Vec::new(),
+            anchors: None,
+            axes: Vec::new(),
+            joint: None,
+        });
         let anchors: Vec<Anchor> = nodes.iter().map(|&node| Anchor { node, position: [0.0; 3] }).collect();
         for (index, &anchor) in anchors.iter().enumerate() {
             let is_floating = index == element.floating;
@@ -28,5 +36,5 @@ pub(super) fn superelements(document: &Document, places: &Places<'_>) -> (Vec<Sy
             }
         }
     }
-    (symbols, rods)
+    (joints, symbols, rods)
 }

@@ -27,9 +27,9 @@ impl Map {
         self.keeps_modes = keeps_modes;
     }
 
-    fn push(&mut self, own: Matrix6, frame: Matrix6) {
-        self.own.push(own);
-        self.frame.push(frame);
+    fn push(&mut self, own: &Matrix6, frame: &Matrix6) {
+        self.own.push(*own);
+        self.frame.push(*frame);
     }
 
     /// The matrix times this map.
@@ -149,8 +149,8 @@ impl Maps {
             let (speed, turning) =
                 (skew(&three(&room.velocity, 6 * i)), skew(&three(&room.velocity, 6 * i + 3)));
             if i == of.frame {
-                self.displacement.push(Matrix6::zeros(), Matrix6::zeros());
-                self.rate.push(Matrix6::zeros(), Matrix6::zeros());
+                self.displacement.push(&Matrix6::zeros(), &Matrix6::zeros());
+                self.rate.push(&Matrix6::zeros(), &Matrix6::zeros());
             } else {
                 let inverse = room.inverse_tangents[i];
                 let angles = three(&room.displacement, 6 * i + 3);
@@ -166,22 +166,22 @@ impl Maps {
                     (spin, speed - spin * arm),
                     (zero, -bent * inverse * turn.transpose() + inverse * turn.transpose() * spin),
                 );
-                self.displacement.push(own, by_frame);
-                self.rate.push(rate_own, rate_frame);
+                self.displacement.push(&own, &by_frame);
+                self.rate.push(&rate_own, &rate_frame);
             }
-            self.velocity.push(blocks((turn, zero), (zero, turn)), Matrix6::zeros());
+            self.velocity.push(&blocks((turn, zero), (zero, turn)), &Matrix6::zeros());
             let turned = (-turn * skew(&v), -turn * skew(&w));
             self.velocity_by_place
-                .push(blocks((zero, turned.0), (zero, turned.1)), blocks((zero, speed), (zero, turning)));
+                .push(&blocks((zero, turned.0), (zero, turned.1)), &blocks((zero, speed), (zero, turning)));
             self.acceleration_by_twist.push(
-                blocks((turn * skew(&w) - spin * turn, turned.0), (zero, -spin * turn)),
-                blocks((zero, speed), (zero, turning)),
+                &blocks((turn * skew(&w) - spin * turn, turned.0), (zero, -spin * turn)),
+                &blocks((zero, speed), (zero, turning)),
             );
             let [linear, angular] = room.own_accelerations[i].map(|own| skew(&own));
             // E ã = (E a)~ E.
             self.acceleration_by_place.push(
-                blocks((zero, -linear * turn - spin * turned.0), (zero, -angular * turn - spin * turned.1)),
-                blocks((zero, linear - spin * speed), (zero, angular - spin * turning)),
+                &blocks((zero, -linear * turn - spin * turned.0), (zero, -angular * turn - spin * turned.1)),
+                &blocks((zero, linear - spin * speed), (zero, angular - spin * turning)),
             );
         }
     }
@@ -191,7 +191,7 @@ impl Maps {
         self.velocity.begin(true);
         let zero = Matrix3::zeros();
         for turn in &room.turns {
-            self.velocity.push(blocks((*turn, zero), (zero, *turn)), Matrix6::zeros());
+            self.velocity.push(&blocks((*turn, zero), (zero, *turn)), &Matrix6::zeros());
         }
         out.clear();
         out.resize(of.size() * of.size(), 0.0);
@@ -213,7 +213,6 @@ impl Maps {
         }
         self.displacement.add_before(&self.first, frame, &mut out.stiffness);
         geometric(of, room, &mut out.stiffness);
-        self.add_weight(of, room, &mut out.stiffness);
         // Inertia.
         self.velocity.after(&of.mass, frame, &mut self.first);
         self.velocity.add_before(&self.first, frame, &mut out.mass);
@@ -269,46 +268,6 @@ impl Maps {
             for column in 0..size {
                 out[(6 * frame + 3 + k) * size + column] += self.on_frame[(k, column)];
             }
-        }
-    }
-
-    /// Adds the derivatives of the weight by place: ĝ = R_fᵀ g turns with the floating frame.
-    fn add_weight(&mut self, of: &Superelement, room: &Room, out: &mut [f64]) {
-        let size = of.size();
-        let gravity = skew(&room.gravity);
-        if room.gravity == Vector3::zeros() {
-            return;
-        }
-        // Of the forces conjugate to u, -Gᵀ ĝ, by the rotation of the frame; its transpose is what u does to the moment.
-        self.carry(of);
-        let carried = &self.on_frame;
-        for column in 0..size {
-            let weight =
-                gravity * Vector3::new(carried[(0, column)], carried[(1, column)], carried[(2, column)]);
-            for k in 0..3 {
-                out[(6 * of.frame + 3 + k) * size + column] += weight[k];
-                out[column * size + 6 * of.frame + 3 + k] += weight[k];
-            }
-        }
-        let moment = of.carried_moment(&room.displacement);
-        add_block(out, size, (6 * of.frame, 6 * of.frame + 3), &(-of.total * gravity));
-        add_block(out, size, (6 * of.frame + 3, 6 * of.frame + 3), &(-skew(&moment) * gravity));
-    }
-
-    /// Leaves G ∂u/∂ place where the rows of the floating frame are.
-    fn carry(&mut self, of: &Superelement) {
-        make_room(&mut self.on_frame, 3, of.size());
-        let carried = &mut self.on_frame;
-        for i in 0..of.nodes.len() {
-            let columns = of.carried.fixed_columns::<6>(6 * i);
-            for (first, map) in
-                [(6 * i, &self.displacement.own[i]), (6 * of.frame, &self.displacement.frame[i])]
-            {
-                add_to(carried, (0, first), &(columns * map));
-            }
-        }
-        for k in 6 * of.nodes.len()..of.size() {
-            carried.set_column(k, &of.carried.column(k));
         }
     }
 }

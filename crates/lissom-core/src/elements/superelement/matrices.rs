@@ -79,7 +79,7 @@ pub(super) fn rigid_motion(mass: &DMatrix<f64>, places: &[Vector3]) -> RigidMoti
     let turning = Matrix3::from_fn(|i, j| entry(i, 3 + j));
     let moment = -axial(&turning);
     let length = (0..3).map(|k| entry(3 + k, 3 + k)).fold(0.0, f64::max) / total;
-    let isotropy = Matrix3::from_fn(|i, j| entry(i, j)) - Matrix3::from_diagonal_element(total);
+    let isotropy = Matrix3::from_fn(&entry) - Matrix3::from_diagonal_element(total);
     let skewness = turning + skew(&moment);
     let error =
         (isotropy.amax() / total).max(skewness.amax() / (total * length.sqrt().max(f64::MIN_POSITIVE)));

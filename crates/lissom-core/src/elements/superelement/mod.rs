@@ -6,16 +6,18 @@
 //!
 //! ```text
 //! u = (r_i - X_i + X_f,  log E_i,  q),        r_i = R_fᵀ (x_i - x_f)                elastic energy  f₀·u + ½ u·K u
-//! η = (E_i v_i,  E_i ω_i,  q̇),                v_i, ω_i twist in the node's axes     kinetic energy  ½ η·M η
-//! weight: -g·(m x_f + R_f (m c + G u)),       G = Tᵀ M, T translations
+//! η = (E_i v_i,  E_i ω_i,  q̇),      v_i, ω_i twist in the node's axes    kinetic energy  ½ η·(M - GᵀG/m) η + ½ m |ẋ_c|²
+//! G = Tᵀ M,  T translations,  x_c centre of mass as G u displaces it (see `centre`)       weight  -m g·x_c
 //! ```
 //!
 //! Interfaces are nodes and modal coordinates are coordinates: there is no further constraint. With matrices that know the
 //! rigid motions the inertia of a rigid motion is exact. K acts on the relative motion alone, so that nothing changes when
-//! the element moves rigidly. What turns with the frame of the kinetic energy are the interfaces' velocities; displacements
-//! of the modal coordinates have no lever of their own.
+//! the element moves rigidly. What is left out is of the square of the rate of rotation over the frequencies of the modes.
 //!
-//! With p = M η, the equations of motion of the kinetic energy in body axes (Poincaré's) are
+//! Without the second term of the kinetic energy a part that moves fast and turns would be bent by that: η counts in turning
+//! axes, and displacements of modal coordinates do not turn with them.
+//!
+//! With p = (M - GᵀG/m) η, the equations of motion of the kinetic energy in body axes (Poincaré's) are
 //!
 //! ```text
 //! force on i   E_iᵀ (ṗ_i + ω_f × p_i),     moment on i   E_iᵀ (ṗ_i + (ω_f - E_i ω_i) × p_i),     on q   ṗ_q
@@ -23,6 +25,7 @@
 //! ```
 
 mod build;
+mod centre;
 mod linearize;
 mod matrices;
 mod room;
@@ -34,6 +37,7 @@ use lissom_motion::Vector3;
 use nalgebra::{DMatrix, DVector, Matrix3xX};
 
 pub use self::build::{InterfacePlace, SuperelementDescription, add_superelement};
+use self::centre::{Centre, Derivatives};
 use self::linearize::Maps;
 pub use self::matrices::{Damping, ReducedMatrices};
 use self::matrices::{RigidMotion, rigid_motion};
@@ -57,6 +61,7 @@ pub struct Superelement {
     frame: usize,
     /// X_i - X_f [m].
     places: Vec<Vector3>,
+    /// M less GᵀG/m.
     mass: DMatrix<f64>,
     stiffness: DMatrix<f64>,
     damping: Option<DMatrix<f64>>,
@@ -75,7 +80,9 @@ pub struct Superelement {
 struct Rooms {
     own: Room,
     stages: [Room; STAGES],
+    centre: Centre,
     maps: Maps,
+    derivatives: Derivatives,
 }
 
 thread_local! {
@@ -100,6 +107,8 @@ impl Superelement {
             Damping::OfStiffness(time) => Some(&stiffness * time),
         };
         let size = mass.nrows();
+        // What is left of the mass without that of the centre sees no translation.
+        let mass = mass - carried.tr_mul(&carried) / total;
         let preload = if preload.is_empty() { DVector::zeros(size) } else { DVector::from_vec(preload) };
         Self {
             nodes,
@@ -121,22 +130,13 @@ impl Superelement {
         6 * self.nodes.len() + self.coordinates.len()
     }
 
-    /// K u + D u̇ + f₀ - Gᵀ R_fᵀ g.
+    /// K u + D u̇ + f₀.
     fn stress(&self, room: &mut Room) {
         room.stress.copy_from_slice(self.preload.as_slice());
         product(&self.stiffness, &room.displacement, &mut room.stress);
         if let Some(damping) = &self.damping {
             product(damping, &room.rate, &mut room.stress);
         }
-        for (stress, column) in room.stress.iter_mut().zip(self.carried.column_iter()) {
-            *stress -= column.dot(&room.gravity);
-        }
-    }
-
-    /// m c + G u [kg m].
-    fn carried_moment(&self, displacement: &[f64]) -> Vector3 {
-        let columns = self.carried.column_iter().zip(displacement);
-        columns.fold(self.moment, |sum, (column, value)| sum + column * *value)
     }
 
     /// Adds forces that are conjugate to u: by the transposed gradient of u.
@@ -158,8 +158,8 @@ impl Superelement {
     }
 
     /// Adds what inertia and weight need besides the forces conjugate to u.
-    fn add_inertia(&self, room: &Room, out: &mut [f64]) {
-        let mut on_frame = -self.carried_moment(&room.displacement).cross(&room.gravity);
+    fn add_inertia(&self, room: &Room, centre: &Centre, out: &mut [f64]) {
+        let mut on_frame = Vector3::zeros();
         for i in 0..self.nodes.len() {
             let (p, l) = (three(&room.momentum, 6 * i), three(&room.momentum, 6 * i + 3));
             let (v, w) = (three(&room.velocity, 6 * i), three(&room.velocity, 6 * i + 3));
@@ -168,11 +168,11 @@ impl Superelement {
             add(out, 6 * i + 3, &room.turns[i].tr_mul(&moment));
             on_frame += v.cross(&p) + w.cross(&l);
         }
-        add(out, 6 * self.frame, &(-self.total * room.gravity));
         add(out, 6 * self.frame + 3, &on_frame);
         for k in 6 * self.nodes.len()..self.size() {
             out[k] += room.inertia[k];
         }
+        centre.add_forces(self.total, out);
     }
 
     /// Momentum, and the inertial forces before they are turned.
@@ -211,17 +211,20 @@ impl Element for Superelement {
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
-        ROOMS.with_borrow_mut(|Rooms { own: room, .. }| {
+        ROOMS.with_borrow_mut(|Rooms { own: room, centre, .. }| {
             room.enter(self, at);
+            centre.enter(self, at);
             self.stress(room);
             self.momenta(room);
             self.add_conjugate(room, &room.stress, out);
-            self.add_inertia(room, out);
+            self.add_inertia(room, centre, out);
         });
     }
 
     fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
-        ROOMS.with_borrow_mut(|Rooms { own, stages, .. }| self.add_stage_forces(step, own, stages, out));
+        ROOMS.with_borrow_mut(|Rooms { own, stages, centre, .. }| {
+            self.add_stage_forces(step, (own, stages, centre), out);
+        });
     }
 
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
@@ -229,36 +232,42 @@ impl Element for Superelement {
     }
 
     fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
-        ROOMS.with_borrow_mut(|Rooms { own, stages: [other, _], maps }| {
+        ROOMS.with_borrow_mut(|Rooms { own, stages: [other, _], centre, maps, derivatives }| {
             other.enter(self, stressed);
             self.stress(other);
             own.enter(self, at);
             own.stress.copy_from_slice(&other.stress);
             self.momenta(own);
             maps.add_tangents(self, own, out);
+            centre.enter(self, at);
+            centre.add_tangents(self, derivatives, out);
         });
     }
 
     fn mass(&self, at: &Kinematics, out: &mut Vec<f64>) {
-        ROOMS.with_borrow_mut(|Rooms { own, maps, .. }| {
+        ROOMS.with_borrow_mut(|Rooms { own, centre, maps, .. }| {
             own.enter(self, at);
             maps.mass(self, own, out);
+            centre.enter(self, at);
+            centre.add_mass(self.total, out);
         });
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
-        ROOMS.with_borrow_mut(|Rooms { own: room, .. }| {
+        ROOMS.with_borrow_mut(|Rooms { own: room, centre, .. }| {
             room.enter(self, at);
+            centre.enter(self, at);
             self.momenta(room);
             let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-            let kinetic = 0.5 * dot(&room.velocity, &room.momentum);
+            let of_centre = self.total * centre.velocity().norm_squared();
+            let kinetic = 0.5 * (dot(&room.velocity, &room.momentum) + of_centre);
             room.stress.fill(0.0);
             product(&self.stiffness, &room.displacement, &mut room.stress);
             let strain = 0.5 * dot(&room.stress, &room.displacement)
                 + dot(self.preload.as_slice(), &room.displacement);
             let node = &at.nodes[self.nodes[self.frame]].frame;
-            let moment = node.rotation.apply(&self.carried_moment(&room.displacement));
-            let potential = -self.gravity.acceleration.dot(&(self.total * node.position + moment));
+            let place = node.position + node.rotation.apply(&centre.place());
+            let potential = -self.total * self.gravity.acceleration.dot(&place);
             Energy { kinetic, strain, potential }
         })
     }

@@ -37,8 +37,6 @@ pub(super) struct Room {
     pub(super) stress: Vec<f64>,
     /// Twist of the floating frame: velocity and angular velocity.
     pub(super) twist: [Vector3; 2],
-    /// R_fᵀ g, as much of it as acts [m/s²].
-    pub(super) gravity: Vector3,
 }
 
 impl Room {
@@ -60,7 +58,6 @@ impl Room {
         let base = &at.nodes[of.nodes[of.frame]];
         let (velocity, spin) = split(&base.twist);
         self.twist = [velocity, spin];
-        self.gravity = base.frame.rotation.apply_inverse(&of.gravity.at(at.time));
         self.turns.clear();
         self.arms.clear();
         self.inverse_tangents.clear();

@@ -5,7 +5,7 @@
 use lissom_motion::{Vector3, rotation_inverse_tangent, rotation_part};
 
 use super::room::{Room, product};
-use super::{Superelement, three};
+use super::{Centre, Superelement, three};
 use crate::elements::step_stages::{STAGES, StepStages, above_round_off};
 
 /// What rates miss of u is noise below this part of the way that the element comes.
@@ -18,8 +18,7 @@ impl Superelement {
     pub(super) fn add_stage_forces(
         &self,
         step: &StepStages<'_>,
-        start: &mut Room,
-        stages: &mut [Room; STAGES],
+        (start, stages, centre): (&mut Room, &mut [Room; STAGES], &mut Centre),
         out: &mut [&mut [f64]; STAGES],
     ) {
         for (room, at) in stages.iter_mut().zip(step.stages) {
@@ -46,7 +45,7 @@ impl Superelement {
             (start.velocity[row], start.acceleration[row]) = (rates[0], rates[1]);
         }
         let rates = [&start.velocity, &start.acceleration];
-        for ((room, rates), out) in stages.iter_mut().zip(rates).zip(out) {
+        for (((room, rates), at), out) in stages.iter_mut().zip(rates).zip(step.stages).zip(out) {
             room.stress.copy_from_slice(self.preload.as_slice());
             product(&self.stiffness, &room.displacement, &mut room.stress);
             if let Some(damping) = &self.damping {
@@ -58,11 +57,9 @@ impl Superelement {
             for (stress, weighted) in room.stress.iter_mut().zip(self.weighted(&room.rate)) {
                 *stress += factor * weighted;
             }
-            for (stress, column) in room.stress.iter_mut().zip(self.carried.column_iter()) {
-                *stress -= column.dot(&room.gravity);
-            }
             self.add_conjugate(room, &room.stress, out);
-            self.add_inertia(room, out);
+            centre.enter(self, at);
+            self.add_inertia(room, centre, out);
         }
     }
 
