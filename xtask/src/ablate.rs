@@ -1,38 +1,22 @@
-//! `cargo xtask ablate`: leaves out one mechanism of the search for a step's solution at a time, over all scenes, examples
-//! and verification models, and prints what that costs. A mechanism without which nothing fails and nothing becomes
+//! `cargo xtask ablate`: leaves out one mechanism of the search for a step's solution at a time, over all scenes, examples,
+//! verification models and random mechanisms, and prints what that costs. A mechanism without which nothing fails and nothing becomes
 //! dearer is to go. Knows no mechanics.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
-use std::path::Path;
 
 use lissom::core::mechanisms::MECHANISMS;
-use lissom::{Model, Override, Session};
-use lissom_model::document::AnalysisKind;
+use lissom::{Override, Session};
 
 use crate::AblateArguments;
 use crate::bench::processor_time;
-use crate::case::Case;
-use crate::scenes;
-use crate::verify::{self, VerifyError, root};
+use crate::subjects::{self, Subject};
+use crate::verify::VerifyError;
 
-/// Schemes that scenes are run with beside their own.
-const FURTHER_SCHEMES: [&str; 2] = ["radau-iia", "energy-decaying"];
-/// How much longer than a scene's own the steps are that are tried as well: those that resolve little are hard.
-const LONGER: [f64; 2] = [10.0, 50.0];
 /// Outputs below this are nothing [m, rad, ...].
 const NOTHING: f64 = 1e-6;
-/// Scenes that every scheme and longer steps are tried on: the others take long.
-const SHORT: [&str; 6] = ["chain-s-10", "chain-r-10", "soft-beam-8", "tip-crank-1e-3", "rotor", "andrews"];
 /// Tolerance of the runs that others are compared with.
 const FINE: &str = "1e-11";
-
-/// A model that is run again and again.
-struct Subject {
-    name: String,
-    model: Model,
-    overrides: Vec<Override>,
-}
 
 /// What a run came to.
 struct Finished {
@@ -47,7 +31,10 @@ struct Finished {
 
 /// Runs everything with everything, then without each mechanism, and prints the table.
 pub(crate) fn ablate(arguments: &AblateArguments) -> Result<bool, VerifyError> {
-    let mut subjects = subjects()?;
+    let mut subjects = subjects::with_further_schemes();
+    subjects.extend(subjects::examples()?);
+    subjects.extend(subjects::cases()?);
+    subjects.extend(subjects::hard_random(arguments.random));
     if !arguments.names.is_empty() {
         subjects.retain(|subject| arguments.names.iter().any(|name| subject.name.contains(name.as_str())));
     }
@@ -176,79 +163,4 @@ fn run_once(subject: &Subject, further: &[Override]) -> Finished {
         seconds: busy.as_secs_f64(),
         values,
     }
-}
-
-/// Scenes with their own and with further schemes, examples, and the models of the verification.
-fn subjects() -> Result<Vec<Subject>, VerifyError> {
-    let mut all = Vec::new();
-    for name in scenes::KEPT {
-        let Some(scene) = scenes::scene(name) else { continue };
-        let add = |all: &mut Vec<Subject>, scheme: Option<&str>| {
-            let text = match scheme {
-                None => scene.text.clone(),
-                Some(scheme) => scene.text.replace(
-                    "scheme = \"generalized-alpha\"\nspectral_radius = 0.8",
-                    &format!("scheme = \"{scheme}\""),
-                ),
-            };
-            let name = scheme.map_or((*name).to_owned(), |scheme| format!("{name} {scheme}"));
-            let model = Model::from_text(&name, &text);
-            if SHORT.contains(&scene.name.as_str()) {
-                for longer in LONGER {
-                    all.extend(with_longer_steps(&name, &model, longer));
-                }
-            }
-            all.push(Subject { model, name, overrides: Vec::new() });
-        };
-        add(&mut all, None);
-        if SHORT.contains(name) {
-            for scheme in FURTHER_SCHEMES {
-                add(&mut all, Some(scheme));
-            }
-        }
-    }
-    let root = root();
-    for path in files(&root.join("examples"))? {
-        let name = path.file_stem().map_or_else(String::new, |stem| format!("example {}", stem.display()));
-        if let Ok(model) = Model::read(&path) {
-            all.push(Subject { name, model, overrides: Vec::new() });
-        }
-    }
-    for folder in verify::folders(&root.join("verification"))? {
-        let case = Case::read(&folder)?;
-        if case.needs.is_some() || case.open.is_some() || !case.quick {
-            continue;
-        }
-        for (name, run) in &case.runs {
-            let model = run.model(&case.folder)?;
-            let overrides = run.overrides(&std::collections::BTreeMap::new());
-            let Ok(document) = model.document(&overrides) else { continue };
-            if matches!(document.analysis.kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. })
-            {
-                all.push(Subject { name: format!("{} {name}", case.name), model, overrides });
-            }
-        }
-    }
-    Ok(all)
-}
-
-/// The same model with steps that are so many times as long, each of them recorded.
-fn with_longer_steps(name: &str, model: &Model, longer: f64) -> Option<Subject> {
-    let document = model.document(&[]).ok()?;
-    let AnalysisKind::Dynamics { step, .. } = document.analysis.kind else { return None };
-    let set = |path: &str, value: String| (format!("analysis.{path}"), value);
-    let overrides =
-        vec![set("step", format!("{:e}", longer * step.value)), set("output_every", "1".to_owned())];
-    Some(Subject { name: format!("{name} x{longer}"), model: model.clone(), overrides })
-}
-
-/// Model files of a folder, in order.
-fn files(folder: &Path) -> Result<Vec<std::path::PathBuf>, VerifyError> {
-    let entries = std::fs::read_dir(folder).map_err(VerifyError::file(folder))?;
-    let mut files: Vec<_> = entries
-        .filter_map(|entry| entry.ok().map(|entry| entry.path()))
-        .filter(|path| path.extension().is_some_and(|ending| ending == "toml"))
-        .collect();
-    files.sort();
-    Ok(files)
 }

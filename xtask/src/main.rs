@@ -8,6 +8,7 @@ mod case;
 mod compare;
 mod count;
 mod curves;
+mod defaults;
 mod digits;
 mod formula;
 mod invariants;
@@ -20,6 +21,7 @@ mod report;
 mod runs;
 mod scenes;
 mod stale;
+mod subjects;
 mod transform;
 mod verify;
 mod warnings;
@@ -60,6 +62,8 @@ enum Chore {
     Bench(BenchArguments),
     /// Leave out one mechanism of the search for a step's solution at a time and print what that costs
     Ablate(AblateArguments),
+    /// Run scenes, examples and random mechanisms with every scheme and tolerance, and print what each errs and costs
+    Defaults(defaults::DefaultsArguments),
     /// Write the reference of the model file, and the types of its entries for models built in Rust and Python
     Reference {
         /// Write nothing; tell whether it is old
@@ -143,6 +147,9 @@ struct AblateArguments {
     /// Runs of each model, of which the fastest counts
     #[arg(long, default_value_t = 1)]
     repeat: usize,
+    /// Random mechanisms to run beside
+    #[arg(long, default_value_t = 0)]
+    random: u64,
 }
 
 /// What is verified.
@@ -184,6 +191,7 @@ fn main() -> ExitCode {
         Chore::Steps { name } => count::steps(&name).map(|()| true).map_err(|error| error.to_string()),
         Chore::Bench(arguments) => bench::bench(&arguments).map(|()| true).map_err(|error| error.to_string()),
         Chore::Ablate(arguments) => ablate::ablate(&arguments).map_err(|error| error.to_string()),
+        Chore::Defaults(arguments) => defaults::defaults(&arguments).map_err(|error| error.to_string()),
         Chore::Reference { check } => reference::reference(check).map_err(|error| error.to_string()),
         Chore::Random(arguments) => random::random(&arguments).map_err(|error| error.to_string()),
         Chore::Figures(arguments) => book::figures(&arguments).map_err(|error| error.to_string()),

@@ -47,6 +47,11 @@ pub(crate) struct RandomArguments {
     verbose: bool,
 }
 
+/// The text of a mechanism.
+pub(crate) fn text(seed: u64, index: u64) -> String {
+    mechanism(seed, index).text()
+}
+
 /// Tries mechanisms; whether none ended well with a wrong answer.
 ///
 /// # Errors
