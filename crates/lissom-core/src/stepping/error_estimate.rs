@@ -7,13 +7,14 @@
 //!
 //! ```text
 //! m_n = z - z_predicted = O(h³)
-//! third order:   e = κ m_n,                             ε = |J⁻¹ w₂ M e| / (reference · τ/10)
+//! third order:   e = κ m_n,                             ε = |J⁻¹ w₂ M e| / (reference · τ^(3/2)/2)
 //! fourth order:  e = (m_n - r³ m_{n-1}) 4/(1 + 3/r),    ε = (|J⁻¹ w₂ M e| / (reference · τ^(4/3)/2))^(3/4)
 //! ```
 //!
-//! Schemes of second order err in the third order, and are judged so, as is a first step and one behind a kink or a
-//! switch. Schemes of third order err in the fourth: what a step has missed beyond what the one before lets expect is that,
-//! brought to steps of one size by its last factor. Places then err in proportion to h³ at the end of a run, and so to τ.
+//! Schemes of second order err in the third order, schemes of third order in the fourth: what a step has missed beyond what
+//! the one before lets expect is that, brought to steps of one size by its last factor. Where N steps of size h = 1/N err by
+//! h³ or h⁴ each, places at the end err by h² or h³, and so by τ, with every scheme. A first step of a scheme of third
+//! order, and one behind a kink or a switch, has only the estimate of third order; it may be a tenth of τ.
 //! The filter is that of [Hairer and Wanner 1996, IV.8]. The norm is the largest entry, lengths in ℓ_r. The reference is how
 //! far any node has moved or turned since the start, or a drive will have within the longest step, at most 1.
 

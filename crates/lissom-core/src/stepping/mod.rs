@@ -43,11 +43,11 @@ use load_steps::Attempts;
 
 /// Attempts at a step that are given up before the step is.
 const MOST_REJECTED: usize = 60;
-/// Part of the tolerance that a single step may use up, so that errors at the end of a run are near the tolerance.
-const SHARE_OF_STEP: f64 = 0.1;
-/// The same of estimates of fourth order, whose tolerance is taken to the power of 4/3: with 1 errors at the end are the
-/// tolerance, with a half they stay below it.
-const SHARE_OF_FOURTH: f64 = 0.5;
+/// What a single step may err, over the tolerance to the power at which errors at the end are in proportion to it: with 1
+/// they are about the tolerance, with a half nine in ten stay below it.
+const SHARE_OF_STEP: f64 = 0.5;
+/// Part of the tolerance that a step may err whose estimate is of a lower order than its scheme: there are few of them.
+const SHARE_OF_FIRST: f64 = 0.1;
 /// A node may turn by so much in a step of controlled size: what it turns further cannot be told from less [rad].
 const LARGEST_TURN: f64 = 1.0;
 /// Where parts of a planned step as short as this have no solution either, a smaller step hardly helps [-].
@@ -419,16 +419,17 @@ impl Simulation {
             let ahead = (self.origin.time, self.next.kinematics.time + max_step);
             reference = reference.max(driven(&self.system, ahead, self.representative.length));
         }
-        let is_fourth = self.settings.scheme.stages.len() == 2 && self.work.is_miss_known();
-        let order = if is_fourth { Order::Fourth } else { Order::Third };
+        let is_third_order = self.settings.scheme.stages.len() == 2;
+        let order = if is_third_order && self.work.is_miss_known() { Order::Fourth } else { Order::Third };
         self.estimate_error(order);
         let work = &*self.work;
         let largest = work.filtered.iter().zip(&work.sizes).fold(0.0_f64, |most, (error, size)| {
             if (error * size).abs() <= most { most } else { (error * size).abs() }
         });
         let (allowed, power) = match order {
-            Order::Third => (SHARE_OF_STEP * tolerance, 1.0),
-            Order::Fourth => (SHARE_OF_FOURTH * tolerance.powf(4.0 / 3.0), 3.0 / 4.0),
+            Order::Third if is_third_order => (SHARE_OF_FIRST * tolerance, 1.0),
+            Order::Third => (SHARE_OF_STEP * tolerance.powf(3.0 / 2.0), 1.0),
+            Order::Fourth => (SHARE_OF_STEP * tolerance.powf(4.0 / 3.0), 3.0 / 4.0),
         };
         let places = largest / (reference * allowed).max(SMALLEST_ERROR);
         let states = self.error_of_states() / allowed;
