@@ -98,7 +98,7 @@ pub enum Warning {
     },
     /// Steps of planned size do not resolve the motion.
     #[error(
-        "the steps are too long for the motion: from t = {time:.6e} s on they are estimated to miss more than 1 % of how far \
+        "the steps are too long for the motion: from t = {time:.6e} s on they are estimated to miss more than 0.3 % of how far \
          the model moves, {:.2} % in the end, most in the {unknown}; take smaller steps, or set `relative_tolerance` \
          instead of `step`", 100.0 * error
     )]

@@ -31,8 +31,9 @@ const OSCILLATION: f64 = 1.0 / 12.0;
 const MEAN_COSINE: f64 = std::f64::consts::FRAC_2_PI;
 /// Most that an oscillation errs, in amplitudes.
 const MOST: f64 = 8.0;
-/// Errors beyond this part of how far the model moves are told.
-const NOTEWORTHY: f64 = 0.01;
+/// Estimates beyond this part of how far the model moves are told: where motions amplify errors, those at the end are several
+/// times the estimate, and 1 % of error would pass untold with 1 % here.
+const NOTEWORTHY: f64 = 0.003;
 
 /// What is known of one unknown [scaled].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
