@@ -11,6 +11,7 @@ mod curves;
 mod defaults;
 mod digits;
 mod formula;
+mod fuzz;
 mod invariants;
 mod outcome;
 mod peers;
@@ -72,6 +73,8 @@ enum Chore {
     },
     /// Try random mechanisms with several schemes and steps against each other
     Random(random::RandomArguments),
+    /// Read model files that are damaged by chance: each is read or refused with a line
+    Fuzz(fuzz::FuzzArguments),
     /// Make the tables and figures of the book in docs/ anew
     Figures(FiguresArguments),
 }
@@ -194,6 +197,7 @@ fn main() -> ExitCode {
         Chore::Defaults(arguments) => defaults::defaults(&arguments).map_err(|error| error.to_string()),
         Chore::Reference { check } => reference::reference(check).map_err(|error| error.to_string()),
         Chore::Random(arguments) => random::random(&arguments).map_err(|error| error.to_string()),
+        Chore::Fuzz(arguments) => fuzz::fuzz(&arguments).map_err(|error| error.to_string()),
         Chore::Figures(arguments) => book::figures(&arguments).map_err(|error| error.to_string()),
     };
     match outcome {

@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
+import threading
 import time
 
 import pytest
@@ -64,6 +65,9 @@ else:
 print(len(lissom.load({PENDULUM!r}, **{{"analysis.end": 0.1}}).run().time), flush=True)
 """
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    # What hangs is killed, so that nothing is read from it any more and the test fails.
+    timer = threading.Timer(120, child.kill)
+    timer.start()
     assert child.stdout is not None and child.stdout.readline() == "begun\n"
     time.sleep(0.3)
     child.send_signal(signal.SIGINT)
@@ -72,4 +76,5 @@ print(len(lissom.load({PENDULUM!r}, **{{"analysis.end": 0.1}}).run().time), flus
     assert child.stdout.readline() == "interrupted\n" and time.monotonic() - began < 10
     # What was begun then ends unseen: no processor is busy with it any more.
     output, errors = child.communicate(timeout=100)
+    timer.cancel()
     assert output == "11\n" and child.returncode == 0, errors

@@ -148,8 +148,12 @@ except KeyboardInterrupt:
     print("interrupted", flush=True)
 """
     child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+    # What hangs is killed, so that nothing is read from it any more and the test fails.
+    timer = threading.Timer(60, child.kill)
+    timer.start()
     assert child.stdout is not None and child.stdout.readline() == "begun\n"
     time.sleep(0.3)
     child.send_signal(signal.SIGINT)
     output, _ = child.communicate(timeout=30)
+    timer.cancel()
     assert output == "interrupted\n" and child.returncode == 0

@@ -2,9 +2,9 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 use std::thread::sleep;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use serde_json::Value;
 
@@ -61,6 +61,20 @@ fn started_with_plots(model: &str, more: &[&str], out: &Path) -> Command {
     command
 }
 
+/// Runs to the end; what does not come to it within minutes is killed, and the test fails.
+fn finished(command: &mut Command) -> Output {
+    let mut child = command.spawn().unwrap();
+    let began = Instant::now();
+    while child.try_wait().unwrap().is_none() {
+        if began.elapsed() > Duration::from_secs(300) {
+            let _ = child.kill();
+            panic!("{command:?} has not ended after {:?}", began.elapsed());
+        }
+        sleep(Duration::from_millis(1));
+    }
+    child.wait_with_output().unwrap()
+}
+
 /// Kills the run after `patience` and again until it has ended. How often it was killed.
 fn killed(start: &dyn Fn() -> Command, out: &Path, patience: Duration) -> usize {
     let mut kills = 0;
@@ -109,7 +123,7 @@ fn runs_that_are_killed_again_and_again_leave_the_same_bytes() {
             break;
         }
         let (whole, parts) = (folder.0.join(format!("whole{index}")), folder.0.join(format!("parts{index}")));
-        let output = started(model, more, &whole).spawn().unwrap().wait_with_output().unwrap();
+        let output = finished(&mut started(model, more, &whole));
         assert!(output.status.success(), "{model} {more:?}: {}", String::from_utf8_lossy(&output.stderr));
         let patience = Duration::from_micros(2000 + 137 * index as u64);
         kills += killed(&|| started(model, more, &parts), &parts, patience);

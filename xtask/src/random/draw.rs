@@ -1,11 +1,11 @@
 //! Random numbers of a case: SplitMix64 [Steele, Lea and Flood 2014], so that a seed tells the case on every machine.
 
 /// A stream of random numbers.
-pub(super) struct Draw(u64);
+pub(crate) struct Draw(u64);
 
 impl Draw {
     /// The stream of case `index` of `seed`.
-    pub(super) fn new(seed: u64, index: u64) -> Self {
+    pub(crate) fn new(seed: u64, index: u64) -> Self {
         let mut draw =
             Self(seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ index.wrapping_mul(0xd1b5_4a32_d192_ed03));
         draw.bits();
@@ -21,40 +21,40 @@ impl Draw {
     }
 
     /// From 0 to 1, the latter excluded.
-    pub(super) fn fraction(&mut self) -> f64 {
+    pub(crate) fn fraction(&mut self) -> f64 {
         (self.bits() >> 11) as f64 / (1_u64 << 53) as f64
     }
 
     /// Between two numbers, in thousandths of their distance: models are to be read.
-    pub(super) fn between(&mut self, least: f64, most: f64) -> f64 {
+    pub(crate) fn between(&mut self, least: f64, most: f64) -> f64 {
         let value = least + (most - least) * (self.fraction() * 1000.0).floor() / 1000.0;
         (value * 1e6).round() / 1e6
     }
 
     /// Between two positive numbers, evenly over their logarithms.
-    pub(super) fn size(&mut self, least: f64, most: f64) -> f64 {
+    pub(crate) fn size(&mut self, least: f64, most: f64) -> f64 {
         let value = least * (most / least).powf(self.fraction());
         let digits = 10.0_f64.powi(2 - value.log10().floor() as i32);
         (value * digits).round() / digits
     }
 
     /// One of the numbers below `count`.
-    pub(super) fn below(&mut self, count: usize) -> usize {
+    pub(crate) fn below(&mut self, count: usize) -> usize {
         ((self.fraction() * count as f64) as usize).min(count.saturating_sub(1))
     }
 
     /// One of several.
-    pub(super) fn of<T: Clone>(&mut self, several: &[T]) -> T {
+    pub(crate) fn of<T: Clone>(&mut self, several: &[T]) -> T {
         several[self.below(several.len())].clone()
     }
 
     /// Whether something of this probability happens.
-    pub(super) fn chance(&mut self, probability: f64) -> bool {
+    pub(crate) fn chance(&mut self, probability: f64) -> bool {
         self.fraction() < probability
     }
 
     /// A direction, not of length one.
-    pub(super) fn direction(&mut self) -> [f64; 3] {
+    pub(crate) fn direction(&mut self) -> [f64; 3] {
         if self.chance(0.4) {
             let mut axis = [0.0; 3];
             axis[self.below(3)] = if self.chance(0.5) { 1.0 } else { -1.0 };
@@ -70,7 +70,7 @@ impl Draw {
     }
 
     /// A direction perpendicular to another.
-    pub(super) fn perpendicular(&mut self, axis: [f64; 3]) -> [f64; 3] {
+    pub(crate) fn perpendicular(&mut self, axis: [f64; 3]) -> [f64; 3] {
         loop {
             let other = self.direction();
             let cross = [

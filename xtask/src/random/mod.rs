@@ -1,7 +1,7 @@
 //! `cargo xtask random`: random mechanisms through the same path as a user's model file, each with several schemes and
 //! steps, against energy, momentum, a quarter of the step and each other. A seed tells every case.
 
-mod draw;
+pub(crate) mod draw;
 mod mechanism;
 mod reduce;
 mod trial;

@@ -118,12 +118,18 @@ impl Simulation {
 
     /// After a step of planned size that was accepted.
     pub(super) fn note_impacts(&mut self) {
-        if let Some(which) = self.impacts.accept(&self.system, &self.state.kinematics) {
-            let time = self.state.kinematics.time;
-            warn(
-                &mut self.warnings,
-                Warning::ContactTooShort { time, what: self.system.name_of_switch(which) },
-            );
+        let told = self.impacts.accept(&self.system, &self.state.kinematics);
+        let is_contact = |warning: &Warning| matches!(warning, Warning::ContactTooShort { .. });
+        let known = self.warnings.iter().position(is_contact);
+        match (told, known) {
+            (Some((which, time)), None) => {
+                let what = self.system.name_of_switch(which);
+                warn(&mut self.warnings, Warning::ContactTooShort { time, what });
+            }
+            (None, Some(known)) => {
+                self.warnings.remove(known);
+            }
+            _ => {}
         }
     }
 

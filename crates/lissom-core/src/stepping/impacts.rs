@@ -25,6 +25,8 @@ struct Approach {
     fastest: f64,
     /// Rate with which zero was passed last, and steps since then.
     passed: Option<(f64, u8)>,
+    /// Rate and end [s] of the fastest approach that was stopped.
+    stopped: Option<(f64, f64)>,
 }
 
 /// How fast the switches of one simulation are passed.
@@ -46,25 +48,39 @@ impl Impacts {
         impacts
     }
 
-    /// After a step that was accepted: the first switch that stopped what passed it faster than steps resolve.
-    pub(crate) fn accept(&mut self, system: &System, at: &Kinematics) -> Option<usize> {
+    /// After a step that was accepted: the first switch that stopped what passed it faster than steps resolve, and when [s].
+    /// What looked fast at the start of a motion may turn out slow beside what follows, and is then no longer told.
+    pub(crate) fn accept(&mut self, system: &System, at: &Kinematics) -> Option<(usize, f64)> {
         if self.approaches.is_empty() {
             return None;
         }
         values_at(system, at, &mut self.values);
         let duration = at.time - self.time;
         self.time = at.time;
-        let mut found = None;
-        for (which, (approach, &value)) in self.approaches.iter_mut().zip(&self.values).enumerate() {
-            if approach.is_stopped(value, duration) {
-                found.get_or_insert(which);
-            }
+        for (approach, &value) in self.approaches.iter_mut().zip(&self.values) {
+            approach.accept(value, duration, at.time);
         }
-        found
+        let told = self.approaches.iter().enumerate().filter_map(|(which, approach)| {
+            let (rate, time) = approach.stopped?;
+            (rate >= SLOW * approach.fastest).then_some((which, time))
+        });
+        told.min_by(|a, b| a.1.total_cmp(&b.1))
     }
 }
 
 impl Approach {
+    /// Takes note of the value at `time` [s], after a step of this duration [s].
+    fn accept(&mut self, value: f64, duration: f64, time: f64) {
+        let entry = self.passed.map(|(entry, _)| entry);
+        let last = self.rate;
+        if self.is_stopped(value, duration) {
+            let rate = entry.or(last).unwrap_or(0.0).abs();
+            if self.stopped.is_none_or(|(fastest, _)| rate > fastest) {
+                self.stopped = Some((rate, time));
+            }
+        }
+    }
+
     /// Takes note of the value after a step of this duration [s], and says whether the motion was stopped too fast.
     fn is_stopped(&mut self, value: f64, duration: f64) -> bool {
         let before = std::mem::replace(&mut self.value, value);
@@ -124,6 +140,19 @@ mod tests {
             assert!(!is_told(0.3, 1.0, first, 1.0), "{first}");
             assert!(!is_told(0.1, 1.0, first, 1.0), "{first}");
         }
+    }
+
+    #[test]
+    fn a_slow_approach_is_no_longer_told_beside_fast_ones_that_are_not_stopped() {
+        let mut approach = Approach { value: 1e-3, ..Approach::default() };
+        let is_told =
+            |approach: &Approach| approach.stopped.is_some_and(|(rate, _)| rate >= SLOW * approach.fastest);
+        for (k, value) in [5e-4, 0.0, -5e-4, -5e-4].into_iter().enumerate() {
+            approach.accept(value, 1.0, k as f64);
+        }
+        assert!(is_told(&approach), "stopped at once: {approach:?}");
+        (4..10).for_each(|k| approach.accept(-f64::from(k), 1.0, f64::from(k)));
+        assert!(!is_told(&approach), "{approach:?}");
     }
 
     #[test]

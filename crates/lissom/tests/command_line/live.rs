@@ -30,8 +30,18 @@ impl Live {
         let mut command = Command::new(env!("CARGO_BIN_EXE_lissom"));
         command.args(["live", model]).current_dir(folder).stdout(Stdio::piped());
         let mut program = command.spawn().unwrap();
-        let mut line = String::new();
-        BufReader::new(program.stdout.take().unwrap()).read_line(&mut line).unwrap();
+        let output = program.stdout.take().unwrap();
+        let (tell, told) = std::sync::mpsc::channel();
+        std::thread::spawn(move || {
+            let mut line = String::new();
+            let read = BufReader::new(output).read_line(&mut line);
+            let _ = tell.send(read.map(|_| line));
+        });
+        let Ok(line) = told.recv_timeout(Duration::from_secs(60)) else {
+            let _ = program.kill();
+            panic!("it tells no address within a minute");
+        };
+        let line = line.unwrap();
         let address = line.trim().strip_prefix("http://127.0.0.1:").unwrap().to_owned();
         let (port, word) = address.trim_end_matches('/').split_once('/').unwrap();
         Self { program, port: port.parse().unwrap(), word: word.to_owned() }

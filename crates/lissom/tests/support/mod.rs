@@ -3,8 +3,10 @@
 mod cantilever;
 
 use std::ffi::OsStr;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
+use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 pub(crate) use cantilever::CANTILEVER;
@@ -64,15 +66,46 @@ impl Run {
         assert!(Command::new("kill").args(["-INT", &pid]).status().unwrap().success());
     }
 
-    pub(crate) fn finish(self) -> Ended {
-        let ended = self.0.wait_with_output().unwrap();
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        Ended {
-            code: ended.status.code().unwrap_or(-1),
-            output: text(ended.stdout),
-            errors: text(ended.stderr),
-        }
+    /// Waits for the end; a program that does not come to it is killed, and the test fails.
+    pub(crate) fn finish(mut self) -> Ended {
+        let output = read_aside(self.0.stdout.take());
+        let errors = read_aside(self.0.stderr.take());
+        let began = Instant::now();
+        let status = loop {
+            if let Some(status) = self.0.try_wait().unwrap() {
+                break Some(status);
+            }
+            if began.elapsed() > LONGEST {
+                let _ = self.0.kill();
+                let _ = self.0.wait();
+                break None;
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        };
+        let [output, errors] = [output, errors].map(|text| text.join().unwrap());
+        let status = status.unwrap_or_else(|| panic!("not ended after {LONGEST:?}:\n{output}\n{errors}"));
+        Ended { code: status.code().unwrap_or(-1), output, errors }
     }
+}
+
+/// A program that is left alone by a test that fails does not go on.
+impl Drop for Run {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// The longest that a test waits for the program.
+const LONGEST: Duration = Duration::from_secs(300);
+
+/// Reads while the program goes on, so that it need not wait for that.
+fn read_aside(from: Option<impl Read + Send + 'static>) -> JoinHandle<String> {
+    let mut text = String::new();
+    std::thread::spawn(move || {
+        from.expect("it is read once").read_to_string(&mut text).expect("it writes texts");
+        text
+    })
 }
 
 /// Runs the program to its end.
