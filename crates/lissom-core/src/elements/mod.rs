@@ -126,6 +126,17 @@ pub(crate) fn is_same<T: std::fmt::Debug + ?Sized>(one: &T, other: &T) -> bool {
     format!("{one:?}") == format!("{other:?}")
 }
 
+/// How much of the range is used in which a linear law is believed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinearRange {
+    /// Over what is believed: beyond 1 it is in doubt.
+    pub part: f64,
+    /// The node that deforms most, or turns.
+    pub node: NodeId,
+    /// Whether it is the rate of rotation, or else a deformation.
+    pub is_spin: bool,
+}
+
 /// Adds `block` to the local matrix at local rows from `row` and columns from `column`.
 pub(crate) fn add_block<const R: usize, const C: usize>(
     matrix: &mut [f64],
@@ -231,9 +242,9 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
         None
     }
 
-    /// The largest deformation over that up to which its linear law is believed, and the node that has it, for elements that are
-    /// linear in a frame of their own. Default: none.
-    fn linear_range(&self, _at: &Kinematics) -> Option<(f64, NodeId)> {
+    /// What goes furthest beyond that up to which its linear law is believed, for elements that are linear in a frame of their own.
+    /// Default: none.
+    fn linear_range(&self, _at: &Kinematics) -> Option<LinearRange> {
         None
     }
 

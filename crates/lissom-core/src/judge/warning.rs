@@ -176,6 +176,20 @@ pub enum Warning {
         /// The largest deformation over that up to which the matrices are believed.
         largest: f64,
     },
+    /// A superelement turns nearly as fast as it swings.
+    #[error(
+        "from t = {time:.6e} s on the superelement of `{interface}` turns at up to {largest:.2} times a quarter of its first natural \
+         frequency with that interface held: centrifugal forces change its stiffness by more than a sixteenth, and linear matrices \
+         do not know that; cut it into several superelements, or model it by beams"
+    )]
+    TurnsFast {
+        /// When it was first seen [s].
+        time: f64,
+        /// Name of the interface that carries its floating frame.
+        interface: String,
+        /// The largest rate of rotation over that up to which the matrices are believed.
+        largest: f64,
+    },
     /// An output that goes on along the motion could not go on.
     #[error(
         "at t = {time:.6e} s the output `{output}` cannot go on: from one step to the next it changes by more than can be told,          and is not a number from there on; take smaller steps; an angle about an axis has no value where the axis is turned          by half a turn"
@@ -211,6 +225,7 @@ impl Warning {
             Self::SingularPosition { .. } => "singular-position",
             Self::ReactionsNotUnique { .. } => "reactions-not-unique",
             Self::BeyondLinear { .. } => "beyond-linear",
+            Self::TurnsFast { .. } => "turns-fast",
             Self::AccumulationLost { .. } => "output-lost",
             Self::Model { .. } => "model",
         }

@@ -21,7 +21,7 @@ use super::receiver::{Place, Receiver};
 use super::state::{CoordinateId, Kinematics, NodeId};
 use super::threads::Threads;
 use crate::elements::step_stages::StepStages;
-use crate::elements::{Element, Energy, Tangents, USUAL_UNKNOWNS};
+use crate::elements::{Element, Energy, LinearRange, Tangents, USUAL_UNKNOWNS};
 use crate::signals::measurement::Measurement;
 use crate::signals::{Argument, Graph, HeldId, SignalId};
 
@@ -380,7 +380,7 @@ impl AnyBatch for Arc<Feedback> {
         None
     }
 
-    fn linear_range(&self, _: &Kinematics) -> Option<(f64, NodeId)> {
+    fn linear_range(&self, _: &Kinematics) -> Option<LinearRange> {
         None
     }
 

@@ -30,8 +30,8 @@ pub use threads::WORTH_WHILE;
 use lissom_motion::Vector3;
 use lissom_solver::Structure;
 
-use crate::elements::Energy;
 use crate::elements::inertia::{Gravity, Inertia};
+use crate::elements::{Energy, LinearRange};
 use crate::joints::attached::AttachedJoint;
 use crate::joints::blocks::{Batches, JointStarts};
 use crate::joints::coupling::Coupling;
@@ -230,11 +230,10 @@ impl System {
         rates.reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
     }
 
-    /// The largest deformation of an element over that up to which its linear law is believed, with the node that has it; none
-    /// where no element is linear in a frame of its own.
-    pub(crate) fn linear_range(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
+    /// What goes furthest beyond the range of an element's linear law; none where no element is linear in a frame of its own.
+    pub(crate) fn linear_range(&self, at: &Kinematics) -> Option<LinearRange> {
         let parts = self.batches.iter().filter_map(|batch| batch.linear_range(at));
-        parts.reduce(|most, part| if part.0 > most.0 { part } else { most })
+        parts.reduce(|most, own| if own.part > most.part { own } else { most })
     }
 
     /// Hands on the mass matrix of every element that has one, besides [`inertias`](Self::inertias).

@@ -283,6 +283,28 @@ fn modal_damping_is_that_of_every_mode() {
     }
 }
 
+/// One interface without modes: a rigid body.
+#[test]
+fn a_single_interface_is_a_rigid_body() {
+    let places = [Vector3::zeros()];
+    let mass = DMatrix::from_diagonal(&DVector::from_vec(vec![2.0, 2.0, 2.0, 0.1, 0.2, 0.3]));
+    let stiffness = DMatrix::zeros(6, 6);
+    let matrices = ReducedMatrices { mass, stiffness, damping: Damping::None, preload: Vec::new() };
+    let mut builder = Builder::new();
+    let description = SuperelementDescription {
+        name: "part",
+        frame: Motion::identity(),
+        interfaces: &[InterfacePlace { name: "part.only".to_owned(), place: places[0] }],
+        floating: 0,
+        matrices: matrices.check(&places).expect("good matrices"),
+    };
+    add_superelement(&mut builder, &description).expect("small enough");
+    let (system, mut state) = builder.build(0.0).expect("valid");
+    state.kinematics.nodes[1].twist[4] = 3.0;
+    let kinetic = system.energy(&state.kinematics).kinetic;
+    assert!((kinetic - 0.5 * 0.2 * 9.0).abs() < 1e-14, "{kinetic}");
+}
+
 #[test]
 fn modal_coordinates_have_the_mass_of_the_part() {
     let (places, mut matrices) = two_halves();

@@ -133,13 +133,15 @@ fn ends(joint: &Component) -> [&NodeReference; 2] {
 /// Refuses models with parts that are no rigid bodies.
 fn refuse_parts(document: &Document) -> Result<(), ImportError> {
     let beam = document.beams.first().map(|beam| format!("beam `{}` is flexible", beam.name.value));
+    let element = document.superelements.first();
+    let element = element.map(|element| format!("superelement `{}` is flexible", element.name.value));
     let mass = document.point_masses.first();
     let mass = mass.map(|mass| format!("point mass `{}` has no axes: make it a body", mass.name.value));
     let assembled = document
         .assembly
         .as_ref()
         .map(|_| "its parts are placed by [assembly]: write the places found".to_owned());
-    match beam.or(mass).or(assembled) {
+    match beam.or(element).or(mass).or(assembled) {
         Some(words) => Err(ImportError::new(format!("the model has what a description cannot say: {words}"))),
         None => Ok(()),
     }

@@ -4,7 +4,7 @@ use lissom_motion::{Motion, Vector3};
 use nalgebra::DMatrix;
 
 use super::matrices::{Damping, rigid_motion};
-use super::{ReducedMatrices, Superelement};
+use super::{LARGEST_SPIN, ReducedMatrices, Superelement};
 use crate::joints::Quantity;
 use crate::registry::ParameterError;
 use crate::system::{Builder, CoordinateId, Freedoms, NodeId};
@@ -79,8 +79,9 @@ pub fn add_superelement(
         preload,
     };
     let gravity = builder.gravity().clone();
+    let spin = matrices.first_frequency_held(*floating).map(|rate| LARGEST_SPIN * rate);
     let element =
         Superelement::new((nodes.clone(), coordinates.clone()), (*floating, &places), scaled, gravity);
-    builder.add_element(element);
+    builder.add_element(element.believed_up_to(spin));
     Ok((nodes, coordinates))
 }

@@ -233,6 +233,25 @@ impl ReducedMatrices {
         Ok(Self { mass, stiffness, damping, preload: self.preload })
     }
 
+    /// The first natural frequency with an interface held [rad/s]; none where nothing swings then.
+    pub(super) fn first_frequency_held(&self, interface: usize) -> Option<f64> {
+        let held = |matrix: &DMatrix<f64>| {
+            matrix.clone().remove_rows(6 * interface, 6).remove_columns(6 * interface, 6)
+        };
+        let (mass, stiffness) = (held(&self.mass), held(&self.stiffness));
+        // One interface without modes is a rigid body.
+        if mass.is_empty() {
+            return None;
+        }
+        let lower = mass.cholesky()?.l();
+        let half = lower.solve_lower_triangular(&stiffness)?;
+        let scaled = lower.solve_lower_triangular(&half.transpose())?;
+        let squares = SymmetricEigen::new(0.5 * (&scaled + scaled.transpose())).eigenvalues;
+        let largest = squares.amax();
+        let least = squares.iter().copied().filter(|square| *square > ROUND_OFF * largest);
+        least.reduce(f64::min).map(f64::sqrt)
+    }
+
     /// Damping by which every mode of the free part has this ratio to critical damping: Σ 2 ζ ω M φ (M φ)ᵀ over the modes φ of
     /// unit modal mass. Rigid motions are not damped.
     ///

@@ -44,13 +44,17 @@ use self::matrices::{RigidMotion, rigid_motion};
 use self::room::{Room, product};
 use super::inertia::Gravity;
 use super::step_stages::{STAGES, StepStages};
-use super::{Element, Energy, Tangents};
+use super::{Element, Energy, LinearRange, Tangents};
 use crate::system::{CoordinateId, Kinematics, NodeId};
 
 /// Elastic rotation of an interface against the floating frame from which on linear matrices are in doubt [rad].
 pub const LARGEST_ROTATION: f64 = 0.3;
 /// Elastic displacement of an interface from which on they are, as part of its distance from the floating frame.
 pub const LARGEST_DISPLACEMENT: f64 = 0.3;
+
+/// Rate of rotation from which on the stiffness by centrifugal forces is missed, over the first natural frequency with the
+/// floating interface held: its square is the part of the stiffness.
+pub const LARGEST_SPIN: f64 = 0.25;
 
 /// A reduced part.
 #[derive(Clone, Debug)]
@@ -73,6 +77,8 @@ pub struct Superelement {
     /// G.
     carried: Matrix3xX<f64>,
     gravity: Gravity,
+    /// Rate of rotation up to which matrices are believed [rad/s]; none where nothing swings.
+    largest_spin: Option<f64>,
 }
 
 /// Room of this thread, so that nothing is allocated once it is large enough.
@@ -123,7 +129,14 @@ impl Superelement {
             moment,
             carried,
             gravity,
+            largest_spin: None,
         }
+    }
+
+    /// With a rate of rotation from which on a warning is told [rad/s].
+    #[must_use]
+    pub fn believed_up_to(self, spin: Option<f64>) -> Self {
+        Self { largest_spin: spin, ..self }
     }
 
     fn size(&self) -> usize {
@@ -297,17 +310,24 @@ impl Element for Superelement {
         pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
     }
 
-    fn linear_range(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
+    fn linear_range(&self, at: &Kinematics) -> Option<LinearRange> {
         let reach = self.reach();
         ROOMS.with_borrow_mut(|Rooms { own: room, .. }| {
             room.enter(self, at);
-            let part = |i: usize| {
+            let deformed = |i: usize| {
                 let (linear, angular) =
                     (three(&room.displacement, 6 * i).norm(), three(&room.displacement, 6 * i + 3).norm());
                 let by_length = if reach > 0.0 { linear / (LARGEST_DISPLACEMENT * reach) } else { 0.0 };
-                (by_length.max(angular / LARGEST_ROTATION), self.nodes[i])
+                let part = by_length.max(angular / LARGEST_ROTATION);
+                LinearRange { part, node: self.nodes[i], is_spin: false }
             };
-            (0..self.nodes.len()).map(part).reduce(|most, part| if part.0 > most.0 { part } else { most })
+            let spin = self.largest_spin.map(|most| LinearRange {
+                part: room.twist[1].norm() / most,
+                node: self.nodes[self.frame],
+                is_spin: true,
+            });
+            let all = (0..self.nodes.len()).map(deformed).chain(spin);
+            all.reduce(|most, own| if own.part > most.part { own } else { most })
         })
     }
 }
