@@ -8,9 +8,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use lissom_core::analysis::Settings;
+use lissom_core::analysis::equilibrium::at_rest;
 use lissom_core::analysis::path::{
     BranchChoice, CriticalPoint, EquilibriumPath, Family, PathError, PathSettings,
 };
+use lissom_core::judge::Warning;
 use lissom_core::system::{State, System};
 use lissom_model::channels::Channel;
 use lissom_model::document::{AnalysisKind, OutputKind};
@@ -31,6 +34,9 @@ use pictures::PathPictures;
 const FIRST_OF_PATH: f64 = 0.02;
 /// Most steps to the loads of a model whose number is varied.
 const MOST_STEPS_TO_LOADS: usize = 1000;
+
+/// Where the path to the loads ends or has a critical point below this part of them, nothing resists them at first.
+const UNRESISTED: f64 = 1e-3;
 
 /// A path that has no start.
 #[derive(Debug, thiserror::Error)]
@@ -139,6 +145,8 @@ pub struct PathSession {
     unknowns: [usize; 2],
     began: Instant,
     pictures: PathPictures,
+    /// Reasons to doubt the start.
+    doubts: Vec<Warning>,
 }
 
 impl PathSession {
@@ -163,6 +171,7 @@ impl PathSession {
         let unloaded = lower(&without)?.system;
         let layout = system.layout();
         let unknowns = [layout.coordinate_count(), layout.multiplier_rows().len()];
+        let of_equilibrium = settings.clone();
         let settings = PathSettings {
             first: first.unwrap_or(FIRST_OF_PATH * (end - from).abs()).copysign(end - from),
             end,
@@ -173,13 +182,16 @@ impl PathSession {
             solver: settings.solver,
         };
         let own = Arc::clone(&system);
+        let mut doubts = Vec::new();
         let (path, column) = match &varied {
             None => {
                 let column = Column::new("load_factor", "", "load factor", "");
                 (EquilibriumPath::new(unloaded, system, state, settings)?, column)
             }
             Some(varied) => {
-                let state = under_loads(varied, [unloaded, system], state, &settings)?;
+                let (state, found) =
+                    under_loads(varied, [unloaded, system], state, (&settings, &of_equilibrium))?;
+                doubts = found;
                 let along: (String, Box<dyn Family>) = (varied.path.clone(), Box::new(varied.clone()));
                 (
                     EquilibriumPath::along(along, from, state, settings)?,
@@ -190,7 +202,7 @@ impl PathSession {
         let mut all = vec![column, Column::new("unstable", "", "unstable directions", "")];
         all.extend(columns(&channels));
         let pictures = pictures.along(path.name(), varied.is_none());
-        Ok(Self { path, varied, system: own, channels, columns: all, unknowns, began, pictures })
+        Ok(Self { path, varied, system: own, channels, columns: all, unknowns, began, pictures, doubts })
     }
 
     /// Writes every equilibrium as a frame of a motion file, with the length of the path as its time.
@@ -212,6 +224,11 @@ impl PathSession {
     /// The path.
     pub fn path(&self) -> &EquilibriumPath {
         &self.path
+    }
+
+    /// Reasons to doubt the equilibrium at which a path along a number begins.
+    pub fn warnings(&self) -> &[Warning] {
+        &self.doubts
     }
 
     /// The values of all columns at the last equilibrium.
@@ -314,8 +331,11 @@ impl PathSession {
 
     /// The facts of `summary.json`.
     pub fn summary(&self, mut summary: Summary, report: &PathReport) -> Summary {
+        let mut warnings = summary.get("warnings").and_then(Value::as_array).cloned().unwrap_or_default();
+        warnings.extend(self.doubts.iter().map(|doubt| json!(format!("{}: {doubt}", doubt.code()))));
         let mut tell = |name: &str, fact: Value| crate::summary::tell(&mut summary, name, fact);
         tell("stopped", json!(report.end.name()));
+        tell("warnings", Value::Array(warnings));
         if let PathEnd::Failed(error) = &report.end {
             tell("error", json!(error.to_string()));
             tell("failure", Diagnosis::of(error).to_value());
@@ -349,13 +369,13 @@ impl PathSession {
 }
 
 /// The equilibrium under the loads of a model whose number has its first value: loads grow from nothing, so that it is the one
-/// that the loaded model comes to.
+/// that the loaded model comes to. Where nothing resists them at first, it is found by relaxation, with reasons to doubt it.
 fn under_loads(
     varied: &Varied,
     [unloaded, loaded]: [Arc<System>; 2],
     state: State,
-    settings: &PathSettings,
-) -> Result<State, PathSessionError> {
+    (settings, of_equilibrium): (&PathSettings, &Settings),
+) -> Result<(State, Vec<Warning>), PathSessionError> {
     let settings = PathSettings {
         first: 0.25,
         end: 1.0,
@@ -363,23 +383,31 @@ fn under_loads(
         branch: BranchChoice::default(),
         ..*settings
     };
-    let mut path = match EquilibriumPath::new(unloaded, loaded, state.clone(), settings) {
+    let mut path = match EquilibriumPath::new(unloaded, Arc::clone(&loaded), state.clone(), settings) {
         Ok(path) => path,
         // Stresses may be those of springs alone.
-        Err(PathError::NoLoad) => return Ok(state),
+        Err(PathError::NoLoad) => return Ok((state, Vec::new())),
         Err(error) => return Err(error.into()),
     };
     while !path.is_finished() {
-        let path_of = || varied.path.clone();
-        let step = path.advance().map_err(|error| PathSessionError::NotLoaded { path: path_of(), error })?;
-        if let Some(point) = step.critical.first() {
-            return Err(PathSessionError::AlreadyCritical {
-                path: path_of(),
-                load_factor: point.load_factor,
-            });
+        let name = varied.path.clone();
+        let (factor, problem) = match path.advance() {
+            Ok(step) => match step.critical.first() {
+                None => continue,
+                Some(CriticalPoint { load_factor, .. }) => (
+                    *load_factor,
+                    PathSessionError::AlreadyCritical { path: name, load_factor: *load_factor },
+                ),
+            },
+            Err(error) => (path.load_factor(), PathSessionError::NotLoaded { path: name, error }),
+        };
+        if factor > UNRESISTED {
+            return Err(problem);
         }
+        let relaxed = at_rest(loaded, state, of_equilibrium);
+        return relaxed.map(|(_, state, doubts)| (state, doubts)).map_err(|_| problem);
     }
-    Ok(path.state().clone())
+    Ok((path.state().clone(), Vec::new()))
 }
 
 /// What is known before the first step.

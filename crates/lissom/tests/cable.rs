@@ -6,9 +6,11 @@
 use std::f64::consts::PI;
 
 use lissom::modes::{About, ModeReport, ModeRequest, modes};
+use lissom::path::{PathEnd, PathSession};
 use lissom::{Model, Session};
 use lissom_core::judge::Warning;
 use lissom_core::linear::Completeness;
+use lissom_model::output::Summary;
 
 const SPAN: f64 = 100.0;
 const GRAVITY: f64 = 9.81;
@@ -37,10 +39,19 @@ impl Cable {
     fn new(slope: f64, lambda_squared: f64) -> Self {
         let force = GRAVITY * SPAN / slope;
         let stiffness = lambda_squared * force * (1.0 + slope * slope / 8.0) / (slope * slope);
-        let span = |length: f64| {
-            force * length / stiffness + 2.0 * force / GRAVITY * (GRAVITY * length / (2.0 * force)).asinh()
-        };
+        let span = |length: f64| Self { force, stiffness, length }.span(GRAVITY);
         Self { force, stiffness, length: bisect(0.5 * SPAN, 2.0 * SPAN, |length| span(length) - SPAN) }
+    }
+
+    /// What its length spans at its force under another gravity.
+    fn span(&self, gravity: f64) -> f64 {
+        let Self { force, stiffness, length } = *self;
+        force * length / stiffness + 2.0 * force / gravity * (gravity * length / (2.0 * force)).asinh()
+    }
+
+    /// Its force under another gravity.
+    fn force_under(&self, gravity: f64) -> f64 {
+        bisect(0.1 * self.force, 10.0 * self.force, |force| Self { force, ..*self }.span(gravity) - SPAN)
     }
 
     /// The lowest point, below the supports.
@@ -219,6 +230,49 @@ fn load_steps_find_the_elastic_catenary_from_a_cable_without_tension() {
     // Weight that grows with the load parameter is accounted for as such: few steps, and nothing that looks like a jump.
     assert!(!warnings.iter().any(|warning| matches!(warning, Warning::Jump { .. })), "{warnings:?}");
     assert!(record.times.len() < 60, "{} load steps", record.times.len());
+}
+
+#[test]
+fn a_given_number_of_load_steps_finds_it_too() {
+    let cable = Cable::new(0.4, 500.0);
+    let text = cable.model(24, "statics").replace("kind = \"statics\"", "kind = \"statics\"\nsteps = 3");
+    let model = Model::from_text("cable.toml", &text);
+    let mut session = Session::new(&model.document(&[]).unwrap()).unwrap();
+    let (record, report) = session.record();
+    assert!(report.is_complete());
+    assert_eq!(record.times.len(), 4);
+    let force = record.column("support", "f1").unwrap().last().unwrap().abs();
+    assert!((force / cable.force - 1.0).abs() < 1e-6, "{force} for {}", cable.force);
+    let warnings = session.simulation().warnings();
+    assert!(warnings.iter().any(|warning| matches!(warning, Warning::Relaxed { .. })), "{warnings:?}");
+}
+
+#[test]
+fn a_path_along_a_number_begins_where_relaxation_ends() {
+    let cable = Cable::new(0.4, 500.0);
+    let text = cable.model(24, "path").replace(
+        &format!("gravity = [0, 0, -{GRAVITY}]"),
+        &format!("gravity = [0, 0, \"-g\"]\n[parameters]\ng = {GRAVITY}"),
+    );
+    let along = format!("{text}vary = \"parameters.g\"\nend = 20\n");
+    let mut session = PathSession::new(&Model::from_text("cable.toml", &along), &[]).unwrap();
+    assert!(session.warnings().iter().any(|warning| matches!(warning, Warning::Relaxed { .. })));
+    let (record, report) = session.record();
+    assert!(matches!(report.end, PathEnd::Reached), "{:?}", report.end);
+    let forces = record.column("support", "f1").unwrap();
+    for (found, gravity) in [(forces[0], GRAVITY), (forces[forces.len() - 1], 20.0)] {
+        let exact = cable.force_under(gravity);
+        assert!((found.abs() / exact - 1.0).abs() < 1e-6, "{found} for {exact} under {gravity}");
+    }
+    let summary = session.summary(Summary::new(), &report);
+    let told = summary.get("warnings").unwrap().to_string();
+    assert!(told.contains("relaxed-equilibrium"), "{told}");
+    // Along the load factor there is nothing to begin with, and the message says what to do.
+    let mut session =
+        PathSession::new(&Model::from_text("cable.toml", &format!("{text}end = 1\n")), &[]).unwrap();
+    let (_, report) = session.record();
+    let PathEnd::Failed(error) = report.end else { panic!("{:?}", report.end) };
+    assert!(error.to_string().contains("give it tension"), "{error}");
 }
 
 #[test]

@@ -156,6 +156,8 @@ pub struct Simulation {
     pub(crate) accumulation: Accumulation,
     /// Whether the workspace still holds the step that led to the state.
     pub(crate) is_last_step_known: bool,
+    /// Whether a first load step without solution is looked for by relaxation, which takes load steps itself.
+    pub(super) may_relax: bool,
 }
 
 impl Simulation {
@@ -276,6 +278,7 @@ impl Simulation {
             watch,
             accumulation: Accumulation::default(),
             is_last_step_known: false,
+            may_relax: true,
         })
     }
 

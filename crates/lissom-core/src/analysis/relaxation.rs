@@ -92,7 +92,8 @@ impl Simulation {
     /// Leaves the equilibrium that relaxation finds a step of `size` [s] after the start in `next`, where the first load step
     /// ended with `error`.
     pub(crate) fn relax_first_step(&mut self, size: f64, error: &StepError) -> Result<(), StepError> {
-        if self.settings.scheme.dynamic || self.totals.steps > 0 || !may_help(error) {
+        let is_first = self.totals.steps == 0 && !self.settings.scheme.dynamic;
+        if !(self.may_relax && is_first && may_help(error)) {
             return Err(error.clone());
         }
         let time = self.state.kinematics.time + size;
@@ -121,7 +122,9 @@ fn begin(system: &Arc<System>, state: &State, settings: &Settings, time: f64) ->
     for coordinate in &mut state.kinematics.coordinates {
         (coordinate.rate, coordinate.acceleration) = (0.0, 0.0);
     }
-    Simulation::new(Arc::clone(system), state, settings.clone()).ok()
+    let mut simulation = Simulation::new(Arc::clone(system), state, settings.clone()).ok()?;
+    simulation.may_relax = false;
+    Some(simulation)
 }
 
 /// The longest way of a node [m].

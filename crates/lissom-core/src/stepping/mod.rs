@@ -161,7 +161,17 @@ impl Simulation {
                             (self.state, self.ledger) = start;
                         }
                         self.parts = Parts::whole();
-                        return Err(error);
+                        if watch.is_cancelled() {
+                            return Err(error);
+                        }
+                        self.relax_first_step(whole, &error)?;
+                        report.rejected += 1;
+                        report.parts = 1;
+                        // The workspace holds no step that led there.
+                        self.accept_step();
+                        self.is_last_step_known = false;
+                        self.note_stability();
+                        return Ok(());
                     }
                     report.rejected += 1;
                 }
@@ -186,7 +196,7 @@ impl Simulation {
         let limit = self.kinks.iter().find(ahead).map_or(limit, |kink| kink.time.next_down());
         let rest = limit - now;
         let mut attempts = Attempts::default();
-        let mut first_error = None;
+        let (mut first_error, mut is_relaxed) = (None, false);
         let planned = choice;
         loop {
             let size = choice.propose(rest, control.max_step);
@@ -214,7 +224,7 @@ impl Simulation {
             if !(may_help && choice.halve(size)) {
                 let size = planned.propose(rest, control.max_step);
                 self.relax_first_step(size, first)?;
-                choice = planned;
+                (choice, is_relaxed) = (planned, true);
                 break;
             }
         }
@@ -225,7 +235,7 @@ impl Simulation {
         if is_last {
             (self.state.kinematics.time, self.state.time_remainder) = (limit, 0.0);
         }
-        self.is_last_step_known = true;
+        self.is_last_step_known = !is_relaxed;
         self.note_stability();
         Ok(())
     }

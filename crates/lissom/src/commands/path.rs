@@ -46,6 +46,9 @@ pub(super) fn run(
             return Err(Failure::new(Exit::Failed, error));
         }
     };
+    for warning in session.warnings() {
+        terminal::complain(&format!("warning: {}: {warning}\n", warning.code()));
+    }
     let mut history = folder.begin().map_err(|error| unwritable(error.into()))?;
     let mut session = if wanted.plots {
         // With both files the path can be seen even if the program is killed.

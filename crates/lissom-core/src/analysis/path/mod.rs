@@ -30,6 +30,9 @@ use systems::{PathSystems, are_alike};
 /// Newton's tolerance is at most this: positions of limit points follow from differences along the path.
 const TOLERANCE: f64 = 1e-10;
 
+/// A path that has come no farther than this part of its way along the load factor has not left the model without loads.
+const UNRESISTED: f64 = 1e-3;
+
 /// The last equilibrium is at most so much farther away than the step that passed it.
 const FARTHER: f64 = 1.1;
 
@@ -132,6 +135,22 @@ pub enum PathError {
         /// Why the last attempt failed.
         error: StepError,
     },
+    /// A path along the load factor does not leave the model without loads.
+    #[error(
+        "after {steps} steps the load factor is {load_factor:.6e} and has never been larger than {most:.1e} ({reason}): nothing \
+         seems to resist small loads, as in a cable without tension; give it tension, follow a path along a number of the loaded \
+         model (`vary`), whose first equilibrium is found by relaxation, or take a smaller first `step`"
+    )]
+    NothingResists {
+        /// Steps taken.
+        steps: usize,
+        /// Load factor reached.
+        load_factor: f64,
+        /// The largest one so far.
+        most: f64,
+        /// Why it went no farther.
+        reason: String,
+    },
     /// There are fewer bifurcations than that at which the path was to be left.
     #[error(
         "after {steps} steps the {name} is {load_factor:.6e}, and the path has met {met} bifurcation(s), not the {wanted} \
@@ -216,6 +235,8 @@ pub struct EquilibriumPath {
     control: ArcControl,
     work: PathWork,
     steps: usize,
+    /// The largest load factor so far, without its sign.
+    most: f64,
     /// Bifurcations met.
     bifurcations: usize,
     /// The bifurcation at which it stands, where it is to be left there.
@@ -309,6 +330,7 @@ impl EquilibriumPath {
             control: ArcControl::new(1.0),
             work,
             steps: 0,
+            most: 0.0,
             bifurcations: 0,
             departure: None,
             is_finished: false,
@@ -389,6 +411,9 @@ impl EquilibriumPath {
             if met < wanted {
                 return Err(PathError::NoBifurcation { name, steps, load_factor, met, wanted });
             }
+            if let Some(unresisted) = self.unresisted(|| "no more `steps` are allowed".to_owned()) {
+                return Err(unresisted);
+            }
             return Err(PathError::TooManySteps { name, steps, load_factor, end });
         }
         if let Some(departure) = self.departure.take() {
@@ -416,9 +441,26 @@ impl EquilibriumPath {
                     worst: "the path turns at once".to_owned(),
                     hint: "take a smaller `step`",
                 };
-                return Err(PathError::Lost { name, load_factor, arc, error: error.unwrap_or(bent) });
+                let error = error.unwrap_or(bent);
+                if let Some(unresisted) = self.unresisted(|| error.to_string()) {
+                    return Err(unresisted);
+                }
+                return Err(PathError::Lost { name, load_factor, arc, error });
             }
         }
+    }
+
+    /// What is to be said of a path that ends where it has left the model without loads by hardly anything.
+    fn unresisted(&self, reason: impl Fn() -> String) -> Option<PathError> {
+        let is_along_loads = matches!(self.systems, PathSystems::Loads(_));
+        (is_along_loads && self.most <= UNRESISTED * self.settings.end.abs()).then(|| {
+            PathError::NothingResists {
+                steps: self.steps,
+                load_factor: self.load_factor,
+                most: self.most,
+                reason: reason(),
+            }
+        })
     }
 
     /// Tries a step; false if it may have left the path.
@@ -465,6 +507,7 @@ impl EquilibriumPath {
     fn take(&mut self, found: Solution, length: f64) {
         let Solution { state, load_factor, tangent, .. } = found;
         (self.state, self.load_factor, self.tangent) = (state, load_factor, tangent);
+        self.most = self.most.max(load_factor.abs());
         self.arc += length;
     }
 
