@@ -1,0 +1,290 @@
+//! Published models of another program, Exudyn, in our words: those of its test suite and of its small examples that a model file can
+//! say. Its published values belong to steps that are not converged (one to seven digits); compared are values of both programs
+//! refined to convergence, by extrapolation over steps, and formulas or integrated equations where there are any.
+
+use std::f64::consts::PI;
+
+use lissom::Model;
+
+/// A published model.
+struct Published {
+    /// What it is, and what it is called there.
+    name: &'static str,
+    called: &'static str,
+    /// Without its analysis; the output `value` is what is compared.
+    text: &'static str,
+    /// How long it moves, and the longer one of two steps [s].
+    end: f64,
+    step: f64,
+    /// Formula or integrated equation, and how far from it we may be.
+    exact: Option<(fn() -> f64, f64)>,
+    /// Refined value of the other program, and how far from it we may be: its last digit that stands still.
+    refined: (f64, f64),
+}
+
+/// m x'' + c x' + k x = F below critical damping, at a time.
+fn oscillation([mass, damping, stiffness]: [f64; 3], force: f64, [place, rate]: [f64; 2], time: f64) -> f64 {
+    let rest = force / stiffness;
+    let decay = 0.5 * damping / mass;
+    let omega = (stiffness / mass - decay * decay).sqrt();
+    let (cosine, sine) = (place - rest, (rate + decay * (place - rest)) / omega);
+    rest + (-decay * time).exp() * (cosine * (omega * time).cos() + sine * (omega * time).sin())
+}
+
+/// Where x'' = a(t, x, x') comes to, by the classical Runge-Kutta method in small steps.
+fn motion(acceleration: &dyn Fn(f64, [f64; 2]) -> f64, start: [f64; 2], end: f64) -> f64 {
+    const STEPS: u32 = 400_000;
+    let step = end / f64::from(STEPS);
+    let rate = |time: f64, state: [f64; 2]| [state[1], acceleration(time, state)];
+    let mut state = start;
+    for k in 0..STEPS {
+        let time = f64::from(k) * step;
+        let ahead = |rate: [f64; 2], part: f64| [0, 1].map(|i| state[i] + part * step * rate[i]);
+        let one = rate(time, state);
+        let two = rate(time + 0.5 * step, ahead(one, 0.5));
+        let three = rate(time + 0.5 * step, ahead(two, 0.5));
+        let four = rate(time + step, ahead(three, 1.0));
+        state = [0, 1].map(|i| state[i] + step / 6.0 * (one[i] + 2.0 * (two[i] + three[i]) + four[i]));
+    }
+    state[0]
+}
+
+/// The value at the end, extrapolated over two steps: the scheme is of third order.
+fn found(published: &Published) -> f64 {
+    let [long, short] = [1.0, 0.5].map(|part| {
+        let Published { text, end, step, .. } = published;
+        let text = format!(
+            "lissom = 1\n{text}[analysis]\nkind = \"dynamics\"\nscheme = \"radau-iia\"\ntolerance = 1e-12\nend = {end}\n\
+             step = {:e}\n",
+            part * step
+        );
+        let model = Model::from_text("model.toml", &text);
+        let mut session = model.session(&[]).unwrap_or_else(|error| panic!("{}: {error}", published.name));
+        let (record, report) = session.record();
+        assert!(report.is_complete(), "{}", published.name);
+        *record.column("value", "value").unwrap().last().unwrap()
+    });
+    short + (short - long) / 7.0
+}
+
+#[test]
+fn published_models_have_their_refined_values() {
+    let mut wrong = Vec::new();
+    for published in PUBLISHED {
+        let found = found(published);
+        let (refined, within) = published.refined;
+        let mut compare = |against: &str, reference: f64, within: f64| {
+            let missed = (found - reference).abs();
+            // Not a number is wrong, too.
+            if missed.is_nan() || missed > within {
+                wrong.push(format!(
+                    "{} ({}): {found:e}, {against} {reference:e}: {missed:.1e} for {within:.0e}",
+                    published.name, published.called
+                ));
+            }
+        };
+        if let Some((exact, within)) = published.exact {
+            compare("exact", exact(), within);
+        }
+        compare("refined", refined, within);
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+const PUBLISHED: &[Published] = &[
+    Published {
+        name: "a mass falls",
+        called: "LoadMassProportional",
+        text: include_str!("published/mass.toml"),
+        end: 1.0,
+        step: 1e-2,
+        exact: Some((|| -0.5 * 9.81, 1e-13)),
+        refined: (-4.905, 1e-12),
+    },
+    Published {
+        name: "a mass on springs along three axes",
+        called: "ObjectConnectorCartesianSpringDamper",
+        text: include_str!("published/three-springs.toml"),
+        end: 1.0,
+        step: 1e-3,
+        exact: Some((|| oscillation([5.0, 250.0, 5000.0], -5.0, [0.0, 0.0], 1.0), 1e-14)),
+        refined: (-0.000_999_999_999_979_017_7, 1e-15),
+    },
+    Published {
+        name: "a mass that is led",
+        called: "ObjectConnectorCoordinate",
+        text: include_str!("published/led-mass.toml"),
+        end: 1.0,
+        step: 1e-2,
+        exact: Some((|| 0.05, 1e-13)),
+        refined: (0.05, 1e-14),
+    },
+    Published {
+        name: "a mass on a cubic spring",
+        called: "ObjectConnectorCoordinateSpringDamper",
+        text: include_str!("published/cubic-spring.toml"),
+        end: 1.0,
+        step: 1e-3,
+        exact: Some((
+            || motion(&|_, [x, v]| (1.0 - 500.0 * x - 5000.0 * x.powi(3) - 80.0 * v) / 5.0, [0.0, 0.0], 1.0),
+            1e-12,
+        )),
+        refined: (0.001_999_524_868_8, 1e-12),
+    },
+    Published {
+        name: "a point pendulum on a distance",
+        called: "ObjectConnectorDistance",
+        text: include_str!("published/distance-pendulum.toml"),
+        end: 1.0,
+        step: 1e-3,
+        exact: Some((|| motion(&|_, [angle, _]| -9.81 * angle.cos(), [0.0, 0.0], 1.0).cos(), 1e-10)),
+        refined: (-0.986_291_751_16, 1e-10),
+    },
+    Published {
+        name: "a slide on a spring",
+        called: "ObjectConnectorLinearSpringDamper",
+        text: include_str!("published/slide.toml"),
+        end: 1.0,
+        step: 1e-3,
+        exact: Some((|| oscillation([1.0, 20.0, 2000.0], 1.0, [0.0, 0.0], 1.0), 1e-13)),
+        refined: (0.000_499_981_029_08, 1e-13),
+    },
+    Published {
+        name: "a body on a bushing",
+        called: "ObjectConnectorRigidBodySpringDamper",
+        text: include_str!("published/bushing.toml"),
+        end: 1.0,
+        step: 1e-3,
+        exact: Some((|| oscillation([1.0, 5.0, 500.0], 0.0, [0.0, 1000.0], 1.0), 1e-07)),
+        refined: (-0.839_791_7, 2e-06),
+    },
+    Published {
+        name: "a mass on a spring that is stretched",
+        called: "ObjectConnectorSpringDamper",
+        text: include_str!("published/stretched-spring.toml"),
+        end: 1.0,
+        step: 1e-3,
+        exact: Some((|| 1.0 + oscillation([1.0, 1.0, 100.0], 0.0, [0.05, 0.0], 1.0), 1e-11)),
+        refined: (0.973_539_559_05, 1e-10),
+    },
+    Published {
+        name: "a hinge on a spring",
+        called: "ObjectConnectorTorsionalSpringDamper",
+        text: include_str!("published/hinge-spring.toml"),
+        end: 1.0,
+        step: 1e-3,
+        exact: Some((|| oscillation([1.0, 20.0, 2000.0], 1.0, [0.0, 0.0], 1.0), 1e-13)),
+        refined: (0.000_499_981_029_08, 1e-13),
+    },
+    Published {
+        name: "a hinge under a moment",
+        called: "ObjectJointRevoluteZ",
+        text: include_str!("published/hinge-moment.toml"),
+        end: 1.0,
+        step: 1e-2,
+        exact: Some((|| 0.5, 1e-13)),
+        refined: (0.5, 1e-12),
+    },
+    Published {
+        name: "a rod that swings from level",
+        called: "ObjectKinematicTree",
+        text: include_str!("published/rod.toml"),
+        end: 1.0,
+        step: 1e-3,
+        exact: Some((
+            || motion(&|_, [angle, _]| -9.81 * 0.5 * angle.cos() / (1.01 / 12.0 + 0.25), [0.0, 0.0], 1.0),
+            1e-10,
+        )),
+        refined: (-3.134_018_551_808_6, 1e-09),
+    },
+    Published {
+        name: "a mass that goes on",
+        called: "ObjectMass1D, ObjectMassPoint, ObjectMassPoint2D",
+        text: include_str!("published/free-mass.toml"),
+        end: 1.0,
+        step: 1e-2,
+        exact: Some((|| 2.0, 1e-13)),
+        refined: (2.0, 1e-12),
+    },
+    Published {
+        name: "a body that goes on and turns",
+        called: "ObjectRigidBody2D",
+        text: include_str!("published/free-body.toml"),
+        end: 1.0,
+        step: 1e-2,
+        exact: Some((|| 2.0 + 0.75 * PI, 1e-09)),
+        refined: (4.356_194_490_192, 1e-09),
+    },
+    Published {
+        name: "a rotor that goes on",
+        called: "ObjectRotationalMass1D",
+        text: include_str!("published/free-rotor.toml"),
+        end: 1.0,
+        step: 1e-2,
+        exact: Some((|| 2.0, 1e-13)),
+        refined: (2.0, 1e-12),
+    },
+    Published {
+        name: "a sweep on a cubic spring",
+        called: "springDamperUserFunctionTest",
+        text: include_str!("published/sweep.toml"),
+        end: 50.0,
+        step: 1e-3,
+        exact: Some((
+            || {
+                0.5 + motion(
+                    &|t, [x, v]| {
+                        (80.0 * (0.5 * t * t).sin() - 400.0 * x - 4000.0 * x.powi(3) - 4.0 * v) / 1.6
+                    },
+                    [0.0, 0.0],
+                    50.0,
+                )
+            },
+            1e-09,
+        )),
+        refined: (0.506_557_558_35, 1e-09),
+    },
+    Published {
+        name: "a body on springs and dampers of six freedoms",
+        called: "connectorRigidBodySpringDamperTest",
+        text: include_str!("published/six-springs.toml"),
+        end: 0.1,
+        step: 1e-4,
+        exact: Some((
+            || {
+                let place = oscillation([1.0, 50.0, 5000.0], 0.0, [0.0, 10.0], 0.1);
+                let angle = oscillation([1.0, 5.0, 5000.0], 0.0, [0.0, 8.0 * PI], 0.1);
+                0.1 + place + 0.1 * angle.cos() - 0.1 * angle.sin()
+            },
+            1e-11,
+        )),
+        refined: (0.182_707_494_24, 1e-10),
+    },
+    Published {
+        name: "a four-bar of point masses",
+        called: "fourBarMechanismTest",
+        text: include_str!("published/four-bar.toml"),
+        end: 2.0,
+        step: 1e-3,
+        exact: None,
+        refined: (-2.376_452_866_7, 1e-09),
+    },
+    Published {
+        name: "two bodies with products of inertia on a hinge and a ball",
+        called: "rigidBodyCOMtest",
+        text: include_str!("published/two-bodies.toml"),
+        end: 1.0,
+        step: 1e-3,
+        exact: None,
+        refined: (3.409_434_835_9, 1e-09),
+    },
+    Published {
+        name: "a chain of four bodies on balls",
+        called: "sphericalJointTest",
+        text: include_str!("published/chain.toml"),
+        end: 1.0,
+        step: 1e-3,
+        exact: None,
+        refined: (4.409_082_301_3, 1e-09),
+    },
+];
