@@ -27,45 +27,22 @@ fn rows(found: &CampbellReport) -> Vec<Vec<String>> {
 }
 
 /// A disc on a turning universal joint with equal springs, ahead of it by an arm.
-const OVERHUNG: &str = r#"
+const OVERHUNG: &str = concat!(
+    r#"
 lissom = 1
 [parameters]
 speed = 10.0
 [initial]
 angular_velocity = ["speed", 0, 0]
-[bodies.hub]
-mass = 1
-inertia = [0.1, 0.1, 0.1]
-[joints.bearing]
-kind = "revolute"
-base = "ground"
-tip = "hub"
-axis = [1, 0, 0]
-[bodies.disc]
-mass = 5
-inertia = [0.3, 0.15, 0.15]
-position = [0.3, 0, 0]
-[joints.cross]
-kind = "universal"
-base = "hub"
-tip = "disc"
-at = [0, 0, 0]
-axis = [0, 1, 0]
-second_axis = [0, 0, 1]
-[springs.one]
-kind = "torsional"
-joint = "cross"
-stiffness = 2000
-[springs.two]
-kind = "torsional"
-joint = "cross"
-coordinate = 2
-stiffness = 2000
+"#,
+    include_str!("support/rotor.toml"),
+    r#"stiffness = 2000
 [analysis]
 kind = "dynamics"
 end = 1
 step = 1e-3
-"#;
+"#
+);
 
 const SHAFT: &str = r#"
 lissom = 1

@@ -458,39 +458,11 @@ fn a_mechanism_that_is_driven_has_no_modes() {
 }
 
 /// A rotor that turns freely: hub, disc on a cross of two axes with springs, both without anything that holds their rotation.
-const FREE_ROTOR: &str = r#"
-lissom = 1
-[bodies.hub]
-mass = 1
-inertia = [0.1, 0.1, 0.1]
-[joints.bearing]
-kind = "revolute"
-base = "ground"
-tip = "hub"
-axis = [1, 0, 0]
-[bodies.disc]
-mass = 5
-inertia = [0.3, 0.15, 0.15]
-position = [0.3, 0, 0]
-[joints.cross]
-kind = "universal"
-base = "hub"
-tip = "disc"
-at = [0, 0, 0]
-axis = [0, 1, 0]
-second_axis = [0, 0, 1]
-[springs.one]
-kind = "torsional"
-joint = "cross"
-stiffness = 2000
-[springs.two]
-kind = "torsional"
-joint = "cross"
-coordinate = 2
-stiffness = 3000
-[analysis]
-kind = "modes"
-"#;
+const FREE_ROTOR: &str = concat!(
+    "lissom = 1\n",
+    include_str!("support/rotor.toml"),
+    "stiffness = 3000\n[analysis]\nkind = \"modes\"\n"
+);
 
 #[test]
 fn a_rotor_that_turns_freely_has_a_rigid_mode_and_all_others() {
