@@ -120,8 +120,8 @@ pub enum GradientError {
     /// Runs of neighbouring models have other derivatives.
     #[error(
         "the derivatives add up to a change of {expected:e} where runs of the model with all numbers changed a little change by \
-         {found:e}: they are not to be trusted. If the output has jumps or kinks nearby, ask for another time; otherwise this is \
-         an error of the program"
+         {found:e}: the output may have jumps or kinks nearby; ask for another time, and take it for an error of the program \
+         where that does not help"
     )]
     Denied {
         /// What the derivatives add up to, in the unit of the output.
