@@ -7,6 +7,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use lissom_motion::{Matrix6, Vector3};
+use nalgebra::DMatrix;
 
 use crate::joints::coupling::Relation;
 use crate::signals::HeldId;
@@ -114,6 +115,10 @@ pub enum ParameterType {
     /// Six numbers not less than zero, the diagonal of a matrix, or a symmetric 6 x 6 matrix without negative
     /// eigenvalues.
     Matrix,
+    /// Finite numbers, at least one.
+    Numbers,
+    /// A number, a list of numbers for a diagonal, or a square matrix by rows, of any size.
+    SquareMatrix,
     /// One of the listed words.
     Choice(&'static [&'static str]),
     /// Some of the listed words, each at most once.
@@ -220,6 +225,10 @@ pub enum Value {
     Relation(Arc<dyn Relation>),
     /// A 6 x 6 matrix.
     Matrix(Box<Matrix6>),
+    /// Several numbers.
+    Numbers(Vec<f64>),
+    /// A square matrix of any size.
+    SquareMatrix(DMatrix<f64>),
     /// An input, by its place among the held values.
     Input(HeldId),
 }
@@ -406,6 +415,28 @@ impl Parameters {
             None => Ok(Matrix6::zeros()),
             Some(Value::Matrix(value)) => Ok(**value),
             other => Err(wrong(name, "six numbers or a 6 x 6 matrix", other)),
+        }
+    }
+
+    /// Several numbers that must be there.
+    ///
+    /// # Errors
+    /// If they are missing or something else.
+    pub(crate) fn numbers(&self, name: &str) -> Result<&[f64], ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Numbers(values)) => Ok(values),
+            other => Err(wrong(name, "a list of numbers", other)),
+        }
+    }
+
+    /// A square matrix that must be there.
+    ///
+    /// # Errors
+    /// If it is missing or something else.
+    pub(crate) fn square_matrix(&self, name: &str) -> Result<&DMatrix<f64>, ParameterError> {
+        match self.values.get(name) {
+            Some(Value::SquareMatrix(matrix)) => Ok(matrix),
+            other => Err(wrong(name, "a number, a diagonal or a square matrix", other)),
         }
     }
 

@@ -132,7 +132,9 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
             touched.coordinates.extend(&coupling.coordinates);
             touched.multipliers = coupling.multiplier..coupling.multiplier + 1;
         }
-        Source::Coordinates(coordinates) => touched.coordinates.extend(coordinates),
+        Source::Coordinates(coordinates) | Source::FreeAccelerations(coordinates) => {
+            touched.coordinates.extend(coordinates)
+        }
         Source::Accelerations(coordinates) => {
             for joint in coordinates.iter().map(|&(joint, _)| &system.joints()[joint]) {
                 touched.nodes.extend(joint.frames.map(|frame| frame.node));

@@ -72,6 +72,8 @@ pub(crate) enum Source {
     Coordinates(Vec<CoordinateId>),
     /// Of coordinates by joint and place in it.
     Accelerations(Vec<(usize, usize)>),
+    /// Of coordinates that no joint between nodes has.
+    FreeAccelerations(Vec<CoordinateId>),
     Spring(ElementId, Quantity),
     /// Power of an element.
     Power(ElementId),
@@ -219,6 +221,9 @@ impl Channel {
                     accelerations[k]
                 };
                 out.extend(coordinates.iter().map(of));
+            }
+            Source::FreeAccelerations(coordinates) => {
+                out.extend(coordinates.iter().map(|&own| at.coordinates[own].acceleration));
             }
             Source::Coordinates(coordinates) => {
                 let motions = coordinates.iter().map(|&coordinate| &at.coordinates[coordinate]);
@@ -373,6 +378,12 @@ fn joint_source(
             ));
         }
         if output.kind == OutputKind::RelativeAcceleration {
+            let is_free = |coordinate: &CoordinateId| {
+                system.joints().iter().all(|joint| !joint.coordinates.contains(coordinate))
+            };
+            if coordinates.iter().all(is_free) {
+                return Ok(Source::FreeAccelerations(coordinates));
+            }
             let owner = |coordinate: &CoordinateId| {
                 let place = |own: &[CoordinateId]| own.iter().position(|known| known == coordinate);
                 let mut joints = system.joints().iter().enumerate();
@@ -499,17 +510,12 @@ pub(crate) fn components(
             words(&["x", "y", "z", "r1", "r2", "r3"], &["m", "m", "m", "rad", "rad", "rad"])
         }
         (OutputKind::Relative, Source::Coordinates(coordinates)) => relative(coordinates, system),
-        (OutputKind::RelativeAcceleration, Source::Accelerations(coordinates)) => {
-            let of_kind = |quantity| match quantity {
-                Quantity::Angle => "rad/s²",
-                Quantity::Length | Quantity::State => "m/s²",
-            };
-            let number = |k: usize| if coordinates.len() > 1 { (k + 1).to_string() } else { String::new() };
-            let each = coordinates.iter().enumerate().map(|(k, &(joint, own))| {
-                let coordinate = system.joints()[joint].coordinates[own];
-                (format!("a{}", number(k)), of_kind(system.layout().coordinate_quantity(coordinate)))
-            });
-            each.unzip()
+        (OutputKind::RelativeAcceleration, Source::Accelerations(owners)) => {
+            let of = |&(joint, own): &(usize, usize)| system.joints()[joint].coordinates[own];
+            accelerations(owners.iter().map(of).collect(), system)
+        }
+        (OutputKind::RelativeAcceleration, Source::FreeAccelerations(coordinates)) => {
+            accelerations(coordinates.clone(), system)
         }
         (OutputKind::Spring, Source::Spring(_, Quantity::Angle)) => {
             words(&["rotation", "rate", "moment"], &["rad", "rad/s", "N m"])
@@ -533,6 +539,20 @@ pub(crate) fn components(
         (OutputKind::CardanAngles, _) => words(&["alpha", "beta", "gamma"], &["rad"; 3]),
         (OutputKind::Energy, _) => words(&["kinetic", "strain", "potential", "total"], &["J"; 4]),
     }
+}
+
+/// Components and units of accelerations of coordinates.
+fn accelerations(coordinates: Vec<CoordinateId>, system: &System) -> (Vec<String>, Vec<&'static str>) {
+    let count = coordinates.len();
+    let number = |k: usize| if count > 1 { (k + 1).to_string() } else { String::new() };
+    let each = coordinates.into_iter().enumerate().map(|(k, coordinate)| {
+        let unit = match system.layout().coordinate_quantity(coordinate) {
+            Quantity::Angle => "rad/s²",
+            Quantity::Length | Quantity::State => "m/s²",
+        };
+        (format!("a{}", number(k)), unit)
+    });
+    each.unzip()
 }
 
 /// Components of relative coordinates, numbered where there are several of a kind.

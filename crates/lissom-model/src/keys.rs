@@ -98,6 +98,12 @@ pub(crate) enum Shape {
     Force(&'static [&'static str; 2]),
     /// Two ascending numbers, which may be infinite.
     Range,
+    /// A list of numbers.
+    Numbers,
+    /// A number, a list of numbers, or a square list of lists of numbers.
+    SquareMatrix,
+    /// A list of joints, or of their coordinates, as `arm.angle`.
+    Coordinates,
     /// A table that is read entry by entry.
     Table,
 }
@@ -253,6 +259,8 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
         ParameterType::Choices(words) => Shape::Choices(words),
         ParameterType::FunctionOf(variable) => Shape::FunctionOf(variable),
         ParameterType::Equation => Shape::Equation,
+        ParameterType::Numbers => Shape::Numbers,
+        ParameterType::SquareMatrix => Shape::SquareMatrix,
         ParameterType::Input => Shape::Name("inputs"),
     };
     let Parameter { name, required, unit, summary, .. } = *parameter;

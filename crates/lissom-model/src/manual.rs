@@ -223,6 +223,11 @@ pub(crate) fn words(shape: &Shape) -> String {
             return format!("a number, an expression of `{first}` and `{second}`, or a table over `{first}`");
         }
         Shape::Range => "two ascending numbers, which may be `-inf` and `inf`",
+        Shape::Numbers => "a list of numbers",
+        Shape::SquareMatrix => "a number, a list of numbers (a diagonal), or a square matrix by rows",
+        Shape::Coordinates => {
+            "a list of coordinates of joints, as `\"arm.angle\"`, or of joints: all of theirs"
+        }
         Shape::Table => "a table",
     };
     fixed.to_owned()

@@ -170,7 +170,7 @@ fn type_of(shape: &Shape) -> String {
         | Shape::Pair
         | Shape::Range => "Vector",
         Shape::Point => "Vector | Table",
-        Shape::Names | Shape::Words => "Names",
+        Shape::Names | Shape::Words | Shape::Coordinates => "Names",
         Shape::Place | Shape::PlaceOrNode => "Place",
         Shape::Function
         | Shape::FunctionOf(_)
@@ -180,6 +180,8 @@ fn type_of(shape: &Shape) -> String {
         | Shape::Mass => "Function",
         Shape::Axes | Shape::Rows => "list[Vector]",
         Shape::Stiffness => "Vector | list[Vector]",
+        Shape::Numbers => "Vector",
+        Shape::SquareMatrix => "Number | Vector | list[Vector]",
         Shape::Inertia | Shape::SectionMass => "Vector | list[Vector] | Table",
         Shape::Shear => "Number | Vector",
         Shape::Stations | Shape::Places | Shape::Interfaces => "list[Table]",

@@ -300,6 +300,15 @@ impl<'c, 'a> Reader<'c, 'a> {
                 ParameterType::FunctionOf(variable) => self.function_of(name, variable).map(Held::Function),
                 // Resolved with the whole model at hand.
                 ParameterType::Equation => None,
+                ParameterType::Numbers => {
+                    let read = |node| self.context.number_list(node, &self.words(name)).map(Held::Numbers);
+                    self.node(name).and_then(read)
+                }
+                ParameterType::SquareMatrix => {
+                    let read =
+                        |node| self.context.square_matrix(node, &self.words(name)).map(Held::SquareMatrix);
+                    self.node(name).and_then(read)
+                }
                 ParameterType::Input => self.name_in(name).map(|name| Held::Text(name.value)),
                 ParameterType::Choices(_) => self.choices(name).map(Held::Words),
                 ParameterType::Force(names) => self

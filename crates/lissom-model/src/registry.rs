@@ -34,6 +34,10 @@ pub enum ActsOn {
     TwoJointCoordinates,
     /// The relative coordinates that an expression names.
     NamedCoordinates,
+    /// Several relative coordinates: `coordinates`.
+    Coordinates,
+    /// Nothing: it has coordinates of its own.
+    Nothing,
 }
 
 /// One kind of joint, spring or load.

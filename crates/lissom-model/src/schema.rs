@@ -158,6 +158,12 @@ fn of_shape(shape: &Shape) -> Value {
         Shape::Rows => json!({ "type": "array", "minItems": 2, "items": list(&plain(), 2) }),
         Shape::Pair | Shape::Range => list(&plain(), 2),
         Shape::Words => list(&text(), 2),
+        Shape::Numbers => json!({ "type": "array", "minItems": 1, "items": plain() }),
+        Shape::SquareMatrix => {
+            let row = json!({ "type": "array", "minItems": 1, "items": plain() });
+            any_of(&[plain(), row.clone(), json!({ "type": "array", "minItems": 1, "items": row })])
+        }
+        Shape::Coordinates => json!({ "type": "array", "minItems": 1, "items": text() }),
         Shape::Table => json!({ "type": "object" }),
     }
 }

@@ -239,6 +239,9 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
         Shape::Places => "Vec<(Node, Place)>",
         Shape::Interfaces => "Vec<(String, [f64; 3])>",
         Shape::Pair | Shape::Range => "[f64; 2]",
+        Shape::Numbers => "Vec<f64>",
+        Shape::SquareMatrix => "Vec<Vec<f64>>",
+        Shape::Coordinates => "Vec<JointId>",
     };
     Some(fixed.to_owned())
 }

@@ -2,6 +2,7 @@
 //! expected. A number may also be a text: an expression of the parameters.
 
 use lissom_motion::{Matrix3, Matrix6, Vector3, Vector6};
+use nalgebra::{DMatrix, DVector};
 
 use crate::context::Context;
 use crate::expression::{Expression, ExpressionError, Formula};
@@ -167,6 +168,35 @@ impl Context<'_> {
             }
         }
         Some(matrix)
+    }
+
+    /// One finite number or more.
+    pub(crate) fn number_list(&self, node: &Node, what: &str) -> Option<Vec<f64>> {
+        let Value::List(list) = &node.value else {
+            return self.wrong_type(node, what, "a list of numbers");
+        };
+        if list.is_empty() {
+            return self.fail(node.span, format!("{what} is empty"), "give at least one number");
+        }
+        let read: Vec<Option<f64>> = list.iter().map(|entry| self.number(entry, what)).collect();
+        read.into_iter().collect()
+    }
+
+    /// A number, a diagonal or a square matrix by rows.
+    pub(crate) fn square_matrix(&self, node: &Node, what: &str) -> Option<DMatrix<f64>> {
+        let Value::List(rows) = &node.value else {
+            return self.number(node, what).map(|number| DMatrix::from_element(1, 1, number));
+        };
+        if !Self::is_list_of_lists(node) {
+            return self.number_list(node, what).map(|own| DMatrix::from_diagonal(&DVector::from_vec(own)));
+        }
+        let size = rows.len();
+        let mut numbers = Vec::with_capacity(size * size);
+        for row in rows {
+            self.list(row, size, &format!("each row of {what}"))?;
+            numbers.extend(self.number_list(row, &format!("each row of {what}"))?);
+        }
+        Some(DMatrix::from_row_slice(size, size, &numbers))
     }
 
     /// Three numbers, or a symmetric 3 x 3 matrix; positive definite.

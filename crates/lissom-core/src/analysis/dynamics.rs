@@ -194,8 +194,8 @@ impl Simulation {
         let mut held_values = None;
         if settings.scheme.dynamic {
             let mut initial = Initial::new(&system, &state, &representative, pivoting_unless(&settings));
-            let given = state.kinematics.nodes.clone();
-            velocity_correction = initial.velocities(&system, &mut state)?;
+            let given = state.kinematics.clone();
+            velocity_correction = initial.given_velocities(&system, &mut state)?;
             let rates = initial.constraint_rates(&system, &state);
             let largest = representative.largest_speed(&system, &state.kinematics);
             judge::start::rates(&system, &representative, (&rates, largest))?;

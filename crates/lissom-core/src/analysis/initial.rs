@@ -79,6 +79,15 @@ pub enum InitialError {
     },
 }
 
+/// Which inertias weigh in a projection.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Inertias {
+    /// All of them.
+    All,
+    /// Those of parts and of generalised coordinates, not those that act on coordinates of joints.
+    OfParts,
+}
+
 /// Solves for initial values.
 pub struct Initial {
     solver: Box<dyn LinearSolver<f64>>,
@@ -111,7 +120,7 @@ impl Initial {
         }
     }
 
-    fn factor(&mut self, system: &System, state: &State) -> Result<(), InitialError> {
+    fn factor(&mut self, system: &System, state: &State, inertias: Inertias) -> Result<(), InitialError> {
         let zero = vec![0.0; system.layout().multiplier_count];
         let mut linearization = std::mem::take(&mut self.linearization);
         system.linearize(&self.point(&state.kinematics, &zero), Chart::Body, &mut linearization);
@@ -128,6 +137,19 @@ impl Initial {
                 for (row, column) in [(row, other), (other, row)] {
                     if let Some(position) = pattern.position(row, column) {
                         linearization.mass[position] = linearization.damping[position];
+                    }
+                }
+            }
+        }
+        if inertias == Inertias::OfParts {
+            let pattern = system.structure().pattern.clone();
+            let coordinates = system.joints().iter().flat_map(|joint| &joint.coordinates);
+            for row in coordinates.map(|&coordinate| system.layout().row_of_coordinate(coordinate)) {
+                for &other in pattern.column(row) {
+                    for (row, column) in [(row, other), (other, row)] {
+                        if let Some(position) = pattern.position(row, column) {
+                            linearization.mass[position] = 0.0;
+                        }
                     }
                 }
             }
@@ -245,7 +267,23 @@ impl Initial {
     /// # Errors
     /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
     pub fn velocities(&mut self, system: &System, state: &mut State) -> Result<f64, InitialError> {
-        self.factor(system, state)?;
+        self.factor(system, state, Inertias::All)?;
+        Ok(self.project(system, state))
+    }
+
+    /// The same for velocities that are given to parts: coordinates of joints follow, whatever mass they have of their own,
+    /// for no rate was given to them.
+    ///
+    /// # Errors
+    /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
+    pub fn given_velocities(&mut self, system: &System, state: &mut State) -> Result<f64, InitialError> {
+        if !system.coordinate_masses.is_empty() && self.factor(system, state, Inertias::OfParts).is_ok() {
+            return Ok(self.project(system, state));
+        }
+        self.velocities(system, state)
+    }
+
+    fn project(&mut self, system: &System, state: &mut State) -> f64 {
         let layout = system.layout();
         let count = layout.coordinate_count();
         let mut speeds = vec![0.0; layout.size()];
@@ -276,7 +314,7 @@ impl Initial {
         for (&row, coordinate) in layout.coordinate_rows.iter().zip(&mut state.kinematics.coordinates) {
             coordinate.rate += right[row as usize];
         }
-        Ok(largest)
+        largest
     }
 
     /// Rates of the constraints at the velocities of `state`, by multiplier, with the linearisation made last.
@@ -297,7 +335,7 @@ impl Initial {
     /// # Errors
     /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
     pub fn accelerations(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {
-        self.factor(system, state)?;
+        self.factor(system, state, Inertias::All)?;
         let mut right = self.acceleration_vector(system, state);
         let layout = system.layout();
         for (row, impulse) in layout.impulses() {
@@ -356,7 +394,7 @@ impl Initial {
         system: &System,
         state: &State,
     ) -> Result<Vec<f64>, InitialError> {
-        self.factor(system, state)?;
+        self.factor(system, state, Inertias::All)?;
         Ok(self.acceleration_vector(system, state))
     }
 
@@ -418,7 +456,7 @@ impl Initial {
         let mut difference = vec![0.0; count];
         for sign in [1.0, -1.0] {
             let moved = moved(state, sign * delay);
-            self.factor(system, &moved)?;
+            self.factor(system, &moved, Inertias::All)?;
             let there = self.acceleration_vector(system, &moved);
             for (value, acceleration) in difference.iter_mut().zip(&there) {
                 *value += 0.5 * sign * acceleration;

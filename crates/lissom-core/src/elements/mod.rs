@@ -6,6 +6,7 @@
 pub mod beam;
 pub mod blocks;
 pub mod bushing;
+pub(crate) mod coordinate_dynamics;
 pub(crate) mod coordinate_spring;
 pub mod force;
 pub(crate) mod force_law;
@@ -266,6 +267,8 @@ pub enum Attachment {
     Coordinate(Quantity),
     /// Places one after the other, each carried by a node.
     Places,
+    /// Several algebraic coordinates, of any quantity.
+    Coordinates,
 }
 
 /// Where a component is attached, resolved to indices.
@@ -279,6 +282,8 @@ pub enum Attached {
     Coordinate(CoordinateId),
     /// Nodes in their order, each with a point in its body frame [m]; a node may be there several times.
     Places(Vec<(NodeId, Vector3)>),
+    /// Algebraic coordinates in their order, none of them twice.
+    Coordinates(Vec<CoordinateId>),
 }
 
 impl Attached {
@@ -312,6 +317,17 @@ impl Attached {
         match self {
             Self::Places(places) => Ok(places),
             _ => Err(ParameterError::new("along", "must list places")),
+        }
+    }
+
+    /// The coordinates of an attachment to several.
+    ///
+    /// # Errors
+    /// If the attachment is of another form, or names no coordinate.
+    pub(crate) fn coordinates(self) -> Result<Vec<CoordinateId>, ParameterError> {
+        match self {
+            Self::Coordinates(coordinates) if !coordinates.is_empty() => Ok(coordinates),
+            _ => Err(ParameterError::new("coordinates", "must list coordinates of joints")),
         }
     }
 
@@ -353,6 +369,7 @@ pub static SPRINGS: &[ElementKind] = &[
     friction::AXIAL,
     friction::TORSIONAL,
     bushing::KIND,
+    coordinate_dynamics::KIND,
     stop::AXIAL,
     stop::TORSIONAL,
     latch::AXIAL,

@@ -17,6 +17,7 @@ pub mod derivatives;
 pub mod distance;
 pub mod equation;
 pub mod gear;
+pub mod generalized_coordinates;
 pub mod generic;
 pub mod inline;
 pub mod moved;
@@ -49,6 +50,7 @@ use attached::AttachedJoint;
 use blocks::Batches;
 use contact::Contact;
 use coupling::Relation;
+use generalized_coordinates::FreeCoordinate;
 use moved::{Moved, OwnMoved};
 
 use crate::registry::{Function, Parameter, ParameterError, Parameters};
@@ -337,6 +339,9 @@ pub type MakeJoint = fn(&Parameters, &Geometry) -> Result<Box<dyn AnyJoint>, Par
 /// Makes a relation between coordinates; they have these values at the start [rad, m].
 pub type MakeRelation = fn(&Parameters, &[f64]) -> Result<Arc<dyn Relation>, ParameterError>;
 
+/// Makes coordinates that are not between nodes.
+pub type MakeFree = fn(&Parameters) -> Result<Vec<FreeCoordinate>, ParameterError>;
+
 /// Which coordinates a relation is between.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coupled {
@@ -355,6 +360,8 @@ pub enum Build {
     Coordinate(Quantity, fn(&Parameters) -> Result<Function, ParameterError>),
     /// Prescribes the whole motion of a node relative to another.
     Motion,
+    /// Has coordinates of its own, not between nodes.
+    Free(MakeFree),
     /// Relates algebraic coordinates of other joints.
     Coupling(Coupled, MakeRelation),
 }
@@ -383,6 +390,7 @@ pub static KINDS: &[JointKind] = &[
     distance::KIND,
     equation::KIND,
     gear::KIND,
+    generalized_coordinates::KIND,
     generic::KIND,
     inline::KIND,
     parallel_axes::KIND,

@@ -34,11 +34,12 @@ fn speed(twist: &lissom_motion::Vector6, length: f64) -> f64 {
 pub(crate) fn velocities(
     system: &System,
     representative: &Representative,
-    given: &[NodeMotion],
+    told: &Kinematics,
     used: &Kinematics,
 ) -> Result<Vec<Warning>, InitialError> {
     let length = representative.length;
-    let mut warnings = Vec::new();
+    let given = &told.nodes;
+    let mut warnings: Vec<Warning> = rates_of_coordinates(system, told, used)?.into_iter().collect();
     let largest = given.iter().chain(&used.nodes).map(|node| speed(&node.twist, length)).fold(0.0, f64::max);
     let changed = |node: usize| {
         let is_given = given[node].twist.norm_squared() > 0.0;
@@ -68,7 +69,7 @@ pub(crate) fn velocities(
         }
         warnings.push(Warning::VelocityReplaced { part, given: given_words, used: used_words });
     }
-    let before = Kinematics { nodes: given.to_vec(), ..used.clone() };
+    let before = Kinematics { nodes: given.clone(), ..used.clone() };
     let rate = system.deformation_rate(used).zip(system.deformation_rate(&before));
     if let Some(((rate, node), (known, _))) = rate
         && rate - known > (JOLT * largest / length).max(STILL)
@@ -76,6 +77,32 @@ pub(crate) fn velocities(
         warnings.push(Warning::StartsWithJolt { part: system.layout().name_of_node(node).to_owned(), rate });
     }
     Ok(warnings)
+}
+
+/// The coordinate whose given rate is changed most, where that is worth telling.
+fn rates_of_coordinates(
+    system: &System,
+    told: &Kinematics,
+    used: &Kinematics,
+) -> Result<Option<Warning>, InitialError> {
+    let change = |k: &usize| {
+        let (given, used) = (told.coordinates[*k].rate, used.coordinates[*k].rate);
+        if given == 0.0 { 0.0 } else { (used - given).abs() / given.abs() }
+    };
+    let worst = (0..told.coordinates.len()).max_by(|a, b| change(a).total_cmp(&change(b)));
+    let Some(worst) = worst.filter(|worst| change(worst) > NOTEWORTHY) else { return Ok(None) };
+    let unit = match system.layout().coordinate_quantity(worst) {
+        Quantity::Length => "m/s",
+        Quantity::Angle => "rad/s",
+        Quantity::State => "1/s",
+    };
+    let [given, used] = [told, used].map(|at| at.coordinates[worst].rate);
+    let part = system.layout().coordinate_name(worst).to_owned();
+    let words = |rate: f64| format!("{rate:.6} {unit}");
+    if used.abs() < NOTHING * given.abs() {
+        return Err(InitialError::VelocityImpossible { part, given: words(given) });
+    }
+    Ok(Some(Warning::VelocityReplaced { part, given: words(given), used: words(used) }))
 }
 
 /// Velocity in inertial axes and angular velocity in body axes, as the model file has them.

@@ -7,7 +7,7 @@ use num_complex::Complex64;
 
 use super::mode::Mode;
 use super::model::LinearModel;
-use crate::system::LOCKED;
+use crate::system::{CoordinateMass, LOCKED};
 
 /// What a node does in a mode, in global axes.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,6 +95,15 @@ impl LinearModel<'_> {
             let name = mass.nodes.first().map_or("", |&node| part_of(layout.node_name(node)));
             *shares.entry(name.to_owned()).or_insert(0.0) += energy;
         });
+        for CoordinateMass { coordinates, matrix } in &self.system.coordinate_masses {
+            let value = |k: usize| mode.shape[layout.row_of_coordinate(coordinates[k])];
+            for (i, &own) in coordinates.iter().enumerate() {
+                let products =
+                    (0..coordinates.len()).map(|j| (value(i).conj() * matrix[(i, j)] * value(j)).re);
+                let name = layout.coordinate_name(own).to_owned();
+                *shares.entry(name).or_insert(0.0) += products.sum::<f64>();
+            }
+        }
         let total: f64 = shares.values().sum();
         if total > 0.0 {
             for share in shares.values_mut() {

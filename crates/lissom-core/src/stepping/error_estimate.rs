@@ -19,7 +19,7 @@
 //! far any node has moved or turned since the start, or a drive will have within the longest step, at most 1.
 
 use crate::joints::Quantity;
-use crate::system::{Drive, Kinematics, LOCKED, System};
+use crate::system::{CoordinateId, CoordinateMass, Drive, Kinematics, LOCKED, System};
 
 /// Motions smaller than this part of the model's size are not resolved for their own sake.
 pub(crate) const SMALLEST_REFERENCE: f64 = 1e-6;
@@ -27,9 +27,14 @@ pub(crate) const SMALLEST_REFERENCE: f64 = 1e-6;
 /// Errors of a step below this part of the model's size are round-off, which no smaller step lowers.
 pub(crate) const SMALLEST_ERROR: f64 = 3e-13;
 
-/// Largest scaled displacement or turn of a node between two instants, at most 1.
-pub(crate) fn excursion(from: &Kinematics, to: &Kinematics, length: f64) -> f64 {
-    let mut most = 0.0_f64;
+/// Largest scaled displacement or turn of a node, or change of a generalised coordinate, between two instants, at most 1.
+pub(crate) fn excursion(system: &System, (from, to): (&Kinematics, &Kinematics), length: f64) -> f64 {
+    let way = |&own: &CoordinateId| {
+        let change = (to.coordinates[own].value - from.coordinates[own].value).abs();
+        if system.layout().coordinate_quantity(own) == Quantity::Length { change / length } else { change }
+    };
+    // Coordinates of joints are seen by what moves on them.
+    let mut most = system.free_coordinates.iter().map(way).fold(0.0_f64, f64::max).min(1.0);
     for (a, b) in from.nodes.iter().zip(&to.nodes) {
         let shift = (b.frame.position - a.frame.position).norm() / length;
         let [p, q] = [a, b].map(|node| node.frame.rotation.quaternion());
@@ -77,4 +82,12 @@ pub(crate) fn inertial_part(system: &System, at: &Kinematics, error: &[f64], out
             }
         });
     });
+    for CoordinateMass { coordinates, matrix } in &system.coordinate_masses {
+        let rows: Vec<usize> =
+            coordinates.iter().map(|&own| system.layout().row_of_coordinate(own)).collect();
+        for (i, &row) in rows.iter().enumerate() {
+            let products = rows.iter().enumerate().map(|(k, &column)| matrix[(i, k)] * error[column]);
+            out[row] += products.sum::<f64>();
+        }
+    }
 }

@@ -365,7 +365,7 @@ impl Simulation {
     }
 
     fn excursion_of(&self, state: &State) -> f64 {
-        excursion(&self.origin, &state.kinematics, self.representative.length)
+        excursion(&self.system, (&self.origin, &state.kinematics), self.representative.length)
     }
 
     /// Leaves the estimated error of the last attempt in the workspace, as it is and filtered.

@@ -21,7 +21,7 @@ use super::feedback::{Feedback, Target};
 use super::layout::{Freedoms, LOCKED, Layout};
 use super::places::{Places, free_rows, position_of};
 use super::state::{CoordinateId, CoordinateMotion, Kinematics, NodeId, NodeMotion, State};
-use super::{Drive, ElementId, GROUND, System};
+use super::{CoordinateMass, Drive, ElementId, GROUND, System};
 use crate::elements::Element;
 use crate::elements::inertia::{Gravity, Inertia};
 use crate::joints::attached::{AttachedJoint, CarriedFrame};
@@ -73,6 +73,8 @@ struct Coordinate {
     name: String,
     /// At the start [m, rad].
     value: f64,
+    /// Its rate at the start [m/s, rad/s].
+    rate: f64,
     quantity: Quantity,
 }
 
@@ -89,6 +91,8 @@ pub struct Builder {
     gravity: Gravity,
     states: Vec<(CoordinateId, f64)>,
     impulses: Vec<Impulse>,
+    coordinate_masses: Vec<CoordinateMass>,
+    free_coordinates: Vec<CoordinateId>,
     /// Inputs that engage latches.
     latches: Vec<HeldId>,
     functions: Vec<(String, Function)>,
@@ -129,6 +133,8 @@ impl Builder {
             gravity: Gravity::constant(Vector3::zeros()),
             states: Vec::new(),
             impulses: Vec::new(),
+            coordinate_masses: Vec::new(),
+            free_coordinates: Vec::new(),
             latches: Vec::new(),
             functions: Vec::new(),
             graph: Graph::default(),
@@ -275,6 +281,7 @@ impl Builder {
                 self.coordinates.push(Coordinate {
                     name: format!("{name}.{}", coordinate.name),
                     value: values[k],
+                    rate: 0.0,
                     quantity: coordinate.quantity,
                 });
                 self.coordinates.len() - 1
@@ -312,7 +319,7 @@ impl Builder {
     }
 
     /// Name of a coordinate.
-    pub(crate) fn coordinate_name(&self, coordinate: CoordinateId) -> &str {
+    pub fn coordinate_name(&self, coordinate: CoordinateId) -> &str {
         &self.coordinates[coordinate].name
     }
 
@@ -417,6 +424,8 @@ impl Builder {
             joint_batches: Batches::new(&self.joints),
             joints: self.joints,
             drives: self.drives,
+            coordinate_masses: self.coordinate_masses,
+            free_coordinates: self.free_coordinates,
             latches: self.latches,
             couplings: self.couplings,
             structure,
@@ -513,7 +522,11 @@ impl Builder {
         let coordinates = self
             .coordinates
             .iter()
-            .map(|coordinate| CoordinateMotion { value: coordinate.value, ..CoordinateMotion::default() })
+            .map(|coordinate| CoordinateMotion {
+                value: coordinate.value,
+                rate: coordinate.rate,
+                acceleration: 0.0,
+            })
             .collect();
         State {
             kinematics: Kinematics {

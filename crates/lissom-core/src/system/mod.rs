@@ -29,6 +29,7 @@ pub use threads::WORTH_WHILE;
 
 use lissom_motion::Vector3;
 use lissom_solver::Structure;
+use nalgebra::DMatrix;
 
 use crate::elements::inertia::{Gravity, Inertia};
 use crate::elements::{Energy, LinearRange};
@@ -59,6 +60,12 @@ pub struct Drive {
     pub(crate) positions: [usize; 3],
 }
 
+/// A mass matrix on coordinates, as elements bring it into the equations.
+pub(crate) struct CoordinateMass {
+    pub(crate) coordinates: Vec<CoordinateId>,
+    pub(crate) matrix: DMatrix<f64>,
+}
+
 /// Where an element is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ElementId {
@@ -76,6 +83,9 @@ pub struct System {
     pub(crate) joint_batches: Batches,
     pub(crate) drives: Vec<Drive>,
     pub(crate) couplings: Vec<Coupling>,
+    pub(crate) coordinate_masses: Vec<CoordinateMass>,
+    /// Coordinates that no joint between nodes has.
+    pub(crate) free_coordinates: Vec<CoordinateId>,
     /// Inputs that engage latches.
     pub(crate) latches: Vec<HeldId>,
     /// Functions of time, in words, by which loads, springs and drives are given.

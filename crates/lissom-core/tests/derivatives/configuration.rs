@@ -9,6 +9,7 @@ use lissom_core::registry::{
 };
 use lissom_core::system::{Augmentation, Kinematics, LOCKED, Layout, MotionChange, Point, State, System};
 use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
+use nalgebra::DMatrix;
 
 /// A small generator of numbers in -1 … 1 that is the same on every machine.
 pub(crate) struct Random(u64);
@@ -107,6 +108,11 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
             ParameterType::Matrix => {
                 let root = Matrix6::from_fn(|_, _| random.number());
                 Value::Matrix(Box::new(root * root.transpose()))
+            }
+            ParameterType::Numbers => Value::Numbers(vec![random.number(), random.number()]),
+            ParameterType::SquareMatrix => {
+                let root = DMatrix::from_fn(2, 2, |_, _| random.number());
+                Value::SquareMatrix(if parameter.name == "mass" { &root * root.transpose() } else { root })
             }
             ParameterType::Range => Value::Range([-1e3, 1e3]),
             ParameterType::Choice(words) => Value::Text(words[0].to_owned()),

@@ -12,7 +12,7 @@ use lissom_core::system::{Builder, CoordinateId, NodeId};
 use lissom_motion::Vector3;
 
 use super::configuration::{Configuration, Random, sample_parameters};
-use super::{check, joint_with, two_bodies};
+use super::{check, joint_with, two_bodies, two_coordinates};
 use lissom_core::joints::Quantity;
 use lissom_core::system::Placement;
 
@@ -103,6 +103,7 @@ fn sizes_that_are_signals() {
                     let order = [nodes[0], nodes[1], builder.ground(), nodes[1], nodes[0]];
                     Attached::Places(order.map(|node| (node, random.vector())).to_vec())
                 }
+                Attachment::Coordinates => Attached::Coordinates(two_coordinates(&mut builder)),
                 Attachment::Coordinate(_) => Attached::Coordinate(own),
             };
             let last = graph(&mut builder, nodes, own, &mut random);
@@ -132,6 +133,7 @@ fn loads_are_in_proportion_to_their_size() {
                     let order = [nodes[0], nodes[1], builder.ground(), nodes[1], nodes[0]];
                     Attached::Places(order.map(|node| (node, random.vector())).to_vec())
                 }
+                Attachment::Coordinates => Attached::Coordinates(two_coordinates(&mut builder)),
                 Attachment::Coordinate(wanted) => {
                     Attached::Coordinate(joint(&mut builder, nodes, wanted, &mut random))
                 }

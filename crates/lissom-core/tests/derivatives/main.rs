@@ -98,6 +98,13 @@ fn two_bodies(random: &mut Random) -> (Builder, [usize; 2]) {
     (builder, nodes)
 }
 
+/// Two coordinates that no joint between nodes has.
+fn two_coordinates(builder: &mut Builder) -> Vec<usize> {
+    let kind = &joints::generalized_coordinates::KIND;
+    let parameters = Parameters::new().with("start", Value::Numbers(vec![0.3, -0.2]));
+    builder.add_free_coordinates("free", kind, &parameters).expect("valid")
+}
+
 /// A joint whose first coordinate is of this kind.
 fn joint_with(wanted: Quantity) -> &'static JointKind {
     let name = match wanted {
@@ -123,6 +130,7 @@ fn springs_and_loads() {
                     let order = [nodes[0], nodes[1], builder.ground(), nodes[1], nodes[0]];
                     Attached::Places(order.map(|node| (node, random.vector())).to_vec())
                 }
+                Attachment::Coordinates => Attached::Coordinates(two_coordinates(&mut builder)),
                 Attachment::Coordinate(wanted) => {
                     let placement = Placement {
                         nodes,
@@ -232,6 +240,9 @@ fn all_joints() {
                         )
                         .expect("valid");
                     builder.add_drive("drive", kind, coordinates[0], &parameters).expect("valid");
+                }
+                Build::Free(_) => {
+                    builder.add_free_coordinates("free", kind, &parameters).expect("valid");
                 }
                 Build::Coupling(..) => {
                     let cylindrical =

@@ -33,7 +33,8 @@ pub(super) fn read(
         let (parameters, parameter_spans) = reader.parameters(entry.parameters);
         let signal = reader.signal(entry.parameters);
         let attachment = attachment(reader, name, entry.acts_on, registry, places);
-        let takes_friction = table == "joints" && !matches!(entry.acts_on, ActsOn::JointCoordinate(_));
+        let takes_friction =
+            table == "joints" && !matches!(entry.acts_on, ActsOn::JointCoordinate(_) | ActsOn::Nothing);
         let friction = if takes_friction { friction(reader) } else { None };
         let on_tip = match entry.acts_on {
             ActsOn::TwoNodes(rule) if table == "joints" => assembly::on_tip(reader, rule),
@@ -147,7 +148,41 @@ fn attachment(
             Some(Attachment::JointCoordinates { joint: joint?, other: other? })
         }
         ActsOn::NamedCoordinates => Some(Attachment::NamedCoordinates),
+        ActsOn::Coordinates => coordinates(reader),
+        ActsOn::Nothing => Some(Attachment::Nothing),
     }
+}
+
+/// Joints, or coordinates of joints, by name.
+fn coordinates(reader: &Reader<'_, '_>) -> Option<Attachment> {
+    let (context, node) = (reader.context, reader.node("coordinates")?);
+    let what = reader.words("coordinates");
+    let Value::List(list) = &node.value else {
+        return context.wrong_type(node, &what, "a list of coordinates of joints");
+    };
+    let read = |entry: &Node| {
+        let Value::Text(text) = &entry.value else {
+            return context.wrong_type(entry, &format!("each entry of {what}"), "the name of a coordinate");
+        };
+        let whole = context.entry_named("joints", text, entry, &what)?;
+        let (name, component) = match text.rsplit_once('.') {
+            Some((owner, component)) if !context.has("joints", &whole) => {
+                (context.entry_named("joints", owner, entry, &what)?, Some(component.to_owned()))
+            }
+            _ => (whole, None),
+        };
+        let is_known = context.is_known("joints", &name, entry.span, &what);
+        is_known.then(|| (Located::new(name, entry.span), component))
+    };
+    if list.is_empty() {
+        return context.fail(
+            node.span,
+            format!("{what} is empty"),
+            "name coordinates, such as \"arm.angle\"",
+        );
+    }
+    let all: Vec<_> = list.iter().map(read).collect();
+    Some(Attachment::Coordinates(all.into_iter().collect::<Option<_>>()?))
 }
 
 /// Where a node is. The ground has its place where the part is that names it.
@@ -248,7 +283,7 @@ fn joint_coordinate(reader: &Reader<'_, '_>, name: &str, registry: &Registry) ->
     let word = &context.entry("joints", &joint.value)?.table()?.get("kind")?.node;
     let Value::Text(kind) = &word.value else { return None };
     let entry = registry.joints.iter().find(|entry| entry.name == kind)?;
-    if matches!(entry.acts_on, ActsOn::TwoNodes(FrameRule::Axis | FrameRule::TwoAxes)) {
+    if matches!(entry.acts_on, ActsOn::TwoNodes(FrameRule::Axis | FrameRule::TwoAxes) | ActsOn::Nothing) {
         return Some(Attachment::JointCoordinate { joint });
     }
     let message = format!("{} acts on `{}`, which has no relative coordinate", reader.what, joint.value);

@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::Arc;
 
+use lissom_core::joints::generalized_coordinates::KIND as FREE;
 use lissom_motion::Vector3;
 
 use super::tables::{self, Holds, Variants, variants};
@@ -169,8 +170,13 @@ fn check_words(context: &Context<'_>) {
         let problem = Problem::error(Span::default(), message).help(format!("add it: {}", top.summary));
         context.tell(problem);
     }
-    let parts = PARTS;
-    if parts.iter().all(|table| context.entries(table).is_empty()) {
+    // Generalised coordinates move without a part.
+    let is_free = |node: &Node| {
+        let kind = node.table().and_then(|joint| joint.get("kind"));
+        kind.is_some_and(|kind| matches!(&kind.node.value, Value::Text(word) if word == FREE.name))
+    };
+    let has_free = context.entries("joints").into_iter().any(|(_, _, node)| is_free(node));
+    if !has_free && PARTS.iter().all(|table| context.entries(table).is_empty()) {
         let problem = Problem::error(
             Span::default(),
             "the model is empty: it has no beam, body, point mass or superelement",

@@ -413,6 +413,10 @@ pub enum Attachment {
     },
     /// The relative coordinates that its expression names.
     NamedCoordinates,
+    /// Joints, each with the word of one of its coordinates, or with all of them.
+    Coordinates(Vec<(Located<String>, Option<String>)>),
+    /// Nothing.
+    Nothing,
 }
 
 /// A joint, spring or load of a registered kind.

@@ -309,7 +309,7 @@ fn kinds(table: &[KindEntry]) -> Vec<Variant> {
 fn joints(table: &[KindEntry]) -> Vec<Variant> {
     let mut variants = kinds(table);
     for (variant, entry) in variants.iter_mut().zip(table) {
-        if !matches!(entry.acts_on, ActsOn::JointCoordinate(_)) {
+        if !matches!(entry.acts_on, ActsOn::JointCoordinate(_) | ActsOn::Nothing) {
             let words = "friction on its only coordinate";
             variant.keys.push(optional("friction", Shape::Friction, "", words));
         }
@@ -380,7 +380,13 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
             };
             vec![required("joint", Shape::Name("joints"), "", words)]
         }
-        ActsOn::NamedCoordinates => Vec::new(),
+        ActsOn::NamedCoordinates | ActsOn::Nothing => Vec::new(),
+        ActsOn::Coordinates => vec![required(
+            "coordinates",
+            Shape::Coordinates,
+            "",
+            "coordinates that it acts on, as \"arm.angle\", in the order of its matrices; a joint's name alone means all of its",
+        )],
         ActsOn::TwoJointCoordinates => {
             vec![
                 required("joint", Shape::Name("joints"), "", "the joint whose coordinate leads"),

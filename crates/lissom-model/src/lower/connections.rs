@@ -6,6 +6,7 @@ use lissom_core::elements::{self, Attached, ElementKind, LOADS, SPRINGS};
 use lissom_core::joints::{self, Build, JointKind, Quantity};
 use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Value};
 use lissom_core::signals::Argument;
+use lissom_core::signals::coordinate::Of;
 use lissom_core::system::{Builder, CoordinateId, NodeId, PlaceOnTip, Placement};
 use lissom_motion::Vector3;
 
@@ -30,7 +31,7 @@ pub(super) fn add(
                 continue;
             };
             let own = match kind.build {
-                Build::Relative(..) | Build::Motion => 0,
+                Build::Relative(..) | Build::Motion | Build::Free(_) => 0,
                 Build::Coordinate(..) => 1,
                 Build::Coupling(..) => 2,
             };
@@ -97,7 +98,7 @@ fn joint(
         Attachment::JointCoordinate { joint } => {
             let wanted = match kind.build {
                 Build::Coordinate(wanted, _) => wanted,
-                Build::Relative(..) | Build::Motion | Build::Coupling(..) => Quantity::Angle,
+                Build::Relative(..) | Build::Motion | Build::Free(_) | Build::Coupling(..) => Quantity::Angle,
             };
             let coordinate = coordinate(component, joint, wanted, builder, names)?;
             builder.add_drive(name, kind, coordinate, &component.parameters).map_err(fault)?;
@@ -118,7 +119,13 @@ fn joint(
             axis: None,
             second_axis: None,
         },
-        Attachment::Places(_) => {
+        Attachment::Nothing => {
+            let coordinates =
+                builder.add_free_coordinates(name, kind, &component.parameters).map_err(fault)?;
+            names.coordinates.insert(name.clone(), coordinates);
+            return Ok(());
+        }
+        Attachment::Places(_) | Attachment::Coordinates(_) => {
             let message = format!("joint `{name}` joins two nodes, not places");
             return Err(Problem::error(component.name.span, message));
         }
@@ -193,7 +200,9 @@ fn coordinate(
             Quantity::Angle => {
                 "a revolute, universal, swing_arm, cylindrical, screw, planar or parallel_axes joint"
             }
-            Quantity::Length | Quantity::State => "a prismatic, cylindrical or point_on_line joint",
+            Quantity::Length | Quantity::State => {
+                "a prismatic, cylindrical or point_on_line joint, or generalized coordinates"
+            }
         };
         return Err(Problem::error(joint.span, message)
             .label("nothing to act on")
@@ -210,6 +219,44 @@ fn coordinate(
             .help(format!("give a whole number from 1 to {}", coordinates.len())));
     }
     Ok(coordinates[index - 1])
+}
+
+/// The coordinates that a list of joints and of coordinates of joints means.
+fn all_of(
+    component: &Component,
+    listed: &[(Located<String>, Option<String>)],
+    builder: &Builder,
+    names: &Names,
+) -> Result<Vec<CoordinateId>, Problem> {
+    let mut all: Vec<CoordinateId> = Vec::new();
+    for (joint, word) in listed {
+        let own = names.coordinates.get(&joint.value).map_or(&[][..], Vec::as_slice);
+        let components = super::signals::relative_components(own, builder);
+        let found: Vec<CoordinateId> = match word {
+            None => own.to_vec(),
+            Some(word) => {
+                let named = components.iter().filter(|(known, _, of)| known == word && *of == Of::Value);
+                named.map(|(_, coordinate, _)| *coordinate).collect()
+            }
+        };
+        if found.is_empty() {
+            let values = components.iter().filter(|(.., of)| *of == Of::Value);
+            let known: Vec<&str> = values.map(|(known, ..)| known.as_str()).collect();
+            let message = match word {
+                Some(word) => format!("joint `{}` has no coordinate `{word}`", joint.value),
+                None => format!("joint `{}` has no relative coordinate", joint.value),
+            };
+            let help = (!known.is_empty()).then(|| format!("it has {}", known.join(", ")));
+            return Err(Problem::error(joint.span, message).maybe_help(help));
+        }
+        if let Some(twice) = found.iter().find(|coordinate| all.contains(coordinate)) {
+            let name = builder.coordinate_name(*twice);
+            let message = format!("`{}` names the coordinate `{name}` twice", component.name.value);
+            return Err(Problem::error(joint.span, message).help("name each coordinate once"));
+        }
+        all.extend(found);
+    }
+    Ok(all)
 }
 
 fn element(
@@ -247,7 +294,8 @@ fn element(
                 format!("`{}` acts on one coordinate", component.name.value),
             ));
         }
-        Attachment::NamedCoordinates => {
+        Attachment::Coordinates(listed) => Attached::Coordinates(all_of(component, listed, builder, names)?),
+        Attachment::NamedCoordinates | Attachment::Nothing => {
             let message = format!("`{}` acts on nothing", component.name.value);
             return Err(Problem::error(component.name.span, message));
         }

@@ -65,6 +65,7 @@ fn joint(kind: &JointKind) -> KindEntry {
         }
         Build::Relative(Frames::Span, _) => ActsOn::TwoPlaces,
         Build::Coordinate(quantity, _) => ActsOn::JointCoordinate(quantity),
+        Build::Free(_) => ActsOn::Nothing,
         Build::Coupling(Coupled::Two, _) => ActsOn::TwoJointCoordinates,
         Build::Coupling(Coupled::Named, _) => ActsOn::NamedCoordinates,
     };
@@ -83,6 +84,7 @@ fn element(kind: &ElementKind) -> KindEntry {
         Attachment::TwoNodes => ActsOn::TwoPlaces,
         Attachment::Coordinate(quantity) => ActsOn::JointCoordinate(quantity),
         Attachment::Places => ActsOn::Places,
+        Attachment::Coordinates => ActsOn::Coordinates,
     };
     KindEntry {
         name: kind.name,

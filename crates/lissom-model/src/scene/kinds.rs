@@ -96,6 +96,7 @@ fn joint(kind: &str) -> Option<Drawn> {
             let disc = b.solid(Form::Cylinder, [1.5, 0.35, 0.0], (0, [0.0, 0.6, 0.0]), Dark);
             [vec![disc], vec![t.ring(0.9, 0.25, 0.0, Dark)]]
         }),
+        "generalized_coordinates" => Solids(|[b, _]| base(vec![b.ball(0.3, [0.0; 3], Light)])),
         "equation" => Solids(|[b, _]| {
             let bar = |at| b.solid(Form::Block, [0.3, 1.7, 0.3], (0, [0.0, 2.3, at]), Dark);
             base(vec![bar(-0.35), bar(0.35)])
@@ -139,6 +140,9 @@ fn spring_or_load(kind: &str) -> Option<Drawn> {
         "axial_stop" => Solids(|[b, _]| {
             let disc = |at| b.solid(Form::Cylinder, [1.1, 0.35, 0.0], (0, [at, 0.0, 0.0]), Stop);
             base(vec![disc(-2.6), disc(2.6)])
+        }),
+        "coordinate_dynamics" => Solids(|[b, _]| {
+            base(vec![b.block([0.8, 0.8, 0.8], [0.0, 2.2, 0.0], Dark), b.ring(0.6, 0.12, 1.2, Spring)])
         }),
         "force" | "moment" => Drawn::Arrow,
         "joint_torque" => Solids(|[b, _]| base(b.turn(Moment))),

@@ -48,7 +48,7 @@ pub(super) fn symbols(document: &Document, places: &Places<'_>) -> (Vec<Symbol>,
         let of_others = if tip.is_empty() { &base } else { &tip };
         for (index, (anchor, _)) in ends.iter().enumerate() {
             let solids = match (&component.attachment, index) {
-                (Attachment::NamedCoordinates, _) | (_, 0) => &base,
+                (Attachment::NamedCoordinates | Attachment::Coordinates(_), _) | (_, 0) => &base,
                 (Attachment::JointCoordinates { .. }, _) => of_others,
                 _ => &tip,
             };
@@ -111,6 +111,15 @@ fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Opti
         Attachment::JointCoordinates { joint, other } => {
             let of = |name: &Located<String>| of_joint(&name.value, document, places);
             Some(vec![of(joint)?, of(other)?])
+        }
+        // What has no place is not drawn.
+        Attachment::Nothing => None,
+        Attachment::Coordinates(coordinates) => {
+            let mut joints: Vec<&str> = coordinates.iter().map(|(joint, _)| joint.value.as_str()).collect();
+            joints.dedup();
+            let found: Vec<End> =
+                joints.iter().filter_map(|joint| of_joint(joint, document, places)).collect();
+            (!found.is_empty()).then_some(found)
         }
         Attachment::NamedCoordinates => {
             let (_, formula) = component.signal.as_ref()?;

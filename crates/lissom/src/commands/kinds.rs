@@ -184,6 +184,8 @@ fn holds(holds: ParameterType) -> String {
         ParameterType::FunctionOf(variable) => format!("number, expression of {variable} or table"),
         ParameterType::Input => "name of an input".to_owned(),
         ParameterType::Equation => "expression of coordinates, as arm.angle, and of t".to_owned(),
+        ParameterType::Numbers => "list of numbers".to_owned(),
+        ParameterType::SquareMatrix => "number, diagonal or square matrix by rows".to_owned(),
         ParameterType::Choices(words) => format!("list of {}", words.join(", ")),
     }
 }
@@ -211,6 +213,11 @@ fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
             ("joint, other: those whose coordinates it relates", "joint = \"my_hinge\"\nother = \"my_slide\"")
         }
         ActsOn::NamedCoordinates => ("the coordinates that its expression names", ""),
+        ActsOn::Coordinates => (
+            "coordinates: those of joints that it acts on, in the order of its matrices",
+            "coordinates = [\"my_hinge.angle\", \"my_slide.displacement\"]",
+        ),
+        ActsOn::Nothing => ("nothing: it has coordinates of its own", ""),
         ActsOn::JointCoordinate(Quantity::Angle) => {
             ("joint, the one whose relative rotation it acts on", "joint = \"my_hinge\"")
         }

@@ -86,6 +86,26 @@ fn rotors_rattle_in_their_backlash_with_the_period_of_the_formula() {
     close(sum, speed, 1e-9, "angular momentum");
 }
 
+/// The train turns as one body under the torque, and its two rotors swing against each other about that.
+#[test]
+fn a_drive_train_turns_and_swings_as_two_oscillators() {
+    let record = run(model!("drive-train"), &[]);
+    let (motor, torque, shaft, ratio) = (0.02_f64, 2.0, 800.0, 0.25_f64);
+    let load = 0.05 + ratio * ratio * 0.8;
+    let frequency = (shaft * (1.0 / motor + 1.0 / load)).sqrt();
+    let at_rest = torque / (motor * frequency * frequency);
+    for (row, &time) in record.times.iter().enumerate() {
+        let mean = 0.5 * torque / (motor + load) * time * time;
+        let twist = at_rest * (1.0 - (frequency * time).cos());
+        let wanted = [mean + load / (motor + load) * twist, mean - motor / (motor + load) * twist];
+        for (k, wanted) in wanted.into_iter().enumerate() {
+            let found = column(&record, "train", &format!("angle{}", k + 1))[row];
+            close(found, wanted, 2e-5, "rotor");
+        }
+        close(column(&record, "hinge", "angle")[row], ratio * wanted[1], 5e-6, "arm");
+    }
+}
+
 /// I ζ'' + c ζ' + Ω² e S ζ = 0, for swings of a hundredth.
 #[test]
 fn a_blade_swings_in_lag_as_the_linear_formula_says() {

@@ -1,12 +1,14 @@
 //! Adds drives of coordinates, and relations between coordinates.
 
-use super::Builder;
+use nalgebra::DMatrix;
+
+use super::{Builder, Coordinate};
 use crate::joints::coupling::{Coupling, MOST_COUPLED, Relation, RelationPoint};
 use crate::joints::prescribed::Prescribed;
 use crate::joints::{Build, JointKind, Quantity};
 use crate::registry::{ParameterError, Parameters};
 use crate::system::layout::Layout;
-use crate::system::{CoordinateId, Drive};
+use crate::system::{CoordinateId, CoordinateMass, Drive};
 
 impl Builder {
     /// Prescribes a coordinate, with a drive of a kind that acts on one.
@@ -34,6 +36,39 @@ impl Builder {
         self.multipliers.push((name.to_owned(), wanted.relative()));
         self.multiplier_quantities.push(wanted);
         Ok(())
+    }
+
+    /// Adds coordinates that are not between nodes, of a kind that has such.
+    ///
+    /// # Errors
+    /// If a parameter is missing or makes no sense.
+    pub fn add_free_coordinates(
+        &mut self,
+        name: &str,
+        kind: &JointKind,
+        parameters: &Parameters,
+    ) -> Result<Vec<CoordinateId>, ParameterError> {
+        let Build::Free(build) = kind.build else {
+            return Err(ParameterError::new("kind", "has no coordinates of its own"));
+        };
+        let free = build(parameters)?;
+        let first = self.coordinates.len();
+        let numbered = |k: usize| if free.len() > 1 { (k + 1).to_string() } else { String::new() };
+        self.coordinates.extend(free.iter().enumerate().map(|(k, own)| Coordinate {
+            name: format!("{name}.{}{}", own.coordinate.name, numbered(k)),
+            value: own.value,
+            rate: own.rate,
+            quantity: own.coordinate.quantity,
+        }));
+        let added = first..self.coordinates.len();
+        self.free_coordinates.extend(added.clone());
+        Ok(added.collect())
+    }
+
+    /// Says that coordinates have a mass matrix, which an element of theirs brings into the equations.
+    pub(crate) fn note_coordinate_mass(&mut self, coordinates: &[CoordinateId], matrix: &DMatrix<f64>) {
+        let coordinates = coordinates.to_vec();
+        self.coordinate_masses.push(CoordinateMass { coordinates, matrix: matrix.clone() });
     }
 
     /// Relates coordinates, with a relation of a kind that does; they are those of the relation, in its order.

@@ -29,6 +29,7 @@ impl Builder {
             self.coordinates.push(Coordinate {
                 name: format!("{joint}, rolling along the {direction} axis"),
                 value: 0.0,
+                rate: 0.0,
                 quantity: Quantity::State,
             });
             let coordinate = self.coordinates.len() - 1;
@@ -45,7 +46,7 @@ impl Builder {
     /// Adds the impulse of a latch on a coordinate, which an input engages.
     pub(crate) fn add_latch(&mut self, latched: CoordinateId, engaged: HeldId) -> CoordinateId {
         let name = format!("{}, latched", self.coordinates[latched].name);
-        self.coordinates.push(Coordinate { name, value: 0.0, quantity: Quantity::State });
+        self.coordinates.push(Coordinate { name, value: 0.0, rate: 0.0, quantity: Quantity::State });
         let coordinate = self.coordinates.len() - 1;
         self.impulses.push(Impulse { coordinate, nodes: Vec::new(), coordinates: vec![latched] });
         self.latches.push(engaged);

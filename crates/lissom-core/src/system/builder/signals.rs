@@ -19,7 +19,12 @@ impl Builder {
     /// Adds a first-order state with its value at the start and its usual magnitude. Its derivative is given with
     /// [`drive_state`](Self::drive_state).
     pub fn add_state(&mut self, name: &str, value: f64, magnitude: f64) -> CoordinateId {
-        self.coordinates.push(Coordinate { name: name.to_owned(), value, quantity: Quantity::State });
+        self.coordinates.push(Coordinate {
+            name: name.to_owned(),
+            value,
+            rate: 0.0,
+            quantity: Quantity::State,
+        });
         self.states.push((self.coordinates.len() - 1, magnitude));
         self.coordinates.len() - 1
     }

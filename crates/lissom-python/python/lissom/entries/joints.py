@@ -191,6 +191,25 @@ class Gear(Joint):
 
 
 @dataclass(kw_only=True, slots=True)
+class GeneralizedCoordinates(Joint):
+    """Coordinates of their own, not between parts: what springs, loads, gears and `coordinate_dynamics` act on.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        start: Values at the start: as many as there are coordinates [m or rad]; a list of numbers.
+        rate: Rates at the start, as many as in `start`; default zeros [m/s or rad/s]; a list of numbers, or nothing.
+        quantity: Whether they are displacements (default) or rotations; `"displacement"`, `"rotation"`, or nothing.
+    """
+
+    _form: ClassVar[str] = "generalized_coordinates"
+
+    in_: str | None = None
+    start: Vector
+    rate: Vector | None = None
+    quantity: Literal["displacement", "rotation"] | None = None
+
+
+@dataclass(kw_only=True, slots=True)
 class Generic(Joint):
     """Locks chosen translations and rotations of the tip in the axes of the base.
 

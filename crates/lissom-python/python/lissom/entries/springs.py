@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from ._entry import Entry, Function, Number, Place, Table, Vector
+from ._entry import Entry, Function, Names, Number, Place, Table, Vector
 
 
 class Spring(Entry):
@@ -232,6 +232,29 @@ class Bushing(Spring):
     damping: Vector | list[Vector] | None = None
     axis: Vector | None = None
     second_axis: Vector | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class CoordinateDynamics(Spring):
+    """Mass, damping and stiffness matrices on coordinates: `M q'' + D q' + K (q - rest)` in their equations.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        coordinates: coordinates that it acts on, as "arm.angle", in the order of its matrices; a joint's name alone means all of its; a list of coordinates of joints, as `"arm.angle"`, or of joints: all of theirs.
+        mass: Mass matrix, symmetric, without negative eigenvalues; default 0 [kg, kg m or kg m²]; a number, a list of numbers (a diagonal), or a square matrix by rows, or nothing.
+        damping: Damping matrix; it may be unsymmetric (gyroscopic forces) or negative; default 0 [N s/m, N s or N m s/rad]; a number, a list of numbers (a diagonal), or a square matrix by rows, or nothing.
+        stiffness: Stiffness matrix; it may be unsymmetric (circulatory forces); default 0 [N/m, N/rad or N m/rad]; a number, a list of numbers (a diagonal), or a square matrix by rows, or nothing.
+        rest: Values of the coordinates at which `stiffness` is free of force; default zeros [m or rad]; a list of numbers, or nothing.
+    """
+
+    _form: ClassVar[str] = "coordinate_dynamics"
+
+    in_: str | None = None
+    coordinates: Names
+    mass: Number | Vector | list[Vector] | None = None
+    damping: Number | Vector | list[Vector] | None = None
+    stiffness: Number | Vector | list[Vector] | None = None
+    rest: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)

@@ -5,7 +5,7 @@ use super::words;
 use crate::builder::entry::{entry, keys, nested};
 use crate::builder::expression::{Expression, Function};
 use crate::builder::ids::JointId;
-use crate::builder::values::Node;
+use crate::builder::values::{Node, Quantity};
 
 entry! {
     /// A coordinate of `other`, the follower, is a function of that of `joint`: a cam, or any curve.
@@ -91,6 +91,20 @@ entry! {
     /// - `other`: the joint whose coordinate follows
     /// - `ratio`: Change of the other coordinate per change of the first; negative for gears that mesh outside \[1, m/rad or rad/m\]
     new(joint: JointId = "joint", other: JointId = "other", ratio: f64 = "ratio")
+}
+
+entry! {
+    /// Coordinates of their own, not between parts: what springs, loads, gears and `coordinate_dynamics` act on.
+    GeneralizedCoordinates => JointId, "generalized_coordinates";
+    ["kind" = "generalized_coordinates"]
+    /// With what must be given.
+    ///
+    /// - `start`: Values at the start: as many as there are coordinates \[m or rad\]
+    new(start: Vec<f64> = "start")
+    /// Rates at the start, as many as in `start`; default zeros \[m/s or rad/s\].
+    rate: Vec<f64> = "rate";
+    /// Whether they are displacements (default) or rotations.
+    quantity: words::Quantity = "quantity";
 }
 
 entry! {

@@ -142,6 +142,24 @@ entry! {
 }
 
 entry! {
+    /// Mass, damping and stiffness matrices on coordinates: `M q'' + D q' + K (q - rest)` in their equations.
+    CoordinateDynamics => SpringId, "coordinate_dynamics";
+    ["kind" = "coordinate_dynamics"]
+    /// With what must be given.
+    ///
+    /// - `coordinates`: coordinates that it acts on, as "arm.angle", in the order of its matrices; a joint's name alone means all of its
+    new(coordinates: Vec<JointId> = "coordinates")
+    /// Mass matrix, symmetric, without negative eigenvalues; default 0 \[kg, kg m or kg m²\].
+    mass: Vec<Vec<f64>> = "mass";
+    /// Damping matrix; it may be unsymmetric (gyroscopic forces) or negative; default 0 \[N s/m, N s or N m s/rad\].
+    damping: Vec<Vec<f64>> = "damping";
+    /// Stiffness matrix; it may be unsymmetric (circulatory forces); default 0 \[N/m, N/rad or N m/rad\].
+    stiffness: Vec<Vec<f64>> = "stiffness";
+    /// Values of the coordinates at which `stiffness` is free of force; default zeros \[m or rad\].
+    rest: Vec<f64> = "rest";
+}
+
+entry! {
     /// Stops at the ends of the range of a joint's relative displacement.
     AxialStop => SpringId, "axial_stop";
     ["kind" = "axial_stop"]

@@ -46,6 +46,13 @@ words! {
 }
 
 words! {
+    /// One of `displacement`, `rotation`.
+    Quantity;
+    Displacement = "displacement";
+    Rotation = "rotation";
+}
+
+words! {
     /// One of `physical`, `unit`, `none`.
     Scaling;
     Physical = "physical";

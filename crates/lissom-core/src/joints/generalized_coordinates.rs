@@ -1,0 +1,64 @@
+//! Generalised coordinates without a place in space: numbers that springs, loads, relations and the matrices of
+//! `elements::coordinate_dynamics` act on, as on the coordinates of joints. They have no equations of their own.
+
+use super::{Build, Coordinate, JointKind, Quantity};
+use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
+
+/// Registry entry.
+pub const KIND: JointKind = JointKind {
+    name: "generalized_coordinates",
+    summary: "Coordinates of their own, not between parts: what springs, loads, gears and `coordinate_dynamics` act on.",
+    sample: "start = [0.1, 0.0]",
+    parameters: &[
+        Parameter::required(
+            "start",
+            ParameterType::Numbers,
+            "m or rad",
+            "Values at the start: as many as there are coordinates.",
+        ),
+        Parameter::optional(
+            "rate",
+            ParameterType::Numbers,
+            "m/s or rad/s",
+            "Rates at the start, as many as in `start`; default zeros.",
+        ),
+        Parameter::optional(
+            "quantity",
+            ParameterType::Choice(&["displacement", "rotation"]),
+            "",
+            "Whether they are displacements (default) or rotations.",
+        ),
+    ],
+    build: Build::Free(read),
+};
+
+/// A coordinate that no joint between two nodes has.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FreeCoordinate {
+    /// What it is.
+    pub coordinate: Coordinate,
+    /// At the start [m, rad].
+    pub value: f64,
+    /// Its rate at the start [m/s, rad/s].
+    pub rate: f64,
+}
+
+fn read(parameters: &Parameters) -> Result<Vec<FreeCoordinate>, ParameterError> {
+    let values = parameters.numbers("start")?;
+    let rates = if parameters.has("rate") { parameters.numbers("rate")? } else { &[] };
+    if parameters.has("rate") && rates.len() != values.len() {
+        let problem = format!("has {} numbers, but `start` has {}", rates.len(), values.len());
+        return Err(ParameterError::new("rate", problem));
+    }
+    let quantity = match parameters.word("quantity")? {
+        Some("rotation") => Quantity::Angle,
+        _ => Quantity::Length,
+    };
+    let coordinate = Coordinate { name: quantity.relative(), quantity };
+    let read = |(k, &value): (usize, &f64)| FreeCoordinate {
+        coordinate,
+        value,
+        rate: rates.get(k).copied().unwrap_or(0.0),
+    };
+    Ok(values.iter().enumerate().map(read).collect())
+}
