@@ -127,13 +127,17 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
             let multiplier = system.drives()[*index].multiplier;
             touched.multipliers = multiplier..multiplier + 1;
         }
+        Source::Slider(index) => {
+            let first = system.sliders()[*index].first_multiplier;
+            touched.multipliers = first..first + 3;
+        }
         Source::Coupling(index) => {
             let coupling = &system.couplings()[*index];
             touched.coordinates.extend(&coupling.coordinates);
             touched.multipliers = coupling.multiplier..coupling.multiplier + 1;
         }
         Source::Coordinates(coordinates) | Source::FreeAccelerations(coordinates) => {
-            touched.coordinates.extend(coordinates)
+            touched.coordinates.extend(coordinates);
         }
         Source::Accelerations(coordinates) => {
             for joint in coordinates.iter().map(|&(joint, _)| &system.joints()[joint]) {

@@ -69,6 +69,7 @@ pub(crate) enum Source {
     RelativeMotion(usize),
     Drive(usize),
     Coupling(usize),
+    Slider(usize),
     Coordinates(Vec<CoordinateId>),
     /// Of coordinates by joint and place in it.
     Accelerations(Vec<(usize, usize)>),
@@ -216,14 +217,14 @@ impl Channel {
             }
             Source::Accelerations(coordinates) => {
                 let of = |&(joint, k): &(usize, usize)| {
-                    let accelerations: [f64; MOST_COORDINATES] =
-                        system.joints()[joint].coordinate_accelerations(at);
-                    accelerations[k]
+                    let all: [f64; MOST_COORDINATES] = system.joints()[joint].coordinate_accelerations(at);
+                    all[k]
                 };
                 out.extend(coordinates.iter().map(of));
             }
+            Source::Slider(index) => out.extend(slider_force(system, *index, state)),
             Source::FreeAccelerations(coordinates) => {
-                out.extend(coordinates.iter().map(|&own| at.coordinates[own].acceleration));
+                out.extend(coordinates.iter().map(|&own| free_acceleration(system, own, at)));
             }
             Source::Coordinates(coordinates) => {
                 let motions = coordinates.iter().map(|&coordinate| &at.coordinates[coordinate]);
@@ -407,6 +408,9 @@ fn joint_source(
         let message = format!("the reaction of `{}` has no axes: it acts on coordinates", name.value);
         return Err(Problem::error(name.span, message).help("leave out `axes`"));
     }
+    if let Some(index) = system.sliders().iter().position(|slider| slider.name == name.value) {
+        return Ok(Source::Slider(index));
+    }
     if let Some(index) = system.couplings().iter().position(|coupling| coupling.name == name.value) {
         return Ok(Source::Coupling(index));
     }
@@ -485,7 +489,7 @@ pub(crate) fn components(
         (OutputKind::Velocity, _) => three("v", "m/s"),
         (OutputKind::AngularVelocity, _) => three("w", "rad/s"),
         (OutputKind::Acceleration, _) => three("a", "m/s²"),
-        (OutputKind::SectionForce, _) => three("f", "N"),
+        (OutputKind::SectionForce, _) | (OutputKind::Reaction, Source::Slider(_)) => three("f", "N"),
         (OutputKind::SectionMoment, _) => three("m", "N m"),
         (OutputKind::Reaction, Source::Drive(index)) => {
             match system.layout().coordinate_quantity(system.drives()[*index].prescribed.coordinate) {
@@ -539,6 +543,18 @@ pub(crate) fn components(
         (OutputKind::CardanAngles, _) => words(&["alpha", "beta", "gamma"], &["rad"; 3]),
         (OutputKind::Energy, _) => words(&["kinetic", "strain", "potential", "total"], &["J"; 4]),
     }
+}
+
+/// Force of a slider on its tip, global axes [N].
+fn slider_force(system: &System, slider: usize, state: &State) -> [f64; 3] {
+    let first = system.sliders()[slider].first_multiplier;
+    std::array::from_fn(|k| -state.multipliers[first + k])
+}
+
+/// Second derivative of a coordinate that no joint between nodes has; that of a slider follows from those of nodes.
+fn free_acceleration(system: &System, own: CoordinateId, at: &Kinematics) -> f64 {
+    let slider = system.sliders().iter().find(|slider| slider.coordinate == own);
+    slider.map_or(at.coordinates[own].acceleration, |slider| slider.coordinate_acceleration(at))
 }
 
 /// Components and units of accelerations of coordinates.

@@ -168,6 +168,7 @@ fn type_of(shape: &Shape) -> String {
         | Shape::Curve
         | Shape::Distribution
         | Shape::Pair
+        | Shape::Numbers
         | Shape::Range => "Vector",
         Shape::Point => "Vector | Table",
         Shape::Names | Shape::Words | Shape::Coordinates => "Names",
@@ -180,7 +181,6 @@ fn type_of(shape: &Shape) -> String {
         | Shape::Mass => "Function",
         Shape::Axes | Shape::Rows => "list[Vector]",
         Shape::Stiffness => "Vector | list[Vector]",
-        Shape::Numbers => "Vector",
         Shape::SquareMatrix => "Number | Vector | list[Vector]",
         Shape::Inertia | Shape::SectionMass => "Vector | list[Vector] | Table",
         Shape::Shear => "Number | Vector",

@@ -36,6 +36,8 @@ pub enum ActsOn {
     NamedCoordinates,
     /// Several relative coordinates: `coordinates`.
     Coordinates,
+    /// Beams one after the other, `beams`, and a node `tip` at location `at`.
+    AlongBeams,
     /// Nothing: it has coordinates of its own.
     Nothing,
 }

@@ -128,7 +128,7 @@ fn of_shape(shape: &Shape) -> Value {
             });
             any_of(&[vector(), placed])
         }
-        Shape::Names => json!({ "type": "array", "minItems": 1, "items": text() }),
+        Shape::Names | Shape::Coordinates => json!({ "type": "array", "minItems": 1, "items": text() }),
         Shape::Entries(table) => json!({ "$ref": format!("#/properties/{table}") }),
         Shape::Choice(words) => json!({ "enum": words }),
         Shape::Choices(words) => {
@@ -163,7 +163,6 @@ fn of_shape(shape: &Shape) -> Value {
             let row = json!({ "type": "array", "minItems": 1, "items": plain() });
             any_of(&[plain(), row.clone(), json!({ "type": "array", "minItems": 1, "items": row })])
         }
-        Shape::Coordinates => json!({ "type": "array", "minItems": 1, "items": text() }),
         Shape::Table => json!({ "type": "object" }),
     }
 }

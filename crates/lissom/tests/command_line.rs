@@ -373,6 +373,10 @@ fn samples_of_kinds_are_good_models() {
         [joints.my_hinge]\nkind = \"revolute\"\nbase = \"ground\"\ntip = \"my_body\"\naxis = [1, 0, 0]\n\
         [bodies.my_slider]\nmass = 1\ninertia = [1, 1, 1]\nposition = [1, 0, -1]\n\
         [joints.my_slide]\nkind = \"prismatic\"\nbase = \"ground\"\ntip = \"my_slider\"\naxis = [1, 0, 0]\n\
+        [sections.my_section]\nshape = \"general\"\nstiffness = [1e6, 1e6, 1e6, 1e3, 1e3, 1e3]\n\
+        mass = { per_length = 1, inertia = [2e-3, 1e-3, 1e-3] }\n\
+        [beams.my_beam]\nsection = \"my_section\"\nfrom = [0, 0, -1]\nto = [2, 0, -1]\nelements = 4\n\
+        [joints.my_wall]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"my_beam.start\"\n\
         [analysis]\nkind = \"dynamics\"\nend = 1\nstep = 0.1\n";
     let folder = Folder::new("samples");
     let run = lissom(&["kinds"], folder.path());

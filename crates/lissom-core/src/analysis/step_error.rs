@@ -171,6 +171,21 @@ pub enum StepError {
         /// Angle between them over π, at most 1.
         turns: f64,
     },
+    /// A slider has left its beam.
+    #[error(
+        "step to t = {time:.6e} s: slider `{joint}` passes the end of its beam: it is at {place:.6e} m of {length:.6e} m; make the \
+         beam longer, hold it with a spring of kind `axial_stop`, or end the run before with an event"
+    )]
+    BeyondBeam {
+        /// Time [s].
+        time: f64,
+        /// Name of the slider.
+        joint: String,
+        /// Its coordinate [m].
+        place: f64,
+        /// Length of the beam [m].
+        length: f64,
+    },
     /// Energy that nothing put in.
     #[error(
         "step to t = {time:.6e} s: there are {surplus:.3e} J more than anything put in, where {turned_over:.3e} J are \

@@ -40,6 +40,7 @@ impl StepError {
             | Self::Chatters { time, what }
             | Self::Switches { time, what } => (*time, owner(what)),
             Self::JointLosesHold { time, joint: part, .. }
+            | Self::BeyondBeam { time, joint: part, .. }
             | Self::EnergyFromNowhere { time, node: part, .. }
             | Self::TurnsTooFar { time, node: part, .. }
             | Self::ElementTurns { time, nodes: [part, _], .. } => (*time, Some(part.as_str())),

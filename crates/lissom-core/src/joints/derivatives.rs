@@ -92,6 +92,18 @@ impl IncrementTangent {
         }
     }
 
+    /// Takes derivatives by a body variation of the node to those by its increment: a row of six times T(ψ).
+    pub(crate) fn through(&self, row: &mut [f64]) {
+        let mut turned = [0.0; 6];
+        for j in 0..3 {
+            for i in 0..3 {
+                turned[j] += row[i] * self.turning[(i, j)];
+                turned[3 + j] += row[i] * self.shifting[(i, j)] + row[3 + i] * self.turning[(i, j)];
+            }
+        }
+        row.copy_from_slice(&turned);
+    }
+
     /// Of no increment.
     pub fn none() -> Self {
         Self { turning: Matrix3::identity(), shifting: Matrix3::zeros() }

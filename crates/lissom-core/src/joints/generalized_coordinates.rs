@@ -8,7 +8,7 @@ use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 pub const KIND: JointKind = JointKind {
     name: "generalized_coordinates",
     summary: "Coordinates of their own, not between parts: what springs, loads, gears and `coordinate_dynamics` act on.",
-    sample: "start = [0.1, 0.0]",
+    sample: "start = [0.1, 0.0]\n[springs.my_masses]\nkind = \"coordinate_dynamics\"\ncoordinates = [\"my_joint\"]\nmass = [2.0, 1.0]",
     parameters: &[
         Parameter::required(
             "start",
@@ -23,10 +23,10 @@ pub const KIND: JointKind = JointKind {
             "Rates at the start, as many as in `start`; default zeros.",
         ),
         Parameter::optional(
-            "quantity",
-            ParameterType::Choice(&["displacement", "rotation"]),
+            "rotations",
+            ParameterType::Flag,
             "",
-            "Whether they are displacements (default) or rotations.",
+            "Whether they are rotations [rad]; default false: displacements [m].",
         ),
     ],
     build: Build::Free(read),
@@ -50,10 +50,7 @@ fn read(parameters: &Parameters) -> Result<Vec<FreeCoordinate>, ParameterError> 
         let problem = format!("has {} numbers, but `start` has {}", rates.len(), values.len());
         return Err(ParameterError::new("rate", problem));
     }
-    let quantity = match parameters.word("quantity")? {
-        Some("rotation") => Quantity::Angle,
-        _ => Quantity::Length,
-    };
+    let quantity = if parameters.flag_or("rotations", false)? { Quantity::Angle } else { Quantity::Length };
     let coordinate = Coordinate { name: quantity.relative(), quantity };
     let read = |(k, &value): (usize, &f64)| FreeCoordinate {
         coordinate,

@@ -8,6 +8,7 @@ pub mod attached;
 pub(crate) mod base_axes;
 pub mod blocks;
 pub mod cam;
+pub(crate) mod centerline;
 pub mod clamp;
 pub mod constant_velocity;
 pub mod contact;
@@ -36,6 +37,7 @@ pub mod revolute;
 pub mod rigid_link;
 pub mod rolling;
 pub mod screw;
+pub mod slider;
 pub mod spherical;
 pub(crate) mod step_stages;
 pub mod swing_arm;
@@ -360,6 +362,8 @@ pub enum Build {
     Coordinate(Quantity, fn(&Parameters) -> Result<Function, ParameterError>),
     /// Prescribes the whole motion of a node relative to another.
     Motion,
+    /// Lets a point of the tip slide along beams.
+    AlongBeams,
     /// Has coordinates of its own, not between nodes.
     Free(MakeFree),
     /// Relates algebraic coordinates of other joints.
@@ -406,6 +410,7 @@ pub static KINDS: &[JointKind] = &[
     rigid_link::KIND,
     rolling::KIND,
     screw::KIND,
+    slider::KIND,
     spherical::KIND,
     swing_arm::KIND,
     universal::KIND,

@@ -33,6 +33,8 @@ pub(crate) const LARGEST_TURN: f64 = 0.5 * PI;
 const LARGEST_RELATIVE_TURN: f64 = 0.9;
 /// Velocities that change by more than this part of the largest in a step are no smooth motion.
 const SMOOTH: f64 = 0.5;
+/// A slider may be past the end of its beam by this part of the length: round-off.
+const PAST_THE_END: f64 = 1e-9;
 /// Constraints named in a message.
 const MOST_NAMED: usize = 4;
 
@@ -53,6 +55,7 @@ impl Judge<'_> {
     /// If the end of the step cannot be believed.
     pub(crate) fn examine(&self, start: &State, end: &State, ledger: &Ledger) -> Result<Ledger, StepError> {
         self.constraints(end)?;
+        self.sliders(end)?;
         let is_smooth = self.is_motion && self.turns(start, end)?;
         let weighs = !is_smooth || ledger.is_due();
         if weighs {
@@ -111,6 +114,19 @@ impl Judge<'_> {
             words.push(format!("`{joint}` ({equation}) by {:.3e} {unit}", end.violations[k].abs()));
         }
         Err(StepError::Contradiction { time: end.kinematics.time, violated: words.join(", ") })
+    }
+
+    /// Fails where a slider has come off the end of its beam.
+    fn sliders(&self, end: &State) -> Result<(), StepError> {
+        for slider in self.system.sliders() {
+            let (place, length) = (end.kinematics.coordinates[slider.coordinate].value, slider.length());
+            let beyond = (place - length).max(-place);
+            if beyond > PAST_THE_END * length {
+                let (time, joint) = (end.kinematics.time, slider.name.clone());
+                return Err(StepError::BeyondBeam { time, joint, place, length });
+            }
+        }
+        Ok(())
     }
 
     /// Fails where a node turns so far that what it turns beyond would pass unseen. Tells whether the motion goes on

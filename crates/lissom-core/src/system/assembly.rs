@@ -153,6 +153,7 @@ impl System {
         }
         self.add_drives(point, out);
         self.add_couplings(point, out);
+        self.add_sliders(point, out);
     }
 
     /// The same on several threads, to the last bit.
@@ -181,6 +182,7 @@ impl System {
         }
         self.add_drives(point, out);
         self.add_couplings(point, out);
+        self.add_sliders(point, out);
     }
 
     /// Rows of a joint's local unknowns and equations.
@@ -226,6 +228,7 @@ impl System {
             out[drive.multiplier] = drive_violation(drive, point);
         }
         self.coupling_violations(point, out);
+        self.slider_violations(point, out);
     }
 
     /// Linearisation at `point` with respect to the unknowns of `chart`.
@@ -268,6 +271,7 @@ impl System {
             out.add_drive(drive.positions, self.relative_weight(point, drive.multiplier));
         }
         self.linearize_couplings(point, out);
+        self.linearize_sliders(point, chart, out);
     }
 
     /// Ḃ v + ∂²c/∂t² by multiplier: what the constraints' second time derivative holds besides B v̇.
@@ -291,6 +295,10 @@ impl System {
         }
         for coupling in &self.couplings {
             out[coupling.multiplier] = coupling.acceleration(at);
+        }
+        for slider in &self.sliders {
+            let first = slider.first_multiplier;
+            out[first..first + 3].copy_from_slice(slider.acceleration(at).as_slice());
         }
     }
 

@@ -602,16 +602,7 @@ fn add_columns(matrix: &mut [f64], other: &[f64], size: usize, column: usize, fa
 /// Multiplies the six columns from `column` of a row-major local matrix by T(ψ): from body variations to
 /// variations of the increment ψ.
 fn through_chart(matrix: &mut [f64], size: usize, column: usize, chart: &IncrementTangent) {
-    let IncrementTangent { turning, shifting } = chart;
     for row in matrix.chunks_exact_mut(size) {
-        let row = &mut row[column..column + 6];
-        let mut turned = [0.0; 6];
-        for j in 0..3 {
-            for i in 0..3 {
-                turned[j] += row[i] * turning[(i, j)];
-                turned[3 + j] += row[i] * shifting[(i, j)] + row[3 + i] * turning[(i, j)];
-            }
-        }
-        row.copy_from_slice(&turned);
+        chart.through(&mut row[column..column + 6]);
     }
 }

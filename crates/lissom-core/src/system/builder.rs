@@ -6,6 +6,7 @@ mod drawn;
 mod motion;
 mod rolling;
 mod signals;
+mod slider;
 
 use std::sync::Arc;
 
@@ -28,6 +29,7 @@ use crate::joints::attached::{AttachedJoint, CarriedFrame};
 use crate::joints::blocks::Batches;
 use crate::joints::coupling::Coupling;
 use crate::joints::derivatives::{LOCAL, OWN, TIP};
+use crate::joints::slider::Slider;
 use crate::joints::{Build, Geometry, JointKind, Quantity};
 use crate::registry::{Function, ParameterError, Parameters};
 use crate::signals::{Graph, HeldId, SignalId};
@@ -86,6 +88,7 @@ pub struct Builder {
     joints: Vec<AttachedJoint>,
     drives: Vec<Drive>,
     couplings: Vec<Coupling>,
+    sliders: Vec<Slider>,
     multipliers: Vec<(String, &'static str)>,
     multiplier_quantities: Vec<Quantity>,
     gravity: Gravity,
@@ -128,6 +131,7 @@ impl Builder {
             joints: Vec::new(),
             drives: Vec::new(),
             couplings: Vec::new(),
+            sliders: Vec::new(),
             multipliers: Vec::new(),
             multiplier_quantities: Vec::new(),
             gravity: Gravity::constant(Vector3::zeros()),
@@ -384,6 +388,7 @@ impl Builder {
                 self.drives.iter().map(of_drive).map(|(coordinate, multiplier)| vec![coordinate, multiplier]),
             )
             .chain(self.couplings.iter().map(|coupling| rows_of_coupling(coupling, &layout)))
+            .chain(self.sliders.iter().flat_map(|slider| slider::cliques(slider, &layout)))
             .collect();
         let pattern = Arc::new(Pattern::from_cliques(layout.size(), cliques.iter().map(Vec::as_slice)));
         for batch in &mut self.batches {
@@ -404,6 +409,9 @@ impl Builder {
             let rows = rows_of_coupling(coupling, &layout);
             let entries = rows.iter().flat_map(|&column| rows.iter().map(move |&row| (row, column)));
             coupling.positions = entries.map(|(row, column)| position_of(&pattern, row, column)).collect();
+        }
+        for slider in &mut self.sliders {
+            slider.entries = slider::entries(slider, &layout, &pattern);
         }
         let structure = Structure::new(pattern, self.groups(&layout))
             .map_err(|error| BuildError::Structure(error.to_string()))?;
@@ -428,6 +436,7 @@ impl Builder {
             free_coordinates: self.free_coordinates,
             latches: self.latches,
             couplings: self.couplings,
+            sliders: self.sliders,
             structure,
             joint_places,
             joint_starts,
@@ -514,6 +523,14 @@ impl Builder {
         for coupling in &self.couplings {
             let hosts = coupling.coordinates.iter().map(|&coordinate| first_coordinate + coordinate);
             groups.push(Group { unknowns: vec![multipliers + coupling.multiplier], hosts: hosts.collect() });
+        }
+        for slider in &self.sliders {
+            let first = multipliers + slider.first_multiplier;
+            let nodes = slider.nodes.iter().chain([&slider.tip]).filter_map(|own| of_node[own.node]);
+            let mut hosts: Vec<usize> = nodes.chain([first_coordinate + slider.coordinate]).collect();
+            hosts.sort_unstable();
+            hosts.dedup();
+            groups.push(Group { unknowns: (first..first + 3).collect(), hosts });
         }
         groups
     }

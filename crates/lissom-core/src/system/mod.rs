@@ -9,6 +9,7 @@ mod layout;
 pub(crate) mod places;
 mod reach;
 mod receiver;
+mod sliders;
 pub(crate) mod state;
 mod step_stages;
 mod threads;
@@ -38,6 +39,7 @@ use crate::joints::blocks::{Batches, JointStarts};
 use crate::joints::coupling::Coupling;
 use crate::joints::prescribed::Prescribed;
 use crate::registry::Function;
+use crate::joints::slider::Slider;
 use crate::signals::{Graph, HeldId};
 use batch::AnyBatch;
 pub(crate) use batch::Mass;
@@ -83,6 +85,7 @@ pub struct System {
     pub(crate) joint_batches: Batches,
     pub(crate) drives: Vec<Drive>,
     pub(crate) couplings: Vec<Coupling>,
+    pub(crate) sliders: Vec<Slider>,
     pub(crate) coordinate_masses: Vec<CoordinateMass>,
     /// Coordinates that no joint between nodes has.
     pub(crate) free_coordinates: Vec<CoordinateId>,
@@ -308,6 +311,10 @@ impl System {
         }
         for coupling in &self.couplings {
             out[coupling.multiplier] = coupling.violation(at);
+        }
+        for slider in &self.sliders {
+            let first = slider.first_multiplier;
+            out[first..first + 3].copy_from_slice(slider.violation(at).as_slice());
         }
     }
 }

@@ -30,6 +30,7 @@ pub(crate) struct Reach {
     joints: Vec<usize>,
     drives: Vec<usize>,
     couplings: Vec<usize>,
+    sliders: Vec<usize>,
 }
 
 impl Reach {
@@ -41,6 +42,7 @@ impl Reach {
                 && first.joints.len() == other.joints.len()
                 && first.drives.len() == other.drives.len()
                 && first.couplings.len() == other.couplings.len()
+                && first.sliders.len() == other.sliders.len()
         };
         if !systems.iter().all(|(other, _)| is_alike(other)) {
             return None;
@@ -65,7 +67,9 @@ impl Reach {
         let drives = differing(&is_other, first.drives.len());
         let is_other = |other: &System, k: usize| !is_same(&first.couplings[k], &other.couplings[k]);
         let couplings = differing(&is_other, first.couplings.len());
-        Some(Self { systems, derivatives, elements, joints, drives, couplings })
+        let is_other = |other: &System, k: usize| !is_same(&first.sliders[k], &other.sliders[k]);
+        let sliders = differing(&is_other, first.sliders.len());
+        Some(Self { systems, derivatives, elements, joints, drives, couplings, sliders })
     }
 
     /// Adds the derivatives of forces and violations by the number, by row.
@@ -76,7 +80,8 @@ impl Reach {
         let has_differences = !(self.elements.is_empty()
             && self.joints.is_empty()
             && self.drives.is_empty()
-            && self.couplings.is_empty());
+            && self.couplings.is_empty()
+            && self.sliders.is_empty());
         if !has_differences {
             return;
         }
@@ -127,6 +132,9 @@ impl Reach {
                 out[layout.row_of_coordinate(coordinate)] += by * mu;
             }
             out[layout.coordinate_count + coupling.multiplier] = coupling.violation(at);
+        }
+        for &index in &self.sliders {
+            system.add_slider_outright(index, at, multipliers, out);
         }
     }
 }

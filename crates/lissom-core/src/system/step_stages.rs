@@ -48,6 +48,7 @@ impl System {
             }
         }
         self.add_coupling_stages(point, out);
+        self.add_slider_stages(point, out);
     }
 }
 

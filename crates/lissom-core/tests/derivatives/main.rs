@@ -12,6 +12,7 @@ use configuration::{Configuration, Random, difference, sample_parameters};
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
 use lissom_core::joints::derivatives::IncrementTangent;
+use lissom_core::joints::slider::CarriedPoint;
 use lissom_core::joints::{self, Build, JointKind, Quantity};
 use lissom_core::registry::{Parameters, Value};
 use lissom_core::system::{
@@ -96,6 +97,21 @@ fn two_bodies(random: &mut Random) -> (Builder, [usize; 2]) {
     let mut builder = Builder::new();
     let nodes = ["base", "tip"].map(|name| builder.add_node(name, random.motion(), Freedoms::Full));
     (builder, nodes)
+}
+
+/// A slider along a line of four nodes that carry their points beside themselves.
+fn along_a_line(builder: &mut Builder, tip: usize, random: &mut Random) {
+    let places: [Vector3; 4] =
+        std::array::from_fn(|k| Vector3::new(2.0 * k as f64, 0.0, 0.0) + 0.1 * random.vector());
+    let nodes = places.map(|place| {
+        let frame = random.motion();
+        let node = builder.add_node("node", frame, Freedoms::Full);
+        CarriedPoint { node, point: frame.inverse_transform_point(&place) }
+    });
+    // Half way between the middle nodes: away from nodes, where third derivatives jump.
+    let on_line = (9.0 * (places[1] + places[2]) - places[0] - places[3]) / 16.0;
+    let line = (nodes.to_vec(), vec![0.0, 2.0, 4.0, 6.0]);
+    builder.add_slider("slider", line, (tip, on_line)).expect("valid");
 }
 
 /// Two coordinates that no joint between nodes has.
@@ -241,6 +257,7 @@ fn all_joints() {
                         .expect("valid");
                     builder.add_drive("drive", kind, coordinates[0], &parameters).expect("valid");
                 }
+                Build::AlongBeams => along_a_line(&mut builder, nodes[1], &mut random),
                 Build::Free(_) => {
                     builder.add_free_coordinates("free", kind, &parameters).expect("valid");
                 }
@@ -303,6 +320,47 @@ fn violation_changes_agree_with_violations() {
         system.violations(&here.at, &mut outright);
         for (a, b) in carried.iter().zip(&outright) {
             assert!((a - b).abs() < 1e-13, "{}: {a} carried, {b} outright", kind.name);
+        }
+    }
+}
+
+/// Likewise of a slider that passes a node, and its second derivative along a motion.
+#[test]
+fn a_slider_carries_its_violation_past_nodes() {
+    for size in [0.02, 0.2, 3.0] {
+        let mut random = Random::new(60);
+        let mut builder = Builder::new();
+        let tip = builder.add_node("tip", random.motion(), Freedoms::Full);
+        along_a_line(&mut builder, tip, &mut random);
+        let (system, state) = builder.build(0.0).expect("valid");
+        let mut violations = vec![0.0; 3];
+        system.violations(&state.kinematics, &mut violations);
+        assert!(violations.iter().all(|value| value.abs() < 1e-14), "not satisfied at the start");
+        let here = Configuration::random(&system, &state, size, &mut random);
+        let (mut carried, mut outright) = (vec![0.0; 3], vec![0.0; 3]);
+        system.stage_violations(&here.point(0.0), &mut carried);
+        system.violations(&here.at, &mut outright);
+        for (a, b) in carried.iter().zip(&outright) {
+            assert!((a - b).abs() < 1e-13, "{a} carried, {b} outright");
+        }
+        if size > 1.0 {
+            continue;
+        }
+        let mut exact = vec![0.0; 3];
+        system.constraint_accelerations(&here.at, &mut exact);
+        let moved = |time: f64| {
+            let mut at = here.at.clone();
+            for node in &mut at.nodes {
+                node.frame = node.frame * Motion::exponential(&(time * node.twist));
+            }
+            at.coordinates[0].value += time * at.coordinates[0].rate;
+            let mut out = vec![0.0; 3];
+            system.violations(&at, &mut out);
+            out
+        };
+        let found = difference(|time| difference(|step| moved(time + step)));
+        for (a, b) in exact.iter().zip(&found) {
+            assert!((a - b).abs() < 1e-6 * (1.0 + a.abs()), "{a} exact, {b} by differences");
         }
     }
 }

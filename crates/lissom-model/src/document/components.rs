@@ -149,8 +149,36 @@ fn attachment(
         }
         ActsOn::NamedCoordinates => Some(Attachment::NamedCoordinates),
         ActsOn::Coordinates => coordinates(reader),
+        ActsOn::AlongBeams => {
+            let context = reader.context;
+            let beams = names_of_beams(reader);
+            let tip = reader.node("tip").and_then(|node| context.node(node, &reader.words("tip")))?;
+            Some(Attachment::AlongBeams { at: at("at", &tip)?, beams: beams?, tip })
+        }
         ActsOn::Nothing => Some(Attachment::Nothing),
     }
+}
+
+/// Names of beams, at least one.
+fn names_of_beams(reader: &Reader<'_, '_>) -> Option<Vec<Located<String>>> {
+    let (context, node) = (reader.context, reader.node("beams")?);
+    let what = reader.words("beams");
+    let Value::List(list) = &node.value else {
+        return context.wrong_type(node, &what, "a list of names of beams");
+    };
+    let read = |entry: &Node| {
+        let Value::Text(text) = &entry.value else {
+            return context.wrong_type(entry, &format!("each entry of {what}"), "the name of a beam");
+        };
+        let name = context.entry_named("beams", text, entry, &what)?;
+        let is_known = context.is_known("beams", &name, entry.span, &what);
+        is_known.then(|| Located::new(name, entry.span))
+    };
+    if list.is_empty() {
+        return context.fail(node.span, format!("{what} is empty"), "name at least one beam");
+    }
+    let all: Vec<_> = list.iter().map(read).collect();
+    all.into_iter().collect()
 }
 
 /// Joints, or coordinates of joints, by name.
@@ -283,7 +311,10 @@ fn joint_coordinate(reader: &Reader<'_, '_>, name: &str, registry: &Registry) ->
     let word = &context.entry("joints", &joint.value)?.table()?.get("kind")?.node;
     let Value::Text(kind) = &word.value else { return None };
     let entry = registry.joints.iter().find(|entry| entry.name == kind)?;
-    if matches!(entry.acts_on, ActsOn::TwoNodes(FrameRule::Axis | FrameRule::TwoAxes) | ActsOn::Nothing) {
+    if matches!(
+        entry.acts_on,
+        ActsOn::TwoNodes(FrameRule::Axis | FrameRule::TwoAxes) | ActsOn::Nothing | ActsOn::AlongBeams
+    ) {
         return Some(Attachment::JointCoordinate { joint });
     }
     let message = format!("{} acts on `{}`, which has no relative coordinate", reader.what, joint.value);

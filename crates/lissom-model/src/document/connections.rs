@@ -161,6 +161,11 @@ fn free_parts(context: &Context<'_>, document: &Document) {
         {
             groups.join(part_of(&base.value), part_of(&tip.value));
         }
+        if let Attachment::AlongBeams { beams, tip, .. } = &component.attachment {
+            for beam in beams {
+                groups.join(&beam.value, part_of(&tip.value));
+            }
+        }
         if let Attachment::Places(along) = &component.attachment {
             for pair in along.windows(2) {
                 groups.join(part_of(&pair[0].0.value), part_of(&pair[1].0.value));

@@ -415,6 +415,15 @@ pub enum Attachment {
     NamedCoordinates,
     /// Joints, each with the word of one of its coordinates, or with all of them.
     Coordinates(Vec<(Located<String>, Option<String>)>),
+    /// Beams one after the other, and what slides along them.
+    AlongBeams {
+        /// Names of the beams.
+        beams: Vec<Located<String>>,
+        /// The node that slides.
+        tip: Located<NodeReference>,
+        /// Location at the start [m]; the tip node's place by default.
+        at: Vector3,
+    },
     /// Nothing.
     Nothing,
 }

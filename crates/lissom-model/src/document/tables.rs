@@ -381,6 +381,21 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
             vec![required("joint", Shape::Name("joints"), "", words)]
         }
         ActsOn::NamedCoordinates | ActsOn::Nothing => Vec::new(),
+        ActsOn::AlongBeams => vec![
+            required(
+                "beams",
+                Shape::Names,
+                "",
+                "beams along which it slides, each from the end of the one before",
+            ),
+            required("tip", Shape::Node, "", "the node that slides"),
+            optional(
+                "at",
+                Shape::Place,
+                "m",
+                "location on the beam at the start; default: the tip node's place",
+            ),
+        ],
         ActsOn::Coordinates => vec![required(
             "coordinates",
             Shape::Coordinates,

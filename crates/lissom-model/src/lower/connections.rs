@@ -31,7 +31,7 @@ pub(super) fn add(
                 continue;
             };
             let own = match kind.build {
-                Build::Relative(..) | Build::Motion | Build::Free(_) => 0,
+                Build::Relative(..) | Build::Motion | Build::Free(_) | Build::AlongBeams => 0,
                 Build::Coordinate(..) => 1,
                 Build::Coupling(..) => 2,
             };
@@ -98,7 +98,7 @@ fn joint(
         Attachment::JointCoordinate { joint } => {
             let wanted = match kind.build {
                 Build::Coordinate(wanted, _) => wanted,
-                Build::Relative(..) | Build::Motion | Build::Free(_) | Build::Coupling(..) => Quantity::Angle,
+                _ => Quantity::Angle,
             };
             let coordinate = coordinate(component, joint, wanted, builder, names)?;
             builder.add_drive(name, kind, coordinate, &component.parameters).map_err(fault)?;
@@ -119,6 +119,9 @@ fn joint(
             axis: None,
             second_axis: None,
         },
+        Attachment::AlongBeams { beams, tip, at } => {
+            return super::sliders::add(document, component, (beams, tip, at), (builder, names));
+        }
         Attachment::Nothing => {
             let coordinates =
                 builder.add_free_coordinates(name, kind, &component.parameters).map_err(fault)?;
@@ -295,7 +298,7 @@ fn element(
             ));
         }
         Attachment::Coordinates(listed) => Attached::Coordinates(all_of(component, listed, builder, names)?),
-        Attachment::NamedCoordinates | Attachment::Nothing => {
+        Attachment::NamedCoordinates | Attachment::Nothing | Attachment::AlongBeams { .. } => {
             let message = format!("`{}` acts on nothing", component.name.value);
             return Err(Problem::error(component.name.span, message));
         }

@@ -14,6 +14,7 @@ mod redundancy;
 pub mod registry;
 mod signals;
 mod size;
+mod sliders;
 mod superelements;
 
 use std::collections::BTreeMap;

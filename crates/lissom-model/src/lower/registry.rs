@@ -66,6 +66,7 @@ fn joint(kind: &JointKind) -> KindEntry {
         Build::Relative(Frames::Span, _) => ActsOn::TwoPlaces,
         Build::Coordinate(quantity, _) => ActsOn::JointCoordinate(quantity),
         Build::Free(_) => ActsOn::Nothing,
+        Build::AlongBeams => ActsOn::AlongBeams,
         Build::Coupling(Coupled::Two, _) => ActsOn::TwoJointCoordinates,
         Build::Coupling(Coupled::Named, _) => ActsOn::NamedCoordinates,
     };

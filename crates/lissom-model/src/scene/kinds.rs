@@ -96,6 +96,9 @@ fn joint(kind: &str) -> Option<Drawn> {
             let disc = b.solid(Form::Cylinder, [1.5, 0.35, 0.0], (0, [0.0, 0.6, 0.0]), Dark);
             [vec![disc], vec![t.ring(0.9, 0.25, 0.0, Dark)]]
         }),
+        "slider" => Solids(|[b, _]| {
+            base(vec![b.block([1.4, 0.9, 0.9], [0.0; 3], Light), b.ball(0.55, [0.0; 3], Dark)])
+        }),
         "generalized_coordinates" => Solids(|[b, _]| base(vec![b.ball(0.3, [0.0; 3], Light)])),
         "equation" => Solids(|[b, _]| {
             let bar = |at| b.solid(Form::Block, [0.3, 1.7, 0.3], (0, [0.0, 2.3, at]), Dark);

@@ -112,6 +112,7 @@ fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Opti
             let of = |name: &Located<String>| of_joint(&name.value, document, places);
             Some(vec![of(joint)?, of(other)?])
         }
+        Attachment::AlongBeams { tip, at, .. } => Some(vec![end(tip, at, &Vector3::z(), None)?]),
         // What has no place is not drawn.
         Attachment::Nothing => None,
         Attachment::Coordinates(coordinates) => {

@@ -217,6 +217,9 @@ fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
             "coordinates: those of joints that it acts on, in the order of its matrices",
             "coordinates = [\"my_hinge.angle\", \"my_slide.displacement\"]",
         ),
+        ActsOn::AlongBeams => {
+            ("beams, tip, at (default: the tip's place)", "beams = [\"my_beam\"]\ntip = \"my_body\"")
+        }
         ActsOn::Nothing => ("nothing: it has coordinates of its own", ""),
         ActsOn::JointCoordinate(Quantity::Angle) => {
             ("joint, the one whose relative rotation it acts on", "joint = \"my_hinge\"")

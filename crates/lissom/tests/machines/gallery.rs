@@ -100,10 +100,31 @@ fn a_drive_train_turns_and_swings_as_two_oscillators() {
         let wanted = [mean + load / (motor + load) * twist, mean - motor / (motor + load) * twist];
         for (k, wanted) in wanted.into_iter().enumerate() {
             let found = column(&record, "train", &format!("angle{}", k + 1))[row];
-            close(found, wanted, 2e-5, "rotor");
+            close(found, wanted, 1e-4, "rotor");
         }
-        close(column(&record, "hinge", "angle")[row], ratio * wanted[1], 5e-6, "arm");
+        close(column(&record, "hinge", "angle")[row], ratio * wanted[1], 2.5e-5, "arm");
     }
+}
+
+/// Deflection of the middle under a force that moves at constant speed [Fryba 1999, chapter 1].
+#[test]
+fn a_force_crosses_a_bridge_as_the_series_says() {
+    let record = run(model!("bridge-crossing"), &[]);
+    let (length, speed, force, per_length, bending) = (12.0_f64, 12.0, 2000.0, 60.0_f64, 8e6_f64);
+    let at_rest = force * length.powi(3) / (48.0 * bending);
+    for (time, found) in record.times.iter().zip(column(&record, "middle", "u3")) {
+        let wave = |n: u32| {
+            let number = f64::from(n) * PI / length;
+            let (own, passing) = (number * number * (bending / per_length).sqrt(), number * speed);
+            let moved = (passing * time).sin() - passing / own * (own * time).sin();
+            2.0 * force / (per_length * length) * (0.5 * number * length).sin() * moved
+                / (own * own - passing * passing)
+        };
+        let wanted: f64 = (1..40).map(wave).sum();
+        close(-found, wanted, 5e-3 * at_rest, "deflection");
+    }
+    let place = last(&record, "wheel", "x");
+    close(place, speed * 0.99, 1e-2, "place of the wheel");
 }
 
 /// I ζ'' + c ζ' + Ω² e S ζ = 0, for swings of a hundredth.

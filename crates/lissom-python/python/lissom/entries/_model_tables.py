@@ -55,6 +55,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "rigid_link": joints.RigidLink,
         "rolling": joints.Rolling,
         "screw": joints.Screw,
+        "slider": joints.Slider,
         "spherical": joints.Spherical,
         "swing_arm": joints.SwingArm,
         "universal": joints.Universal,

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from ._entry import Entry, Function, Number, Place, Table, Vector
+from ._entry import Entry, Function, Names, Number, Place, Table, Vector
 
 
 class Joint(Entry):
@@ -198,7 +198,7 @@ class GeneralizedCoordinates(Joint):
         in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
         start: Values at the start: as many as there are coordinates [m or rad]; a list of numbers.
         rate: Rates at the start, as many as in `start`; default zeros [m/s or rad/s]; a list of numbers, or nothing.
-        quantity: Whether they are displacements (default) or rotations; `"displacement"`, `"rotation"`, or nothing.
+        rotations: Whether they are rotations [rad]; default false: displacements [m]; `true` or `false`, or nothing.
     """
 
     _form: ClassVar[str] = "generalized_coordinates"
@@ -206,7 +206,7 @@ class GeneralizedCoordinates(Joint):
     in_: str | None = None
     start: Vector
     rate: Vector | None = None
-    quantity: Literal["displacement", "rotation"] | None = None
+    rotations: bool | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -642,6 +642,27 @@ class Screw(Joint):
     friction: Table | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class Slider(Joint):
+    """A point of the tip slides along a flexible beam or a chain of beams, past the borders of elements.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        beams: beams along which it slides, each from the end of the one before; a list of names of parts.
+        tip: the node that slides; a node.
+        at: location on the beam at the start; default: the tip node's place [m]; a place, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+    """
+
+    _form: ClassVar[str] = "slider"
+
+    in_: str | None = None
+    beams: Names
+    tip: str
+    at: Place | None = None
+    friction: Table | None = None
 
 
 @dataclass(kw_only=True, slots=True)

@@ -5,7 +5,7 @@ use super::words;
 use crate::builder::entry::{entry, keys, nested};
 use crate::builder::expression::{Expression, Function};
 use crate::builder::ids::JointId;
-use crate::builder::values::{Node, Quantity};
+use crate::builder::values::{Node, Part};
 
 entry! {
     /// A coordinate of `other`, the follower, is a function of that of `joint`: a cam, or any curve.
@@ -103,8 +103,8 @@ entry! {
     new(start: Vec<f64> = "start")
     /// Rates at the start, as many as in `start`; default zeros \[m/s or rad/s\].
     rate: Vec<f64> = "rate";
-    /// Whether they are displacements (default) or rotations.
-    quantity: words::Quantity = "quantity";
+    /// Whether they are rotations \[rad\]; default false: displacements \[m\].
+    rotations: bool = "rotations";
 }
 
 entry! {
@@ -307,6 +307,19 @@ entry! {
 }
 
 entry! {
+    /// A point of the tip slides along a flexible beam or a chain of beams, past the borders of elements.
+    Slider => JointId, "slider";
+    ["kind" = "slider"]
+    /// With what must be given.
+    ///
+    /// - `beams`: beams along which it slides, each from the end of the one before
+    /// - `tip`: the node that slides
+    new(beams: Vec<Part> = "beams", tip: Node = "tip")
+    /// Location on the beam at the start; default: the tip node's place \[m\].
+    at: [f64; 3] = "at";
+}
+
+entry! {
     /// Two nodes share a point and turn freely about it.
     Spherical => JointId, "spherical";
     ["kind" = "spherical"]
@@ -372,7 +385,7 @@ keys! {
 }
 
 keys! {
-    [Cam, Clamp, ConstantVelocity, Cylindrical, Distance, Equation, Gear, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Spherical, SwingArm, Universal]
+    [Cam, Clamp, ConstantVelocity, Cylindrical, Distance, Equation, Gear, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Slider, Spherical, SwingArm, Universal]
     /// Friction on its only coordinate.
     friction: Friction = "friction";
 }

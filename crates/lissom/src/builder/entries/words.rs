@@ -46,13 +46,6 @@ words! {
 }
 
 words! {
-    /// One of `displacement`, `rotation`.
-    Quantity;
-    Displacement = "displacement";
-    Rotation = "rotation";
-}
-
-words! {
     /// One of `physical`, `unit`, `none`.
     Scaling;
     Physical = "physical";

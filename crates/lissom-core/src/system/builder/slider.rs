@@ -1,0 +1,105 @@
+//! Adds sliders along beams.
+
+use lissom_motion::Vector3;
+use lissom_solver::Pattern;
+
+use super::{Builder, Coordinate};
+use crate::joints::Quantity;
+use crate::joints::centerline::Centerline;
+use crate::joints::slider::{CarriedPoint, LOCAL, Slider};
+use crate::registry::ParameterError;
+use crate::system::layout::Layout;
+use crate::system::places::position_of;
+use crate::system::sliders::rows_of_slider;
+use crate::system::{CoordinateId, NodeId};
+
+/// A point may be that far from the line at the start, relative to the length of the line: digits of a text, and what the
+/// smooth line through the nodes leaves of a curved one.
+const BESIDE: f64 = 1e-4;
+
+impl Builder {
+    /// Adds a slider: a point of the node `tip` that is at `place` at the start slides along the line through `nodes`, which
+    /// are at the arc lengths `knots` [m]. Gives its coordinate, the arc length.
+    ///
+    /// # Errors
+    /// If there are too few nodes, the tip is one of them, or the point is not on the line.
+    pub fn add_slider(
+        &mut self,
+        name: &str,
+        (nodes, knots): (Vec<CarriedPoint>, Vec<f64>),
+        (tip, place): (NodeId, Vector3),
+    ) -> Result<CoordinateId, ParameterError> {
+        let unusable = |why: &str| ParameterError::new("beams", why);
+        if nodes.len() != knots.len() {
+            return Err(unusable("must have an arc length for each node"));
+        }
+        if nodes.iter().any(|own| own.node == tip) {
+            return Err(ParameterError::new("tip", "is a node of the beam that it slides on"));
+        }
+        let Some(line) = Centerline::new(knots) else {
+            return Err(unusable("must lead from node to node: some stand at one place"));
+        };
+        let at = |node: usize| self.nodes[nodes[node].node].motion.frame.transform_point(&nodes[node].point);
+        let value = line.nearest(&place, at);
+        let on_line = line.at(value).sum(0, at);
+        let distance = (on_line - place).norm();
+        if distance.is_nan() || distance > BESIDE * line.length() {
+            let problem = format!(
+                "must be on the line through the beam's nodes, but is {distance:.3e} m away from it; its nearest place is \
+                 [{:.6}, {:.6}, {:.6}]",
+                on_line.x, on_line.y, on_line.z
+            );
+            return Err(ParameterError::new("at", problem));
+        }
+        let point = self.nodes[tip].motion.frame.inverse_transform_point(&on_line);
+        self.coordinates.push(Coordinate {
+            name: format!("{name}.displacement"),
+            value,
+            rate: 0.0,
+            quantity: Quantity::Length,
+        });
+        let coordinate = self.coordinates.len() - 1;
+        let first_multiplier = self.multipliers.len();
+        for direction in ["force along x", "force along y", "force along z"] {
+            self.multipliers.push((name.to_owned(), direction));
+            self.multiplier_quantities.push(Quantity::Length);
+        }
+        self.sliders.push(Slider {
+            name: name.to_owned(),
+            nodes,
+            line,
+            tip: CarriedPoint { node: tip, point },
+            coordinate,
+            first_multiplier,
+            entries: Vec::new(),
+        });
+        Ok(coordinate)
+    }
+}
+
+/// What a slider fills of the tangent: for each interval all that is there.
+pub(super) fn cliques(slider: &Slider, layout: &Layout) -> Vec<Vec<usize>> {
+    let of = |interval: usize| {
+        let mut rows: Vec<usize> =
+            rows_of_slider(slider, interval, layout).into_iter().map(|(_, row)| row).collect();
+        rows.sort_unstable();
+        rows.dedup();
+        rows
+    };
+    (0..slider.line.intervals()).map(of).collect()
+}
+
+/// Where the local matrix of a slider lies, interval by interval; what two multipliers share stays zero.
+pub(super) fn entries(
+    slider: &Slider,
+    layout: &Layout,
+    pattern: &Pattern,
+) -> Vec<Vec<(usize, usize, usize)>> {
+    let of = |interval: usize| {
+        let rows = rows_of_slider(slider, interval, layout);
+        let pairs = rows.iter().flat_map(|row| rows.iter().map(move |column| (*row, *column)));
+        let filled = pairs.filter(|((i, _), (j, _))| *i < LOCAL || *j < LOCAL);
+        filled.map(|((i, row), (j, column))| (i, j, position_of(pattern, row, column))).collect()
+    };
+    (0..slider.line.intervals()).map(of).collect()
+}

@@ -1,0 +1,88 @@
+//! Sliders along beams: the nodes of the beams in their order, with arc lengths.
+
+use lissom_core::joints::slider::CarriedPoint;
+use lissom_core::system::Builder;
+use lissom_motion::Vector3;
+
+use super::{Names, parameter_problem};
+use crate::document::{Beam, Component, Document, NodeReference};
+use crate::report::{Located, Problem};
+
+/// Cosine of the largest angle at which two beams of a chain may meet, 2 degrees: a smooth line goes through their nodes.
+const SMOOTH: f64 = 0.999_39;
+
+/// Adds a slider.
+pub(super) fn add(
+    document: &Document,
+    component: &Component,
+    (beams, tip, at): (&[Located<String>], &Located<NodeReference>, &Vector3),
+    (builder, names): (&mut Builder, &mut Names),
+) -> Result<(), Problem> {
+    let name = &component.name.value;
+    if let Some(assembly) = document.assembly.as_ref().map(|_| component.name.span) {
+        return Err(Problem::error(assembly, format!("slider `{name}` cannot be assembled"))
+            .help("place its tip on the beam, and leave out [assembly]"));
+    }
+    let (mut nodes, mut knots, mut last): (Vec<CarriedPoint>, Vec<f64>, Option<&Beam>) = Default::default();
+    for reference in beams {
+        let (Some(beam), Some(line)) = (document.beam(&reference.value), names.lines.get(&reference.value))
+        else {
+            return Err(Problem::error(
+                reference.span,
+                format!("there is no beam called `{}`", reference.value),
+            ));
+        };
+        let points = line.nodes.iter().zip(&line.offsets);
+        let mut own: Vec<CarriedPoint> =
+            points.map(|(&node, offset)| CarriedPoint { node, point: offset.position }).collect();
+        let from = knots.last().copied().unwrap_or(0.0);
+        let mut lengths: Vec<f64> =
+            arc_lengths(beam, &line.places).into_iter().map(|own| from + own).collect();
+        if let (Some(before), Some(end)) = (last, nodes.last()) {
+            if end.node != own[0].node {
+                let message =
+                    format!("beam `{}` does not begin where `{}` ends", reference.value, before.name.value);
+                return Err(Problem::error(reference.span, message)
+                    .help("let it start at the node of the other, as `from = \"other.end\"`, and name them in order"));
+            }
+            let [one, other] =
+                [before.frame(1.0).column(0).into_owned(), beam.frame(0.0).column(0).into_owned()];
+            if one.dot(&other) < SMOOTH {
+                let message = format!(
+                    "beams `{}` and `{}` meet at {:.2} degrees: a slider would jolt there",
+                    before.name.value,
+                    reference.value,
+                    one.dot(&other).clamp(-1.0, 1.0).acos().to_degrees()
+                );
+                return Err(Problem::error(reference.span, message)
+                    .help("round the corner with a curved beam between them"));
+            }
+            own.remove(0);
+            lengths.remove(0);
+        }
+        nodes.extend(own);
+        knots.extend(lengths);
+        last = Some(beam);
+    }
+    let tip = names.node(tip)?;
+    let coordinate = builder
+        .add_slider(name, (nodes, knots), (tip, *at))
+        .map_err(|error| parameter_problem(component, &error))?;
+    names.coordinates.insert(name.clone(), vec![coordinate]);
+    Ok(())
+}
+
+/// Arc length from the beam's start to each of the places along it [m].
+fn arc_lengths(beam: &Beam, places: &[f64]) -> Vec<f64> {
+    const CHORDS: usize = 64;
+    let mut lengths = vec![0.0; places.len()];
+    for k in 1..places.len() {
+        let at = |part: usize| {
+            let share = part as f64 / CHORDS as f64;
+            beam.line.position(places[k - 1] + share * (places[k] - places[k - 1]))
+        };
+        let chords: f64 = (0..CHORDS).map(|part| (at(part + 1) - at(part)).norm()).sum();
+        lengths[k] = lengths[k - 1] + chords;
+    }
+    lengths
+}
