@@ -216,11 +216,7 @@ impl Channel {
                 out.extend(coupling.forces(at, state.multipliers[coupling.multiplier]));
             }
             Source::Accelerations(coordinates) => {
-                let of = |&(joint, k): &(usize, usize)| {
-                    let all: [f64; MOST_COORDINATES] = system.joints()[joint].coordinate_accelerations(at);
-                    all[k]
-                };
-                out.extend(coordinates.iter().map(of));
+                out.extend(coordinates.iter().map(|&own| joint_acceleration(system, own, at)));
             }
             Source::Slider(index) => out.extend(slider_force(system, *index, state)),
             Source::FreeAccelerations(coordinates) => {
@@ -543,6 +539,12 @@ pub(crate) fn components(
         (OutputKind::CardanAngles, _) => words(&["alpha", "beta", "gamma"], &["rad"; 3]),
         (OutputKind::Energy, _) => words(&["kinetic", "strain", "potential", "total"], &["J"; 4]),
     }
+}
+
+/// Second derivative of a coordinate of a joint, by the joint and the place in it.
+fn joint_acceleration(system: &System, (joint, own): (usize, usize), at: &Kinematics) -> f64 {
+    let all: [f64; MOST_COORDINATES] = system.joints()[joint].coordinate_accelerations(at);
+    all[own]
 }
 
 /// Force of a slider on its tip, global axes [N].

@@ -76,6 +76,8 @@ pub(crate) enum Shape {
     Solid,
     /// A table of friction in a joint.
     Friction,
+    /// A table of a latch on a joint.
+    Latch,
     /// Six numbers, or a 6 x 6 matrix.
     Stiffness,
     /// A 6 x 6 matrix, or a table of mass per length, inertia and centre.
@@ -189,6 +191,16 @@ impl Shape {
             optional("deflection", Self::Positive, "m, rad", "elastic motion before it slips, default 1e-4"),
             optional("damping", Self::NotNegative, "N s/m, N m s/rad", "of the elastic motion, default 0"),
         ]
+    }
+
+    /// Keys of a latch on a joint.
+    pub(crate) fn latch_keys() -> Vec<Key> {
+        vec![required(
+            "at",
+            Self::Number,
+            "m, rad",
+            "value of the joint's only coordinate at which it engages, from either side",
+        )]
     }
 
     /// Keys of an entry of a beam's stations.

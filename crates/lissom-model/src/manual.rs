@@ -210,6 +210,7 @@ pub(crate) fn words(shape: &Shape) -> String {
         Shape::Inertia => "three numbers, a 3 x 3 matrix, or `{ box | cylinder | tube | sphere }`",
         Shape::Solid => "`{ box | cylinder | tube | sphere }`",
         Shape::Friction => "`{ coulomb, static, stribeck, viscous, deflection, damping }`",
+        Shape::Latch => "`{ at }`",
         Shape::Stiffness => "six numbers or a 6 x 6 matrix",
         Shape::SectionMass => "six numbers, a 6 x 6 matrix, or a table",
         Shape::Shear => "a number, two numbers, or a word",

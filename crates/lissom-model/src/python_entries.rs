@@ -185,7 +185,7 @@ fn type_of(shape: &Shape) -> String {
         Shape::Inertia | Shape::SectionMass => "Vector | list[Vector] | Table",
         Shape::Shear => "Number | Vector",
         Shape::Stations | Shape::Places | Shape::Interfaces => "list[Table]",
-        Shape::Friction | Shape::Solid | Shape::Table => "Table",
+        Shape::Friction | Shape::Latch | Shape::Solid | Shape::Table => "Table",
         Shape::Entries(_) => "Tables",
     };
     fixed.to_owned()

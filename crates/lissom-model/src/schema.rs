@@ -144,6 +144,7 @@ fn of_shape(shape: &Shape) -> Value {
         Shape::Mass => any_of(&[number(&json!({ "exclusiveMinimum": 0 })), of_keys(&Shape::density_keys())]),
         Shape::Inertia => any_of(&[vector(), matrix(3), of_keys(&Shape::solid_keys())]),
         Shape::Solid => of_keys(&Shape::solid_keys()),
+        Shape::Latch => of_keys(&Shape::latch_keys()),
         Shape::Friction => of_keys(&Shape::friction_keys()),
         Shape::Stiffness => any_of(&[list(&plain(), 6), matrix(6)]),
         Shape::SectionMass => any_of(&[list(&plain(), 6), matrix(6), of_keys(&Shape::slice_mass_keys())]),

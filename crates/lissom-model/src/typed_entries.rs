@@ -49,6 +49,7 @@ pub fn typed_entries(registry: &Registry) -> BTreeMap<&'static str, String> {
         }
         if file == "joints" {
             types.push(nested(("Friction", "Friction in a joint."), &Shape::friction_keys(), &mut words));
+            types.push(nested(("Latch", "A latch on a joint."), &Shape::latch_keys(), &mut words));
         }
         if file == "sections" {
             let summary = "Mass of a section, by its parts.";
@@ -232,6 +233,7 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
         Shape::Inertia => "Inertia",
         Shape::Solid => "Solid",
         Shape::Friction => "Friction",
+        Shape::Latch => "Latch",
         Shape::Stiffness => "Matrix",
         Shape::SectionMass => "SectionMass",
         Shape::Shear => "Shear",

@@ -175,6 +175,79 @@ step = 0.05
     }
 }
 
+/// The short form does what the long form does, to the last bit; what is released lets go where its expression rises.
+#[test]
+fn the_short_form_is_the_long_form() {
+    let (long, _) = Model::from_text("discs.toml", DISCS).session(&[]).unwrap().record();
+    let cut = |text: &str, from: &str, to: &str| {
+        let (begin, end) = (text.find(from).unwrap(), text.find(to).unwrap());
+        format!("{}{}", &text[..begin], &text[end..])
+    };
+    let text = cut(
+        &cut(&cut(DISCS, "[inputs]", "[bodies.first]"), "[springs.latch]", "[loads.motor]"),
+        "[outputs.latch]",
+        "[outputs.momentum]",
+    );
+    let hinge = "tip = \"second\"\naxis = [0, 0, 1]\n";
+    let short = text.replace(hinge, &format!("{hinge}latch = {{ at = 0.5 }}\nrelease = \"t - 1.2\"\n"));
+    let mut session = Model::from_text("short.toml", &short).session(&[]).unwrap();
+    let (record, report) = session.record();
+    assert!(report.is_complete());
+    assert_eq!(record.times, long.times);
+    for (output, component) in [("axle", "rate"), ("hinge", "angle"), ("hinge", "rate"), ("momentum", "l3")] {
+        let (found, wanted) = (column(&record, output, component), column(&long, output, component));
+        for (row, (found, wanted)) in found.iter().zip(wanted).enumerate() {
+            assert!(
+                (found - wanted).abs() < 1e-12,
+                "{output}.{component} at {}: {found} {wanted}",
+                record.times[row]
+            );
+        }
+    }
+    assert_eq!(
+        session.events().map(|(name, _)| name).collect::<Vec<_>>(),
+        ["hinge, latch", "hinge, release"]
+    );
+    let held = short.replace("latch = { at = 0.5 }\n", "").replace("t - 1.2", "0.7 - 0.5*t");
+    let (record, report) = Model::from_text("held.toml", &held).session(&[]).unwrap().record();
+    assert!(report.is_complete());
+    assert!(
+        column(&record, "hinge", "angle").iter().all(|angle| angle.abs() < 1e-9),
+        "0.7 - 0.5 t falls: it never lets go"
+    );
+    let wrong =
+        short.replace("kind = \"revolute\"\nbase = \"first\"", "kind = \"spherical\"\nbase = \"first\"");
+    let wrong = wrong
+        .replace(hinge, &hinge.replace("axis = [0, 0, 1]\n", ""))
+        .replace("axis = [0, 0, 1]\nlatch", "latch");
+    let Err(SessionError::Model(report)) = Model::from_text("wrong.toml", &wrong).session(&[]).map(|_| ())
+    else {
+        panic!("a spherical joint has no coordinate")
+    };
+    assert!(report.render(false).contains("no relative coordinate"), "{}", report.render(false));
+}
+
+/// A latch that is engaged from outside before the first step holds from the start on.
+#[test]
+fn a_latch_engaged_before_the_first_step_holds() {
+    let text = DISCS.replace(
+        "[events.snap]\nzero_of = \"hinge.rotation - 0.5\"\ndirection = \"rising\"\nset = { latched = 1 }\n",
+        "",
+    );
+    assert!(!text.contains("snap"));
+    for scheme in ["radau-iia", "generalized-alpha", "hht", "energy-decaying"] {
+        let set = [("analysis.scheme".to_owned(), scheme.to_owned())];
+        let mut session = Model::from_text("discs.toml", &text).session(&set).unwrap();
+        session.set_input("latched", 1.0).unwrap();
+        session.step_to(0.5).unwrap();
+        // J₂ ω/(J₁ + J₂), at once.
+        let rates = ["axle.rate", "hinge.rate"].map(|name| session.value(name).unwrap());
+        assert!((rates[0] - 0.4).abs() < 1e-9 && rates[1].abs() < 1e-9, "{scheme}: {rates:?}");
+        assert!(session.value("hinge.angle").unwrap().abs() < 1e-9, "{scheme}");
+        assert!((session.simulation().ledger().latches - 0.6).abs() < 1e-9, "{scheme}");
+    }
+}
+
 /// A pendulum that a latch at the lowest point stops, hung from a cart that is free: the cart takes the momentum over.
 #[test]
 fn what_a_latch_stops_gives_its_momentum_to_what_carries_it() {

@@ -28,7 +28,7 @@ const PARAMETERS: &[Parameter] = &[
 ];
 
 /// Registry entry for displacements.
-pub(crate) const AXIAL: ElementKind = ElementKind {
+pub const AXIAL: ElementKind = ElementKind {
     name: "axial_latch",
     summary: "Holds a joint's relative displacement where it is while an input is set: latches and releases.",
     sample: "engaged = \"my_input\"",
@@ -38,7 +38,7 @@ pub(crate) const AXIAL: ElementKind = ElementKind {
 };
 
 /// Registry entry for rotations.
-pub(crate) const TORSIONAL: ElementKind = ElementKind {
+pub const TORSIONAL: ElementKind = ElementKind {
     name: "torsional_latch",
     summary: "Holds a joint's relative rotation where it is while an input is set: latches and releases.",
     attachment: Attachment::Coordinate(Quantity::Angle),

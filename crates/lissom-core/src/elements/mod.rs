@@ -10,16 +10,18 @@ pub(crate) mod coordinate_dynamics;
 pub(crate) mod coordinate_spring;
 pub mod force;
 pub(crate) mod force_law;
+mod frame_pair;
 pub mod friction;
 pub mod gyrostat;
 pub mod inertia;
 mod inertia_blocks;
 pub(crate) mod joint_load;
-pub(crate) mod latch;
+pub mod latch;
 pub mod moment;
 pub(crate) mod point_spring;
 pub mod quadrature;
 pub(crate) mod rolling;
+pub(crate) mod rolling_contact;
 pub(crate) mod rope;
 pub mod shape;
 pub mod sides;
@@ -364,6 +366,7 @@ pub struct ElementKind {
 pub static SPRINGS: &[ElementKind] = &[
     coordinate_spring::AXIAL,
     point_spring::KIND,
+    rolling_contact::KIND,
     rope::KIND,
     coordinate_spring::TORSIONAL,
     friction::AXIAL,

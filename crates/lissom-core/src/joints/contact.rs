@@ -95,6 +95,28 @@ impl Contact {
         (wrench, rows)
     }
 
+    /// Gap between wheel and plane [m], and its derivative by η.
+    pub(crate) fn gap(&self, rotation: &Matrix3, position: &Vector3) -> (f64, Vector6) {
+        let touch = self.touch(rotation);
+        let gap = self.side * position.z - self.radius * touch.upright - self.rim;
+        let lever = self.radius * touch.cosine / touch.upright;
+        (gap, screw(&touch.normal, &(lever * self.axis.cross(&touch.normal))))
+    }
+
+    /// Second derivative of the gap by η.
+    pub(crate) fn gap_hessian(&self, rotation: &Matrix3) -> Matrix6 {
+        let Touch { normal, cosine, upright, .. } = self.touch(rotation);
+        let turned = skew(&normal);
+        // d(u/S)/du = 1/S³ but for the round-off that S is kept away from zero with.
+        let slope = (1.0 + cosine * cosine / (upright * upright)) / upright;
+        let tilting = slope * self.axis.cross(&normal) * (self.axis.transpose() * turned)
+            + cosine / upright * skew(&self.axis) * turned;
+        let mut hessian = Matrix6::zeros();
+        hessian.fixed_view_mut::<3, 3>(0, 3).copy_from(&turned);
+        hessian.fixed_view_mut::<3, 3>(3, 3).copy_from(&(self.radius * tilting));
+        hessian
+    }
+
     /// ∂p/∂N.
     fn point_by_normal(&self, touch: &Touch) -> Matrix3 {
         let Touch { normal, cosine, upright, .. } = touch;

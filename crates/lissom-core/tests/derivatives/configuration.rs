@@ -84,8 +84,16 @@ impl Relation for Bent {
 
 /// Free play would leave most configurations without force; the others are another way to give `dissipation`.
 /// Wheels touch the plane whatever their size; those that are round or creep are looked at apart.
-const LEFT_OUT: [&str; 7] =
-    ["backlash", "restitution", "impact_velocity", "radius", "rim", "friction_coefficient", "creep"];
+const LEFT_OUT: [&str; 8] = [
+    "traction",
+    "backlash",
+    "restitution",
+    "impact_velocity",
+    "radius",
+    "rim",
+    "friction_coefficient",
+    "creep",
+];
 
 /// A value for every parameter of a kind.
 pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &mut Random) -> Parameters {

@@ -36,6 +36,8 @@ pub(super) fn read(
         let takes_friction =
             table == "joints" && !matches!(entry.acts_on, ActsOn::JointCoordinate(_) | ActsOn::Nothing);
         let friction = if takes_friction { friction(reader) } else { None };
+        let latch = if takes_friction { latch(reader) } else { None };
+        let release = if takes_friction { reader.formula("release") } else { None };
         let on_tip = match entry.acts_on {
             ActsOn::TwoNodes(rule) if table == "joints" => assembly::on_tip(reader, rule),
             _ => None,
@@ -43,7 +45,18 @@ pub(super) fn read(
         let kind = reader.text("kind")?.map(str::to_owned);
         let name = Located::new(name.to_owned(), reader.name);
         let attachment = attachment?;
-        Some(Component { name, kind, attachment, parameters, parameter_spans, signal, friction, on_tip })
+        Some(Component {
+            name,
+            kind,
+            attachment,
+            parameters,
+            parameter_spans,
+            signal,
+            latch,
+            release,
+            friction,
+            on_tip,
+        })
     })
 }
 
@@ -88,6 +101,13 @@ fn friction(reader: &Reader<'_, '_>) -> Option<Located<Parameters>> {
         }
     }
     Some(Located::new(parameters, node.span))
+}
+
+/// The key `latch` of a joint: where it engages.
+fn latch(reader: &Reader<'_, '_>) -> Option<Located<f64>> {
+    let node = reader.node("latch")?;
+    let own = Reader::open(reader.context, node, (reader.words("latch"), node.span), Shape::latch_keys())?;
+    own.number("at")
 }
 
 fn attachment(

@@ -443,6 +443,10 @@ pub struct Component {
     pub parameter_spans: Vec<(String, Span)>,
     /// Its size and the key it is given by, where it is more than a function of time. Its parameter is then 1.
     pub signal: Option<(&'static str, Located<Formula>)>,
+    /// A latch on a joint: the value of its coordinate at which it engages [m, rad].
+    pub latch: Option<Located<f64>>,
+    /// Where a latch on a joint lets go: where this rises through zero.
+    pub release: Option<Located<Formula>>,
     /// Friction in a joint: the parameters of a friction element on its coordinate.
     pub friction: Option<Located<Parameters>>,
     /// Where a joint lies on its tip, if elsewhere than on its base.

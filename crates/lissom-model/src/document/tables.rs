@@ -312,6 +312,11 @@ fn joints(table: &[KindEntry]) -> Vec<Variant> {
         if !matches!(entry.acts_on, ActsOn::JointCoordinate(_) | ActsOn::Nothing) {
             let words = "friction on its only coordinate";
             variant.keys.push(optional("friction", Shape::Friction, "", words));
+            let words =
+                "a latch that engages where its only coordinate is first `at` a value, and holds it there";
+            variant.keys.push(optional("latch", Shape::Latch, "", words));
+            let words = "the latch lets go where this expression rises through zero; without `latch` it holds from the start";
+            variant.keys.push(optional("release", Shape::Formula, "", words));
         }
         if let ActsOn::TwoNodes(rule) = entry.acts_on {
             variant.keys.extend(super::assembly::keys_on_tip(rule));

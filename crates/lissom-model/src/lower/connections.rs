@@ -51,9 +51,8 @@ pub(super) fn add(
         return;
     }
     for component in sorted_joints {
-        if let Err(problem) = friction(component, builder, names) {
-            problems.push(problem);
-        }
+        let latched = super::latches::add(document, component, builder, names);
+        problems.extend([friction(component, builder, names), latched].into_iter().filter_map(Result::err));
     }
     for (components, kinds, is_load) in [(&document.springs, SPRINGS, false), (&document.loads, LOADS, true)]
     {

@@ -7,6 +7,7 @@ mod beginning;
 mod connections;
 mod couplings;
 mod distributed;
+mod latches;
 mod measurements;
 mod order;
 mod parts;

@@ -116,6 +116,9 @@ fn spring_or_load(kind: &str) -> Option<Drawn> {
         "rope" => {
             Drawn::WithRod(|[b, t]| [vec![b.ring(0.5, 0.2, 0.0, Dark)], vec![t.ring(0.5, 0.2, 0.0, Dark)]])
         }
+        "rolling_contact" => Solids(|[_, t]| {
+            [Vec::new(), vec![t.ring(1.5, 0.4, 0.0, Spring), t.cylinder(0, 0.35, 0.7, Light)]]
+        }),
         "bushing" => {
             Solids(|[b, t]| [vec![b.ring(0.95, 0.5, 0.0, Spring)], vec![t.cylinder(0, 0.4, 1.9, Dark)]])
         }

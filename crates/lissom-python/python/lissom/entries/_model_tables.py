@@ -63,6 +63,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
     "springs": {
         "axial": springs.Axial,
         "point": springs.Point,
+        "rolling_contact": springs.RollingContact,
         "rope": springs.Rope,
         "torsional": springs.Torsional,
         "axial_friction": springs.AxialFriction,

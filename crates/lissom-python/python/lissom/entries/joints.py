@@ -29,6 +29,8 @@ class Cam(Joint):
         coordinate: Which coordinate of `joint`, counted from 1; may be left out where it has one; a number > 0, or nothing.
         other_coordinate: Which coordinate of `other`, counted from 1; may be left out where it has one; a number > 0, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
     """
 
     _form: ClassVar[str] = "cam"
@@ -40,6 +42,8 @@ class Cam(Joint):
     coordinate: Number | None = None
     other_coordinate: Number | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -52,6 +56,8 @@ class Clamp(Joint):
         tip: the node it leads to; a node.
         at: location; default: the tip node's place [m]; a place, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
     """
 
@@ -62,6 +68,8 @@ class Clamp(Joint):
     tip: str
     at: Place | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
 
 
@@ -77,6 +85,8 @@ class ConstantVelocity(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         tip_axis: Direction of the tip's shaft at the start, global axes; default `axis`, which is that of the base's shaft; three numbers, not all zero, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
@@ -90,6 +100,8 @@ class ConstantVelocity(Joint):
     axis: Vector
     tip_axis: Vector | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
 
@@ -107,6 +119,8 @@ class Cylindrical(Joint):
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
@@ -121,6 +135,8 @@ class Cylindrical(Joint):
     angle: Number | None = None
     displacement: Number | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
 
@@ -136,6 +152,8 @@ class Distance(Joint):
         at_base: location on the base; default: the node's place [m]; a place, or nothing.
         at_tip: location on the tip; default: the node's place [m]; a place, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
     """
 
     _form: ClassVar[str] = "distance"
@@ -146,6 +164,8 @@ class Distance(Joint):
     at_base: Place | None = None
     at_tip: Place | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -156,6 +176,8 @@ class Equation(Joint):
         in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
         equation: What is zero: an expression of coordinates such as `arm.angle` and `slide.displacement`, and of `t`; an expression of coordinates of joints, as `arm.angle`, and of `t`.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
     """
 
     _form: ClassVar[str] = "equation"
@@ -163,6 +185,8 @@ class Equation(Joint):
     in_: str | None = None
     equation: Number
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -177,6 +201,8 @@ class Gear(Joint):
         coordinate: Which coordinate of `joint`, counted from 1; may be left out where it has one; a number > 0, or nothing.
         other_coordinate: Which coordinate of `other`, counted from 1; may be left out where it has one; a number > 0, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
     """
 
     _form: ClassVar[str] = "gear"
@@ -188,6 +214,8 @@ class Gear(Joint):
     coordinate: Number | None = None
     other_coordinate: Number | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -222,6 +250,8 @@ class Generic(Joint):
         second_axis: direction of y at the start, global axes; default: global y; three numbers, not all zero, or nothing.
         locked: What cannot move: x along `axis`, y along `second_axis`, z across both; rx, ry, rz about them; a list of `"x"`, `"y"`, `"z"`, `"rx"`, `"ry"`, `"rz"`.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
         second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
@@ -237,6 +267,8 @@ class Generic(Joint):
     second_axis: Vector | None = None
     locked: list[Literal["x", "y", "z", "rx", "ry", "rz"]]
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
     second_axis_at_tip: Vector | None = None
@@ -253,6 +285,8 @@ class Inline(Joint):
         at: location; default: the tip node's place [m]; a place, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
@@ -265,6 +299,8 @@ class Inline(Joint):
     at: Place | None = None
     axis: Vector
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
 
@@ -281,6 +317,8 @@ class ParallelAxes(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
@@ -294,6 +332,8 @@ class ParallelAxes(Joint):
     axis: Vector
     angle: Number | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
 
@@ -310,6 +350,8 @@ class PerpendicularAxes(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         second_axis: second direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
         second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
@@ -324,6 +366,8 @@ class PerpendicularAxes(Joint):
     axis: Vector
     second_axis: Vector
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
     second_axis_at_tip: Vector | None = None
@@ -341,6 +385,8 @@ class Planar(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
@@ -354,6 +400,8 @@ class Planar(Joint):
     axis: Vector
     angle: Number | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
 
@@ -369,6 +417,8 @@ class PointInPlane(Joint):
         at: location; default: the tip node's place [m]; a place, or nothing.
         axis: direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
@@ -381,6 +431,8 @@ class PointInPlane(Joint):
     at: Place | None = None
     axis: Vector
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
 
@@ -397,6 +449,8 @@ class PointOnLine(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
@@ -410,6 +464,8 @@ class PointOnLine(Joint):
     axis: Vector
     displacement: Number | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
 
@@ -451,6 +507,8 @@ class PrescribedMotion(Joint):
         ry: Rotation about `second_axis` as turned by `rx` [rad]; a function of time, or nothing.
         rz: Rotation about the third axis as turned by `rx` and `ry` [rad]; a function of time, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
         second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
@@ -471,6 +529,8 @@ class PrescribedMotion(Joint):
     ry: Function | None = None
     rz: Function | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
     second_axis_at_tip: Vector | None = None
@@ -507,6 +567,8 @@ class Prismatic(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         displacement: Value of the relative displacement at the start; default 0 [m]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
@@ -520,6 +582,8 @@ class Prismatic(Joint):
     axis: Vector
     displacement: Number | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
 
@@ -536,6 +600,8 @@ class Revolute(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
@@ -549,6 +615,8 @@ class Revolute(Joint):
     axis: Vector
     angle: Number | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
 
@@ -563,6 +631,8 @@ class RigidLink(Joint):
         tip: the node it leads to; a node.
         at: location; default: the tip node's place [m]; a place, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
     """
 
@@ -573,6 +643,8 @@ class RigidLink(Joint):
     tip: str
     at: Place | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
 
 
@@ -592,6 +664,8 @@ class Rolling(Joint):
         friction_coefficient: Coefficient of friction: a warning tells when rolling takes more; default: there is no limit; a number > 0, or nothing.
         creep: Velocity of sliding per force, a linear law of creep; default 0: it does not slide. Wheels that hold each other on one axle need it [m/(N s)]; a number ≥ 0, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
@@ -609,6 +683,8 @@ class Rolling(Joint):
     friction_coefficient: Number | None = None
     creep: Number | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
 
@@ -626,6 +702,8 @@ class Screw(Joint):
         lead: Displacement along `axis` per turn; negative for a left-handed thread [m]; a number.
         angle: Value of the relative rotation at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
@@ -640,6 +718,8 @@ class Screw(Joint):
     lead: Number
     angle: Number | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
 
@@ -654,6 +734,8 @@ class Slider(Joint):
         tip: the node that slides; a node.
         at: location on the beam at the start; default: the tip node's place [m]; a place, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
     """
 
     _form: ClassVar[str] = "slider"
@@ -663,6 +745,8 @@ class Slider(Joint):
     tip: str
     at: Place | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
 
 
 @dataclass(kw_only=True, slots=True)
@@ -675,6 +759,8 @@ class Spherical(Joint):
         tip: the node it leads to; a node.
         at: location; default: the tip node's place [m]; a place, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
     """
 
@@ -685,6 +771,8 @@ class Spherical(Joint):
     tip: str
     at: Place | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
 
 
@@ -700,6 +788,8 @@ class SwingArm(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         angle: Value of the arm's angle at the start; default 0 [rad]; a number, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
     """
@@ -713,6 +803,8 @@ class SwingArm(Joint):
     axis: Vector
     angle: Number | None = None
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
 
@@ -729,6 +821,8 @@ class Universal(Joint):
         axis: direction at the start, global axes; three numbers, not all zero.
         second_axis: second direction at the start, global axes; three numbers, not all zero.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
         at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
         axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
         second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
@@ -743,6 +837,8 @@ class Universal(Joint):
     axis: Vector
     second_axis: Vector
     friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
     second_axis_at_tip: Vector | None = None

@@ -88,6 +88,45 @@ class Point(Spring):
 
 
 @dataclass(kw_only=True, slots=True)
+class RollingContact(Spring):
+    """A wheel, disc or ball on a plane that yields and slips: it may lift, and slides where friction ends.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at_base: location on the base; default: the node's place [m]; a place, or nothing.
+        at_tip: location on the tip; default: the node's place [m]; a place, or nothing.
+        normal: Normal of the plane, which the base carries, at the start, global axes; `at_base` is a point of the plane; three numbers, not all zero.
+        wheel_axis: Axis of the wheel at the start, global axes; `at_tip` is the wheel's centre; three numbers, not all zero.
+        radius: Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 makes a ball of radius `rim` [m]; a number ≥ 0, or nothing.
+        rim: Radius of the rounding of the rim; default 0 [m]; a number ≥ 0, or nothing.
+        stiffness: Normal force per penetration [N/m]; a number > 0.
+        dissipation: Increase of the normal force per velocity of penetration, relative to it; default 0 [s/m]; a number ≥ 0, or nothing.
+        friction_coefficient: Friction over normal force of a wheel that slides; default 0; a number ≥ 0, or nothing.
+        slip_velocity: Velocity v_s of the law μ tanh(v/v_s): below it the wheel creeps; default 0.01 [m/s]; a number > 0, or nothing.
+        traction: Coefficient of friction over the sliding velocity `slip` [m/s], in place of the law of `friction_coefficient`; an expression of `slip`, or a table of it written as a function of time, or nothing.
+    """
+
+    _form: ClassVar[str] = "rolling_contact"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at_base: Place | None = None
+    at_tip: Place | None = None
+    normal: Vector
+    wheel_axis: Vector
+    radius: Number | None = None
+    rim: Number | None = None
+    stiffness: Number
+    dissipation: Number | None = None
+    friction_coefficient: Number | None = None
+    slip_velocity: Number | None = None
+    traction: Function | None = None
+
+
+@dataclass(kw_only=True, slots=True)
 class Rope(Spring):
     """Rope that slides over several places without friction: reeving over pulleys, and hoists by its length.
 

@@ -376,6 +376,15 @@ nested! {
     damping: f64 = "damping";
 }
 
+nested! {
+    /// A latch on a joint.
+    Latch;
+    /// With what must be given.
+    ///
+    /// - `at`: value of the joint's only coordinate at which it engages, from either side \[m, rad\]
+    new(at: f64 = "at")
+}
+
 keys! {
     [Cam, Gear]
     /// Which coordinate of `joint`, counted from 1; may be left out where it has one.
@@ -388,6 +397,10 @@ keys! {
     [Cam, Clamp, ConstantVelocity, Cylindrical, Distance, Equation, Gear, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Slider, Spherical, SwingArm, Universal]
     /// Friction on its only coordinate.
     friction: Friction = "friction";
+    /// A latch that engages where its only coordinate is first `at` a value, and holds it there.
+    latch: Latch = "latch";
+    /// The latch lets go where this expression rises through zero; without `latch` it holds from the start.
+    release: Expression = "release";
 }
 
 keys! {

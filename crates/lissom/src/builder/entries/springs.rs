@@ -33,6 +33,32 @@ entry! {
 }
 
 entry! {
+    /// A wheel, disc or ball on a plane that yields and slips: it may lift, and slides where friction ends.
+    RollingContact => SpringId, "rolling_contact";
+    ["kind" = "rolling_contact"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `normal`: Normal of the plane, which the base carries, at the start, global axes; `at_base` is a point of the plane
+    /// - `wheel_axis`: Axis of the wheel at the start, global axes; `at_tip` is the wheel's centre
+    /// - `stiffness`: Normal force per penetration \[N/m\]
+    new(base: Node = "base", tip: Node = "tip", normal: [f64; 3] = "normal", wheel_axis: [f64; 3] = "wheel_axis", stiffness: f64 = "stiffness")
+    /// Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 makes a ball of radius `rim` \[m\].
+    radius: f64 = "radius";
+    /// Radius of the rounding of the rim; default 0 \[m\].
+    rim: f64 = "rim";
+    /// Increase of the normal force per velocity of penetration, relative to it; default 0 \[s/m\].
+    dissipation: f64 = "dissipation";
+    /// Friction over normal force of a wheel that slides; default 0.
+    friction_coefficient: f64 = "friction_coefficient";
+    /// Velocity v\_s of the law μ tanh(v/v\_s): below it the wheel creeps; default 0.01 \[m/s\].
+    slip_velocity: f64 = "slip_velocity";
+    /// Coefficient of friction over the sliding velocity `slip` \[m/s\], in place of the law of `friction_coefficient`.
+    traction: Function = "traction";
+}
+
+entry! {
     /// Rope that slides over several places without friction: reeving over pulleys, and hoists by its length.
     Rope => SpringId, "rope";
     ["kind" = "rope"]
@@ -242,7 +268,7 @@ keys! {
 }
 
 keys! {
-    [Point, Bushing]
+    [Point, RollingContact, Bushing]
     /// Location on the base; default: the node's place \[m\].
     at_base: [f64; 3] = "at_base";
     /// Location on the tip; default: the node's place \[m\].

@@ -1,0 +1,104 @@
+//! Two frames that nodes carry, and what forces over their relative motion are to the nodes.
+//!
+//! Legend: (R, x) tip's frame in the base's, A = Ad((R, x)⁻¹), V twists in the frames' own axes, η variation of the tip's frame
+//! relative to the base's, w a wrench on the tip's frame.
+//!
+//! ```text
+//! η = ξ_tip - A ξ_base,      wrench on the base's frame -Aᵀ w,      δ(Aᵀ w) = Aᵀ (δw - ad(η)ᵀ w)
+//! ```
+
+use lissom_motion::{Matrix3, Matrix6, Vector3, Vector6, rotation_part, skew, translation_part};
+
+use super::{Tangents, add_block};
+use crate::joints::attached::CarriedFrame;
+use crate::system::{Kinematics, NodeId};
+
+/// Base's and tip's frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FramePair {
+    pub(super) nodes: [NodeId; 2],
+    frames: [CarriedFrame; 2],
+}
+
+/// Relative motion of the two frames.
+pub(super) struct RelativeMotion {
+    /// A.
+    to_tip: Matrix6,
+    pub(super) rotation: Matrix3,
+    /// x [m].
+    pub(super) position: Vector3,
+    /// V_tip - A V_base.
+    pub(super) twist: Vector6,
+    /// A V_base.
+    pub(super) carried: Vector6,
+}
+
+impl FramePair {
+    pub(super) fn new(frames: [CarriedFrame; 2]) -> Self {
+        Self { nodes: frames.map(|frame| frame.node), frames }
+    }
+
+    pub(super) fn motion(&self, at: &Kinematics) -> RelativeMotion {
+        let [base, tip] = self.frames.map(|frame| at.nodes[frame.node].frame * frame.offset);
+        let twists = self.frames.map(|frame| frame.offset.adjoint_inverse_times(&at.nodes[frame.node].twist));
+        let relative = tip.relative_to(&base);
+        let to_tip = relative.inverse().adjoint();
+        let carried = to_tip * twists[0];
+        RelativeMotion {
+            to_tip,
+            rotation: relative.rotation.matrix(),
+            position: relative.position,
+            twist: twists[1] - carried,
+            carried,
+        }
+    }
+
+    /// Ad of the frames' offsets, inverse: from variations of the nodes to those of the frames.
+    fn carry(&self) -> [Matrix6; 2] {
+        self.frames.map(|frame| frame.offset.inverse().adjoint())
+    }
+
+    /// η by variations of base and tip.
+    pub(super) fn columns(&self, motion: &RelativeMotion) -> [Matrix6; 2] {
+        let carry = self.carry();
+        [-motion.to_tip * carry[0], carry[1]]
+    }
+
+    /// Adds to the forces on both nodes what a wrench on the tip's frame is, and the opposite on the base's.
+    pub(super) fn add_wrench(&self, motion: &RelativeMotion, wrench: &Vector6, out: &mut [f64]) {
+        let carry = self.carry();
+        let on = [carry[0].tr_mul(&-motion.to_tip.tr_mul(wrench)), carry[1].tr_mul(wrench)];
+        for (out, value) in out.iter_mut().zip(on.iter().flat_map(|wrench| wrench.iter())) {
+            *out += value;
+        }
+    }
+
+    /// Adds the derivatives of that, from those of the wrench by η and by η̇ at fixed twists of the nodes.
+    pub(super) fn add_derivatives(
+        &self,
+        motion: &RelativeMotion,
+        wrench: &Vector6,
+        (by_place, by_rate): (&Matrix6, &Matrix6),
+        out: &mut Tangents,
+    ) {
+        // ad(η)ᵀ w as a matrix on η.
+        let mut coadjoint = Matrix6::zeros();
+        let (force, moment) = (skew(&translation_part(wrench)), skew(&rotation_part(wrench)));
+        coadjoint.fixed_view_mut::<3, 3>(0, 3).copy_from(&force);
+        coadjoint.fixed_view_mut::<3, 3>(3, 0).copy_from(&force);
+        coadjoint.fixed_view_mut::<3, 3>(3, 3).copy_from(&moment);
+        let (carry, columns) = (self.carry(), self.columns(motion));
+        let place_rows = [
+            carry[0].transpose() * motion.to_tip.transpose() * (coadjoint - by_place),
+            carry[1].transpose() * by_place,
+        ];
+        let size = out.size();
+        for j in 0..2 {
+            for (i, rows) in place_rows.iter().enumerate() {
+                let by_rate = columns[i].transpose() * by_rate * columns[j];
+                add_block(&mut out.stiffness, size, (6 * i, 6 * j), &(rows * columns[j]));
+                add_block(&mut out.damping, size, (6 * i, 6 * j), &by_rate);
+            }
+        }
+    }
+}

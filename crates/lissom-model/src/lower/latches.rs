@@ -1,0 +1,104 @@
+//! The short form of a latch: an input that is its own, an event that sets it, and one that lets go.
+
+use std::sync::Arc;
+
+use lissom_core::elements::{self, Attached};
+use lissom_core::registry::{Parameters, Value};
+use lissom_core::signals::coordinate::{Coordinate, Of};
+use lissom_core::signals::event::{Direction, Event};
+use lissom_core::signals::{Argument, Signal, SignalFunction};
+use lissom_core::system::Builder;
+
+use super::Names;
+use crate::document::{Component, Document};
+use crate::expression::Formula;
+use crate::report::Problem;
+
+/// A coordinate less the value at which a latch engages.
+#[derive(Clone, Copy, Debug)]
+struct From(f64);
+
+impl SignalFunction for From {
+    fn value(&self, _: f64, arguments: &[f64], _: &[f64]) -> f64 {
+        arguments[0] - self.0
+    }
+
+    fn gradient(&self, _: f64, _: &[f64], _: &[f64], out: &mut [f64]) {
+        out[0] = 1.0;
+    }
+}
+
+/// Adds the latch of a joint that has one.
+pub(super) fn add(
+    document: &Document,
+    component: &Component,
+    builder: &mut Builder,
+    names: &mut Names,
+) -> Result<(), Problem> {
+    let name = &component.name.value;
+    let Some(span) =
+        component.latch.as_ref().map(|at| at.span).or(component.release.as_ref().map(|release| release.span))
+    else {
+        return Ok(());
+    };
+    let coordinates = names.coordinates.get(name).map_or(&[][..], Vec::as_slice);
+    let &[coordinate] = coordinates else {
+        let message = match coordinates.len() {
+            0 => format!("joint `{name}` has no relative coordinate for a latch to hold"),
+            count => format!("joint `{name}` has {count} coordinates: which is latched?"),
+        };
+        let help = "add springs of the kinds torsional_latch and axial_latch on its coordinates, and events that set their inputs";
+        return Err(Problem::error(span, message).help(help));
+    };
+    let wanted = builder.coordinate_quantity(coordinate);
+    let kinds = [elements::latch::TORSIONAL, elements::latch::AXIAL];
+    let Some(kind) = kinds.iter().find(|kind| kind.attachment == elements::Attachment::Coordinate(wanted))
+    else {
+        return Err(Problem::error(span, format!("joint `{name}` can have no latch")));
+    };
+    let start = if component.latch.is_some() { 0.0 } else { 1.0 };
+    let engaged = builder.add_held(&format!("{name}, latched"), start);
+    let fault = |error| Problem::error(span, format!("latch of joint `{name}`: {error}"));
+    let parameters = Parameters::new().with("engaged", Value::Input(engaged));
+    (kind.build)(builder, Attached::Coordinate(coordinate), &parameters).map_err(fault)?;
+    builder.take_last_element();
+    let becomes = |builder: &mut Builder, value: f64| {
+        let signal = Signal {
+            name: format!("latch of joint `{name}`"),
+            text: value.to_string(),
+            function: Arc::new(Formula::of_constant(value)),
+            arguments: Vec::new(),
+            sampling: None,
+        };
+        builder.add_signal(signal).map_err(fault)
+    };
+    if let Some(at) = &component.latch {
+        let measured = builder.add_measurement(Coordinate::new(coordinate, Of::Value));
+        let root = Signal {
+            name: format!("latch of joint `{name}`"),
+            text: format!("{name} - {}", at.value),
+            function: Arc::new(From(at.value)),
+            arguments: vec![Argument::Measured(measured)],
+            sampling: None,
+        };
+        let root = builder.add_signal(root).map_err(fault)?;
+        let sets = vec![(engaged, becomes(builder, 1.0)?)];
+        let event =
+            Event { name: format!("{name}, latch"), root, direction: Direction::Both, stops: false, sets };
+        builder.add_event(event).map_err(fault)?;
+    }
+    if let Some(release) = &component.release {
+        let what = format!("`release` of joint `{name}`");
+        let root = super::signals::add_formula(document, builder, names, &what, release)?;
+        let sets = vec![(engaged, becomes(builder, 0.0)?)];
+        let event = Event {
+            name: format!("{name}, release"),
+            root,
+            direction: Direction::Rising,
+            stops: false,
+            sets,
+        };
+        builder.add_event(event).map_err(fault)?;
+    }
+    Ok(())
+}

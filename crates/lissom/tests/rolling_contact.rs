@@ -1,0 +1,214 @@
+//! Wheels that slip: sliding with the friction that the law gives, the passage to rolling, the limit of rolling, lifting.
+
+use lissom::{Model, Record, SessionError};
+
+const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
+const GRAVITY: f64 = 9.81;
+const RADIUS: f64 = 0.3;
+
+/// A wheel of 4 kg and inertia m r²/2 about y, pressed down by its weight from the start on.
+fn wheel(speed: f64, spin: f64, more: &str, law: &str) -> String {
+    let (mass, stiffness) = (4.0, 1e6);
+    let height = RADIUS - mass * GRAVITY / stiffness;
+    format!(
+        r#"
+lissom = 1
+gravity = [0, 0, -{GRAVITY}]
+[bodies.wheel]
+mass = {mass}
+inertia = [0.09, 0.18, 0.09]
+position = [0, 0, {height}]
+velocity = [{speed}, 0, 0]
+angular_velocity = [0, {spin}, 0]
+[springs.road]
+kind = "rolling_contact"
+base = "ground"
+tip = "wheel"
+at_base = [0, 0, 0]
+normal = [0, 0, 1]
+wheel_axis = [0, 1, 0]
+radius = {RADIUS}
+stiffness = {stiffness}
+{law}
+{more}
+[outputs.place]
+kind = "position"
+of = "wheel"
+[outputs.velocity]
+kind = "velocity"
+of = "wheel"
+[outputs.spin]
+kind = "angular_velocity"
+of = "wheel"
+[outputs.road]
+kind = "spring"
+of = "road"
+[outputs.energy]
+kind = "energy"
+[analysis]
+kind = "dynamics"
+end = 1.5
+step = 2e-3
+"#
+    )
+}
+
+const LAW: &str = "friction_coefficient = 0.5\nslip_velocity = 1e-3";
+
+fn run(text: &str, set: &[(&str, &str)]) -> Record {
+    let given: Vec<_> = set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect();
+    let mut session = match Model::from_text("wheel.toml", text).session(&given) {
+        Ok(session) => session,
+        Err(SessionError::Model(report)) => panic!("{}", report.render(false)),
+        Err(error) => panic!("{error}"),
+    };
+    let (record, report) = session.record();
+    assert!(report.is_complete(), "{set:?}: {:?}", report.error());
+    record
+}
+
+fn column<'r>(record: &'r Record, output: &str, component: &str) -> &'r [f64] {
+    record.column(output, component).unwrap_or_else(|| panic!("{output}.{component}"))
+}
+
+/// v falls by μ g t and ω grows by 2 μ g t/r until v = ω r = 2 v₀/3 at t = v₀/(3 μ g); from then on it rolls.
+#[test]
+fn a_wheel_that_is_thrown_slides_and_then_rolls() {
+    for (speed, spin) in [(5.0_f64, 0.0_f64), (0.0, 40.0)] {
+        let text = wheel(speed, spin, "", LAW);
+        let (slip, friction) = (speed - spin * RADIUS, 0.5 * GRAVITY);
+        let rolls_from = slip.abs() / (3.0 * friction);
+        let rolling = speed - slip / 3.0;
+        for set in SCHEMES
+            .map(|scheme| vec![("analysis.scheme", scheme)])
+            .into_iter()
+            .chain([vec![("analysis.relative_tolerance", "1e-6")]])
+        {
+            let record = run(&text, &set);
+            for (row, &time) in record.times.iter().enumerate() {
+                let (velocity, turning) =
+                    (column(&record, "velocity", "v1")[row], column(&record, "spin", "w2")[row]);
+                let slid = time.min(rolls_from);
+                let wanted = speed - slip.signum() * friction * slid;
+                let turned = spin + slip.signum() * 2.0 * friction / RADIUS * slid;
+                assert!((velocity - wanted).abs() < 5e-3, "{set:?} t = {time}: {velocity} {wanted}");
+                assert!(
+                    (turning * RADIUS - turned * RADIUS).abs() < 1e-2,
+                    "{set:?} t = {time}: {turning} {turned}"
+                );
+                let normal = column(&record, "road", "force")[row];
+                assert!((normal / (4.0 * GRAVITY) - 1.0).abs() < 1e-2, "{set:?} t = {time}: {normal}");
+            }
+            let last = record.times.len() - 1;
+            assert!((column(&record, "velocity", "v1")[last] - rolling).abs() < 2e-3, "{set:?}");
+        }
+    }
+}
+
+/// A wheel that its brake holds slides v²/(2 μ g), and stays.
+#[test]
+fn a_wheel_that_is_held_stops_after_its_braking_distance() {
+    let brake = "[joints.brake]\nkind = \"generic\"\nbase = \"ground\"\ntip = \"wheel\"\nlocked = [\"y\", \"rx\", \"ry\", \"rz\"]";
+    let record = run(&wheel(5.0, 0.0, brake, LAW), &[]);
+    let wanted = 25.0 / (2.0 * 0.5 * GRAVITY);
+    let place = column(&record, "place", "x");
+    assert!((place[place.len() - 1] / wanted - 1.0).abs() < 2e-3, "{} {wanted}", place[place.len() - 1]);
+    // The law that is given as an expression is the same.
+    let given = run(&wheel(5.0, 0.0, brake, "traction = \"0.5*tanh(slip/1e-3)\""), &[]);
+    let other = column(&given, "place", "x");
+    assert!((place[place.len() - 1] - other[other.len() - 1]).abs() < 1e-9);
+    // With less grip at high slip, as of a tyre, the way is longer.
+    let tyre = run(&wheel(5.0, 0.0, brake, "traction = \"0.5*sin(1.6*atan(20*slip))\""), &[]);
+    let longer = column(&tyre, "place", "x");
+    assert!(longer[longer.len() - 1] > 1.02 * wanted);
+}
+
+/// Lagrange's steady precession, in the limit of a stiff plane and little slip: 6 r Ω n sin α - r Ω² sin α cos α + 4 g cos α = 0.
+#[test]
+fn a_disc_precesses_as_if_it_rolled() {
+    let (radius, lean, rate) = (0.2_f64, 1.1_f64, 3.0_f64);
+    let (sine, cosine) = lean.sin_cos();
+    let spin = (radius * rate * rate * sine * cosine - 4.0 * GRAVITY * cosine) / (6.0 * radius * rate * sine);
+    let (mass, stiffness) = (1.7, 1e7);
+    let text = format!(
+        "
+lissom = 1
+gravity = [0, 0, -{GRAVITY}]
+[bodies.disc]
+mass = {mass}
+inertia = [{a}, {a}, {c}]
+position = [0.4, -0.2, {height}]
+axes = [[0, 1, 0], [{up_x}, 0, {sine}]]
+velocity = [0, {speed}, 0]
+angular_velocity = [0, {tilting}, {spin}]
+[springs.floor]
+kind = \"rolling_contact\"
+base = \"ground\"
+tip = \"disc\"
+at_base = [3, 2, 0]
+normal = [0, 0, 1]
+wheel_axis = [{sine}, 0, {cosine}]
+radius = {radius}
+stiffness = {stiffness}
+friction_coefficient = 2
+slip_velocity = 1e-4
+[outputs.place]
+kind = \"position\"
+of = \"disc\"
+[analysis]
+kind = \"dynamics\"
+end = 2.0
+step = 1e-3
+",
+        a = 0.25 * mass * radius * radius,
+        c = 0.5 * mass * radius * radius,
+        height = radius * sine - mass * GRAVITY / stiffness,
+        up_x = -cosine,
+        speed = -radius * spin,
+        tilting = rate * sine,
+    );
+    let record = run(&text, &[]);
+    let (speed, angle) = (-radius * spin, rate * 2.0);
+    let circle = speed / rate;
+    let wanted = [0.4 - circle * (1.0 - angle.cos()), -0.2 + circle * angle.sin(), radius * sine];
+    for (axis, wanted) in ["x", "y", "z"].into_iter().zip(wanted) {
+        let found = *column(&record, "place", axis).last().unwrap();
+        assert!((found - wanted).abs() < 1e-3, "{axis}: {found} {wanted}");
+    }
+}
+
+/// A ball that falls on the plane bounces: no force without touch, and its energy is that of the fall.
+#[test]
+fn a_ball_lifts_and_falls_again() {
+    let text = wheel(0.0, 0.0, "", "").replace("radius = 0.3\n", "radius = 0\nrim = 0.3\n");
+    let text = text.replace("wheel_axis = [0, 1, 0]", "wheel_axis = [1, 0, 0]");
+    let text = text
+        .replace(&format!("position = [0, 0, {}]", RADIUS - 4.0 * GRAVITY / 1e6), "position = [0, 0, 0.5]");
+    let record = run(&text, &[("analysis.relative_tolerance", "1e-7")]);
+    let (height, force) = (column(&record, "place", "z"), column(&record, "road", "force"));
+    let energy = column(&record, "energy", "total");
+    let bounce = (0.4 / GRAVITY).sqrt();
+    for (row, &time) in record.times.iter().enumerate() {
+        if time < 0.99 * bounce {
+            assert!(force[row] == 0.0 && (height[row] - 0.5 + 0.5 * GRAVITY * time * time).abs() < 1e-7);
+        }
+        assert!((energy[row] / energy[0] - 1.0).abs() < 1e-3, "t = {time}: {}", energy[row]);
+    }
+    let most = (0..height.len()).filter(|&row| record.times[row] > 1.5 * bounce);
+    let most = most.map(|row| height[row]).fold(0.0, f64::max);
+    assert!((most - 0.5).abs() < 1e-3, "{most}");
+    assert!(force.iter().any(|force| *force > 100.0));
+}
+
+#[test]
+fn laws_that_make_no_sense_are_refused() {
+    for (law, wanted) in [
+        ("traction = \"0.5\"", "must be zero there"),
+        ("traction = \"-slip\"", "negative friction would drive"),
+        ("traction = \"slip\"\nfriction_coefficient = 0.3", "leave one of them out"),
+    ] {
+        let started = Model::from_text("wheel.toml", &wheel(1.0, 0.0, "", law)).session(&[]).map(|_| ());
+        let Err(SessionError::Model(report)) = started else { panic!("{wanted}") };
+        assert!(report.render(false).contains(wanted), "{}", report.render(false));
+    }
+}
