@@ -395,6 +395,21 @@ impl Chosen {
                 Attachment::JointCoordinates { joint, other } => {
                     return Ok(joints.contains(&joint.value) && joints.contains(&other.value));
                 }
+                Attachment::Coordinates(all) => {
+                    return Ok(all.iter().all(|(joint, _)| joints.contains(&joint.value)));
+                }
+                Attachment::AlongBeams { beams, tip, .. } => {
+                    let start = |beam: &str| NodeReference::Beam { beam: beam.to_owned(), fraction: 0.0 };
+                    if self.is_part(&tip.value) || beams.iter().any(|beam| self.is_part(&start(&beam.value)))
+                    {
+                        return question(format!(
+                            "`{}` slides along a beam, which a superelement does not hold: leave it out, or its parts",
+                            component.name.value
+                        ));
+                    }
+                    return Ok(false);
+                }
+                Attachment::Nothing => return Ok(false),
                 Attachment::NamedCoordinates => {
                     let names = component.signal.iter().flat_map(|(_, formula)| formula.value.arguments());
                     let owners: Vec<String> =

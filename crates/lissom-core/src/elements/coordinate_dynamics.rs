@@ -9,12 +9,15 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Attached, Attachment, Element, ElementKind, Energy, MOST_UNKNOWNS, Tangents};
+use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
 
 /// Eigenvalues of symmetric matrices below this part of the largest are round-off.
 const ROUND_OFF: f64 = 1e-10;
+
+/// Coordinates of one entry: its matrices are full.
+const MOST_COORDINATES: usize = 100;
 
 const MATRIX: &str = "a number, the diagonal, or all rows";
 
@@ -68,9 +71,9 @@ pub(crate) struct CoordinateDynamics {
 fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
     let coordinates = attached.coordinates()?;
     let count = coordinates.len();
-    if count > MOST_UNKNOWNS {
+    if count > MOST_COORDINATES {
         let problem =
-            format!("names {count} coordinates; at most {MOST_UNKNOWNS} stand in one entry: take several");
+            format!("names {count} coordinates; at most {MOST_COORDINATES} stand in one entry: take several");
         return Err(ParameterError::new("coordinates", problem));
     }
     let [mass, damping, stiffness] =

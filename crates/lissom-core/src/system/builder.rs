@@ -191,7 +191,7 @@ impl Builder {
 
     /// Adds an algebraic coordinate that no joint has, at zero at the start.
     pub(crate) fn add_coordinate(&mut self, name: &str, quantity: Quantity) -> CoordinateId {
-        self.coordinates.push(Coordinate { name: name.to_owned(), value: 0.0, quantity });
+        self.coordinates.push(Coordinate { name: name.to_owned(), value: 0.0, rate: 0.0, quantity });
         self.coordinates.len() - 1
     }
 
