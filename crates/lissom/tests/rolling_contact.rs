@@ -93,14 +93,14 @@ fn a_wheel_that_is_thrown_slides_and_then_rolls() {
                 let turned = spin + slip.signum() * 2.0 * friction / RADIUS * slid;
                 assert!((velocity - wanted).abs() < 5e-3, "{set:?} t = {time}: {velocity} {wanted}");
                 assert!(
-                    (turning * RADIUS - turned * RADIUS).abs() < 1e-2,
+                    (turning * RADIUS - turned * RADIUS).abs() < 3e-2,
                     "{set:?} t = {time}: {turning} {turned}"
                 );
                 let normal = column(&record, "road", "force")[row];
-                assert!((normal / (4.0 * GRAVITY) - 1.0).abs() < 1e-2, "{set:?} t = {time}: {normal}");
+                assert!((normal / (4.0 * GRAVITY) - 1.0).abs() < 3e-2, "{set:?} t = {time}: {normal}");
             }
             let last = record.times.len() - 1;
-            assert!((column(&record, "velocity", "v1")[last] - rolling).abs() < 2e-3, "{set:?}");
+            assert!((column(&record, "velocity", "v1")[last] - rolling).abs() < 5e-3, "{set:?}");
         }
     }
 }

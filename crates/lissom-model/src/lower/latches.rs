@@ -11,20 +11,22 @@ use lissom_core::system::Builder;
 
 use super::Names;
 use crate::document::{Component, Document};
-use crate::expression::Formula;
 use crate::report::Problem;
 
-/// A coordinate less the value at which a latch engages.
+/// A straight line over its argument.
 #[derive(Clone, Copy, Debug)]
-struct From(f64);
+struct Line {
+    at_zero: f64,
+    slope: f64,
+}
 
-impl SignalFunction for From {
+impl SignalFunction for Line {
     fn value(&self, _: f64, arguments: &[f64], _: &[f64]) -> f64 {
-        arguments[0] - self.0
+        self.at_zero + self.slope * arguments[0]
     }
 
     fn gradient(&self, _: f64, _: &[f64], _: &[f64], out: &mut [f64]) {
-        out[0] = 1.0;
+        out[0] = self.slope;
     }
 }
 
@@ -62,12 +64,14 @@ pub(super) fn add(
     let parameters = Parameters::new().with("engaged", Value::Input(engaged));
     (kind.build)(builder, Attached::Coordinate(coordinate), &parameters).map_err(fault)?;
     builder.take_last_element();
-    let becomes = |builder: &mut Builder, value: f64| {
+    // A latch that has let go does not engage again: its coordinate leaves the place from where it was held.
+    let released = builder.add_held(&format!("{name}, released"), 0.0);
+    let becomes = |builder: &mut Builder, function: Arc<dyn SignalFunction>| {
         let signal = Signal {
             name: format!("latch of joint `{name}`"),
-            text: value.to_string(),
-            function: Arc::new(Formula::of_constant(value)),
-            arguments: Vec::new(),
+            text: String::new(),
+            function,
+            arguments: vec![Argument::Held(released)],
             sampling: None,
         };
         builder.add_signal(signal).map_err(fault)
@@ -77,12 +81,12 @@ pub(super) fn add(
         let root = Signal {
             name: format!("latch of joint `{name}`"),
             text: format!("{name} - {}", at.value),
-            function: Arc::new(From(at.value)),
+            function: Arc::new(Line { at_zero: -at.value, slope: 1.0 }),
             arguments: vec![Argument::Measured(measured)],
             sampling: None,
         };
         let root = builder.add_signal(root).map_err(fault)?;
-        let sets = vec![(engaged, becomes(builder, 1.0)?)];
+        let sets = vec![(engaged, becomes(builder, Arc::new(Line { at_zero: 1.0, slope: -1.0 }))?)];
         let event =
             Event { name: format!("{name}, latch"), root, direction: Direction::Both, stops: false, sets };
         builder.add_event(event).map_err(fault)?;
@@ -90,7 +94,9 @@ pub(super) fn add(
     if let Some(release) = &component.release {
         let what = format!("`release` of joint `{name}`");
         let root = super::signals::add_formula(document, builder, names, &what, release)?;
-        let sets = vec![(engaged, becomes(builder, 0.0)?)];
+        let constant = |value| Arc::new(Line { at_zero: value, slope: 0.0 });
+        let sets =
+            vec![(engaged, becomes(builder, constant(0.0))?), (released, becomes(builder, constant(1.0))?)];
         let event = Event {
             name: format!("{name}, release"),
             root,
