@@ -38,8 +38,10 @@ const NOTEWORTHY: f64 = 0.003;
 /// What is known of one unknown [scaled].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 struct Missed {
-    /// Sum of the filtered errors of all steps so far.
+    /// Sum of the filtered errors of all steps so far, as if they changed linearly from pair to pair.
     sum: f64,
+    /// Filtered error of a step of the last pair.
+    last: f64,
     /// Sums over all pairs: unfiltered errors, and how they differ within a pair.
     errors: f64,
     differences: f64,
@@ -106,9 +108,12 @@ impl Resolution {
         let one = largest(&mut self.first.iter().map(|errors| errors[0]));
         let other = largest(&mut errors.clone().map(|errors| errors[0]));
         let weight = (SPIKE * one.min(other) / one.max(other)).min(1.0);
-        let all = f64::from(self.steps) * if weight.is_nan() { 0.0 } else { weight };
+        let weight = if weight.is_nan() { 0.0 } else { weight };
+        let (steps, is_first) = (f64::from(self.steps), self.pairs == 0.0);
         for ((missed, first), second) in self.missed.iter_mut().zip(&self.first).zip(errors) {
-            missed.sum += 0.5 * all * (first[0].abs() + second[0].abs());
+            let error = 0.5 * weight * (first[0].abs() + second[0].abs());
+            missed.sum += 0.5 * steps * (error + if is_first { error } else { missed.last });
+            missed.last = error;
             missed.errors += first[1].abs() + second[1].abs();
             missed.differences += 2.0 * (first[1] - second[1]).abs();
         }
@@ -197,6 +202,18 @@ mod tests {
             }
         }
         assert!(resolution.worst().1 < 1e-3, "{:?}", resolution.worst());
+    }
+
+    #[test]
+    fn a_motion_that_begins_late_does_not_count_for_the_steps_before() {
+        let mut resolution = Resolution::new(1);
+        for step in 0..=FIRST + STRIDE {
+            if resolution.is_due(true) {
+                resolution.note(std::iter::once([if step < FIRST + 10 { 0.0 } else { 1.0 }; 2]));
+            }
+        }
+        let sum = resolution.worst().1;
+        assert!((0.4..0.6).contains(&(sum / f64::from(STRIDE))), "{sum}");
     }
 
     #[test]
