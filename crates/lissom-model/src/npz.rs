@@ -59,6 +59,10 @@ pub(crate) fn arrays(archive: &[u8]) -> Result<BTreeMap<String, Result<DMatrix<f
     let end =
         archive[from..].windows(4).rposition(|window| window == END).ok_or(NpzError::NotAnArchive)? + from;
     let (count, mut at) = (short(archive, end + 10)?, long(archive, end + 16)?);
+    // The last entry is the length of a comment, which ends the archive.
+    if end + 22 + short(archive, end + 20)? > archive.len() {
+        return Err(NpzError::NotAnArchive);
+    }
     let mut arrays = BTreeMap::new();
     for _ in 0..count {
         if bytes::<4>(archive, at)? != *b"PK\x01\x02" {
