@@ -180,10 +180,16 @@ mod tests {
         assert_ne!(mechanism(3, 5).text(), mechanism(4, 5).text());
     }
 
+    /// Kinds that the generator does not make: generalised coordinates move no part, and the others need a beam or a wheel of
+    /// their own.
+    const NOT_MADE: [&str; 4] =
+        ["generalized_coordinates", "slider", "coordinate_dynamics", "rolling_contact"];
+
     #[test]
     fn mechanisms_have_all_kinds_that_are_meant() {
         let text: String = (0..400).map(|index| mechanism(1, index).text()).collect();
-        let missing = kinds_without(&text);
+        let missing: Vec<_> =
+            kinds_without(&text).into_iter().filter(|kind| !NOT_MADE.contains(kind)).collect();
         assert!(missing.is_empty(), "no mechanism has {missing:?}");
         assert!(kinds_without("").len() > 30);
     }
