@@ -482,6 +482,10 @@ impl Simulation {
         let (before, after) = (&self.ledger, &self.next_ledger);
         let time = self.next.kinematics.time;
         if self.settings.scheme.dynamic {
+            let step = (&self.state.kinematics, &self.next.kinematics);
+            if let Some(warning) = judge::drives::jump(&self.system, &self.representative, step) {
+                warn(&mut self.warnings, warning);
+            }
             let (surplus, turned_over) = (after.surplus, after.turned_over);
             let known =
                 self.warnings.iter().position(|warning| matches!(warning, Warning::EnergySurplus { .. }));

@@ -6,6 +6,7 @@
 //! scheme feeds motions which it does not resolve.
 
 pub(crate) mod contact;
+pub(crate) mod drives;
 pub(crate) mod held;
 mod ledger;
 pub(crate) mod linear_range;

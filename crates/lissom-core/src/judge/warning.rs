@@ -96,6 +96,18 @@ pub enum Warning {
         /// What switches.
         what: String,
     },
+    /// A drive goes from one place to another at once.
+    #[error(
+        "in the step to t = {time:.6e} s the drive `{drive}` goes by {way:.3e} (m or rad) without a rate that takes it there: it          jumps, or changes faster than steps resolve; let it go there in a time that steps resolve"
+    )]
+    DriveJumps {
+        /// End of the step in which it was seen first [s].
+        time: f64,
+        /// Name of the drive.
+        drive: String,
+        /// How far it goes [m or rad].
+        way: f64,
+    },
     /// Steps of planned size do not resolve the motion.
     #[error(
         "the steps are too long for the motion: from t = {time:.6e} s on they are estimated to miss more than 0.3 % of how far \
@@ -219,6 +231,7 @@ impl Warning {
             Self::VelocityReplaced { .. } => "velocity-replaced",
             Self::StartsWithJolt { .. } => "starts-with-jolt",
             Self::ContactTooShort { .. } => "contact-too-short",
+            Self::DriveJumps { .. } => "drive-jumps",
             Self::Unresolved { .. } => "unresolved-motion",
             Self::WheelLifts { .. } => "wheel-lifts",
             Self::WheelSlides { .. } => "wheel-slides",

@@ -1,0 +1,30 @@
+//! Drives that jump: however short the step, a place that changes at once is reached with a speed that nothing prescribes.
+
+use super::Warning;
+use crate::joints::Quantity;
+use crate::scaling::Representative;
+use crate::system::{Kinematics, System};
+
+/// A drive goes at once if it goes further in a step than its larger rate at both ends would take it, so many times over.
+const MOST: f64 = 2.0;
+/// Ways below this part of the representative length, or this angle, are not told [-, rad].
+const LEAST: f64 = 1e-6;
+
+/// The first drive that jumps between two instants.
+pub(crate) fn jump(
+    system: &System,
+    representative: &Representative,
+    (from, to): (&Kinematics, &Kinematics),
+) -> Option<Warning> {
+    let elapsed = to.time - from.time;
+    let quantities = system.layout().quantities();
+    let jumping = system.drives().iter().find_map(|drive| {
+        let function = &drive.prescribed.value;
+        let way = (function.value(to.time) - function.value(from.time)).abs();
+        let rate = function.first_derivative(from.time).abs().max(function.first_derivative(to.time).abs());
+        let row = system.layout().coordinate_rows[drive.prescribed.coordinate] as usize;
+        let unit = if quantities[row] == Quantity::Length { representative.length } else { 1.0 };
+        (way > LEAST * unit && way > MOST * elapsed * rate).then(|| (drive.name.clone(), way))
+    });
+    jumping.map(|(drive, way)| Warning::DriveJumps { time: to.time, drive, way })
+}
