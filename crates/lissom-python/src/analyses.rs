@@ -130,12 +130,10 @@ pub(crate) fn gradient(
     let of = of.to_owned();
     let model = model.clone();
     interruptible(py, move || {
-        let found =
-            lissom::gradient::gradient(&model.model, &model.overrides, &target, &by, confirms).map_err(|error| {
-                match error {
-                    GradientError::Model(report) => of_report(&report),
-                    other => refused(other.is_of_question(), &other),
-                }
+        let found = lissom::gradient::gradient(&model.model, &model.overrides, &target, &by, confirms)
+            .map_err(|error| match error {
+                GradientError::Model(report) => of_report(&report),
+                other => refused(other.is_of_question(), &other),
             })?;
         let summary = found.summary(model.model.name(), &model.overrides, &model.document()?, &of);
         Ok(files(vec![("gradient.csv", found.csv())], &summary, &[]))
