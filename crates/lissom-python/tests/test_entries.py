@@ -100,6 +100,8 @@ def test_every_example_comes_back(file: Path) -> None:
     assert tree(text) == tree(read.to_toml()), "keys and values are all there"
     again = lissom.Model(name=str(file), **{name: getattr(built, name) for name in ORDER[1:] if getattr(built, name)})
     assert again.to_toml() == text
+    if 'kind = "modes"' in text:
+        return  # nothing is stepped
     sims = [model.simulation() for model in (read, built, again)]
     for _ in range(2):
         for sim in sims:

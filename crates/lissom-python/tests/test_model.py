@@ -114,7 +114,8 @@ def test_failures_say_what_the_summary_says(program: Program, tmp_path: Path) ->
     error = caught.value
     assert str(error) == summary["error"] and str(error) in ended.stderr
     assert {"time": error.time, "part": error.part, "remedy": error.remedy} == summary["failure"]
-    assert (error.time, error.part) == (0.01, "bob") and error.remedy == "try a smaller step, or a larger `max_iterations`"
+    assert (error.time, error.part) == (0.01, "bob")
+    assert error.remedy is not None and "a small `max_iterations`" in error.remedy
     assert len(error.result.time) == 1 and error.result.summary["failure"] == summary["failure"]
     # The same of a simulation that is stepped, and of analyses along steps.
     model = lissom.load(PENDULUM, **wrong)
