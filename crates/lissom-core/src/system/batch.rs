@@ -4,7 +4,7 @@ use std::any::Any;
 use std::cell::RefCell;
 use std::ops::Range;
 
-use lissom_motion::{Block, Matrix6, Vector3, WIDTH, lie_bracket_matrix};
+use lissom_motion::{Block, Matrix6, WIDTH, lie_bracket_matrix};
 use lissom_solver::Pattern;
 
 use super::GROUND;
@@ -13,6 +13,7 @@ use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
 use super::state::{CoordinateId, Kinematics, NodeId, NodeMotion};
 use super::threads::Threads;
+use super::work::{power, work};
 use crate::elements::blocks::Blocks;
 use crate::elements::sides::Sides;
 use crate::elements::step_stages::{STAGES, StepStages};
@@ -464,78 +465,13 @@ pub(super) fn through(
     }
 }
 
-/// Work of an element's forces on its nodes and coordinates between two configurations, times `factors` there: forces in
-/// inertial axes over the way of their nodes, moments over the turn between, forces on coordinates over their change.
-pub(super) fn work<E: Element + ?Sized>(
-    element: &E,
-    (from, to): (&Kinematics, &Kinematics),
-    factors: [f64; 2],
-) -> f64 {
-    let size = 6 * element.nodes().len() + element.coordinates().len();
-    with_room(2 * size, |locals| {
-        let (first, second) = locals.split_at_mut(size);
-        let mut locals = [first, second];
-        for ((at, local), factor) in [from, to].into_iter().zip(&mut locals).zip(factors) {
-            element.forces(at, local);
-            local.iter_mut().for_each(|force| *force *= factor);
-        }
-        work_along(element, (from, to), &locals)
-    })
-}
-
-/// The work of these forces.
-fn work_along<E: Element + ?Sized>(
-    element: &E,
-    (from, to): (&Kinematics, &Kinematics),
-    locals: &[&mut [f64]; 2],
-) -> f64 {
-    let elapsed = to.time - from.time;
-    let mut sum = 0.0;
-    for (k, &node) in element.nodes().iter().enumerate() {
-        let motions = [from, to].map(|at| &at.nodes[node]);
-        let rotations = motions.map(|motion| motion.frame.rotation);
-        let inertial = |values: &[f64], side: usize| {
-            rotations[side].apply(&Vector3::new(values[0], values[1], values[2]))
-        };
-        let turn = (rotations[1] * rotations[0].inverse()).logarithm();
-        let way = motions[1].frame.position - motions[0].frame.position;
-        for (first, way) in [(0, way), (3, turn)] {
-            let forces = [0, 1].map(|side| inertial(&locals[side][6 * k + first..], side));
-            let speeds = [0, 1].map(|side| inertial(&motions[side].twist.as_slice()[first..], side));
-            sum += (0..3)
-                .map(|c| along(forces.map(|f| f[c]), way[c], speeds.map(|v| v[c]), elapsed))
-                .sum::<f64>();
-        }
-    }
-    for (k, &coordinate) in element.coordinates().iter().enumerate() {
-        let position = 6 * element.nodes().len() + k;
-        let [start, end] = [from, to].map(|at| at.coordinates[coordinate]);
-        let forces = [locals[0][position], locals[1][position]];
-        sum += along(forces, end.value - start.value, [start.rate, end.rate], elapsed);
-    }
-    // Forces stand on the left-hand side of the equations of motion.
-    -sum
-}
-
-/// Power of an element's forces on its nodes and coordinates [W].
-pub(super) fn power<E: Element + ?Sized>(element: &E, at: &Kinematics) -> f64 {
-    let size = 6 * element.nodes().len() + element.coordinates().len();
-    with_room(size, |forces| {
-        element.forces(at, forces);
-        let twists = element.nodes().iter().flat_map(|&node| at.nodes[node].twist.iter().copied());
-        let rates = element.coordinates().iter().map(|&own| at.coordinates[own].rate);
-        // Forces stand on the left-hand side of the equations of motion.
-        -twists.chain(rates).zip(forces).map(|(rate, force)| rate * *force).sum::<f64>()
-    })
-}
-
 thread_local! {
     /// Room for local forces that do not fit where those of most elements do.
     static MORE_ROOM: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
 }
 
 /// Calls `work` with so many zeros. Nothing is allocated but for the first large element of a thread.
-fn with_room<R>(size: usize, work: impl FnOnce(&mut [f64]) -> R) -> R {
+pub(super) fn with_room<R>(size: usize, work: impl FnOnce(&mut [f64]) -> R) -> R {
     if size <= STAGES * USUAL_UNKNOWNS {
         return work(&mut [0.0; STAGES * USUAL_UNKNOWNS][..size]);
     }
@@ -545,12 +481,6 @@ fn with_room<R>(size: usize, work: impl FnOnce(&mut [f64]) -> R) -> R {
     let result = work(&mut room);
     MORE_ROOM.set(room);
     result
-}
-
-/// ∫ f dx of a force that changes linearly in time along a cubic way of given ends and speeds at them:
-/// (f₀ + f₁)/2 Δx + (f₁ - f₀)(v₁ - v₀) T/12.
-pub(super) fn along(forces: [f64; 2], way: f64, speeds: [f64; 2], elapsed: f64) -> f64 {
-    0.5 * (forces[0] + forces[1]) * way + (forces[1] - forces[0]) * (speeds[1] - speeds[0]) * (elapsed / 12.0)
 }
 
 /// Adds local values to the rows that are free.

@@ -14,12 +14,13 @@ use std::sync::Arc;
 use lissom_solver::Pattern;
 
 use super::System;
-use super::batch::{AnyBatch, Changed, Chart, Mass, Owner, power, scatter, through, work};
+use super::batch::{AnyBatch, Changed, Chart, Mass, Owner, scatter, through};
 use super::layout::Layout;
 use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
 use super::state::{CoordinateId, Kinematics, NodeId};
 use super::threads::Threads;
+use super::work::{power, work};
 use crate::elements::step_stages::StepStages;
 use crate::elements::{Element, Energy, LinearRange, Tangents, USUAL_UNKNOWNS};
 use crate::signals::measurement::Measurement;

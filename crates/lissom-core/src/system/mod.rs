@@ -13,6 +13,7 @@ mod sliders;
 pub(crate) mod state;
 mod step_stages;
 mod threads;
+mod work;
 
 use std::sync::Arc;
 
@@ -324,5 +325,5 @@ pub(crate) fn work_of_drive(drive: &Drive, from: (&Kinematics, &[f64]), to: (&Ki
     let coordinate = drive.prescribed.coordinate;
     let [start, end] = [from.0, to.0].map(|at| at.coordinates[coordinate]);
     let forces = [from.1, to.1].map(|multipliers| -multipliers[drive.multiplier]);
-    batch::along(forces, end.value - start.value, [start.rate, end.rate], to.0.time - from.0.time)
+    work::along(forces, end.value - start.value, [start.rate, end.rate], to.0.time - from.0.time)
 }
