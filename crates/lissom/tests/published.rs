@@ -388,6 +388,38 @@ const MBDYN: &[Published] = &[
         refined: None,
     },
     Published {
+        name: "a motor with the current as a state",
+        called: "elec/motor",
+        text: include_str!("published/motor.toml"),
+        end: 0.1,
+        step: 1e-4,
+        exact: Some((
+            || {
+                motion(
+                    &|t, [speed, growth]| {
+                        (100.0 * (10.0 * PI * t).sin() - 10.0 * growth - 100.0 * speed) / 1e-3
+                    },
+                    [0.0, 0.0],
+                    0.1,
+                )
+            },
+            1e-11,
+        )),
+        refined: None,
+    },
+    Published {
+        name: "a reed that is blown",
+        called: "genel/clarinet-reed/cr",
+        text: include_str!("published/reed.toml"),
+        end: 2.0,
+        step: 2e-3,
+        exact: Some((
+            || motion(&|_, [place, speed]| 1.0 - place + 5.0 * speed - speed.powi(3), [0.0, 0.0], 2.0),
+            1e-11,
+        )),
+        refined: None,
+    },
+    Published {
         name: "a hinge that is held after half a second",
         called: "driven/initialassembly",
         text: include_str!("published/latched-hinge.toml"),
