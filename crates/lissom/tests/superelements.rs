@@ -437,6 +437,35 @@ fn example(name: &str) -> String {
     format!("{}/../../examples/{name}", env!("CARGO_MANIFEST_DIR"))
 }
 
+/// The slider crank with the beam, and with its superelement.
+fn slider_cranks() -> (Model, Model) {
+    let path = |name: &str| std::path::PathBuf::from(example(name));
+    let rod = Model::read(&path("connecting-rod.toml")).expect("a text");
+    let model = Model::read(&path("slider-crank-elastic.toml")).expect("a text");
+    let own = model.text();
+    let (head, rest) = own.split_once("[superelements.rod]").expect("the table of the rod");
+    let (_, rest) = rest.split_once("[bodies.crank]").expect("the crank");
+    let (_, beam) = rod.text().split_once("[materials.aluminium]").expect("the material");
+    let (beam, _) = beam.split_once("[analysis]").expect("the end");
+    let beam = beam
+        .replace("from = [0, 0, 0]", "from = [\"crank\", 0, 0]")
+        .replace("to = [0.15, 0, 0]", "to = [\"crank + rod\", 0, 0]");
+    let rest = rest
+        .replace("rod.crank_pin", "rod.start")
+        .replace("rod.middle", "rod@0.5")
+        .replace("rod.piston_pin", "rod.end");
+    let text = format!("{head}[materials.aluminium]{beam}[bodies.crank]{rest}");
+    (Model::from_text("model.toml", &text), model)
+}
+
+/// By which part of the largest deflection of the rod the two differ, and that deflection [m].
+fn rod_error(exact: &Model, model: &Model, overrides: &[(String, String)]) -> (f64, f64) {
+    let columns = [exact, model].map(|model| column(&ran(model, overrides), "deflection", "u2"));
+    let most = columns[0].iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let wrong = columns[0].iter().zip(&columns[1]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+    (wrong / most, most)
+}
+
 /// The rod of the slider crank is that of `connecting-rod.toml`, and bends as the beam does. Axial forces of 0.5 % of the
 /// buckling load, which linear matrices do not know, make up for the rest.
 #[test]
@@ -451,30 +480,13 @@ fn the_rod_of_the_slider_crank_bends_as_the_beam() {
     };
     let rod = Model::read(&path("connecting-rod.toml")).expect("a text");
     let report = reduce(&rod, &[], &request).unwrap_or_else(|error| panic!("{error}"));
-    let model = Model::read(&path("slider-crank-elastic.toml")).expect("a text");
+    let (exact, model) = slider_cranks();
     let remade = using(&report, MODES).document(&[]).expect("a good model");
     let kept = model.document(&[]).expect("a good model");
     let difference = &remade.superelements[0].matrices.stiffness - &kept.superelements[0].matrices.stiffness;
     assert!(difference.amax() < 1e-8 * kept.superelements[0].matrices.stiffness.amax());
-    let own = model.text();
-    let (head, rest) = own.split_once("[superelements.rod]").expect("the table of the rod");
-    let (_, rest) = rest.split_once("[bodies.crank]").expect("the crank");
-    let (_, beam) = rod.text().split_once("[materials.aluminium]").expect("the material");
-    let (beam, _) = beam.split_once("[analysis]").expect("the end");
-    let beam = beam
-        .replace("from = [0, 0, 0]", "from = [\"crank\", 0, 0]")
-        .replace("to = [0.15, 0, 0]", "to = [\"crank + rod\", 0, 0]");
-    let rest = rest
-        .replace("rod.crank_pin", "rod.start")
-        .replace("rod.middle", "rod@0.5")
-        .replace("rod.piston_pin", "rod.end");
-    let text = format!("{head}[materials.aluminium]{beam}[bodies.crank]{rest}");
-    let exact = ran(&Model::from_text("model.toml", &text), &[]);
-    let found = ran(&model, &[]);
-    let columns = [&exact, &found].map(|record| column(record, "deflection", "u2"));
-    let most = columns[0].iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-    let wrong = columns[0].iter().zip(&columns[1]).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
-    assert!(most > 4e-6 && wrong < 0.04 * most, "{wrong:e} of {most:e}");
+    let (wrong, most) = rod_error(&exact, &model, &[]);
+    assert!(most > 4e-6 && wrong < 0.04, "{wrong:e} of {most:e}");
 }
 
 /// Large deformations are told of.
@@ -509,5 +521,93 @@ fn turning_fast_is_a_warning() {
         assert!(found.is_complete());
         let codes: Vec<&str> = session.warnings().map(lissom_core::judge::Warning::code).collect();
         assert_eq!(codes, expected, "{speed} rad/s");
+    }
+}
+
+/// A beam that spins about its end under its weight, damped so that it comes to rest: what it bends at the end, and what is told.
+fn spinning(model: &Model, speed: f64) -> (f64, Vec<(String, f64)>) {
+    let overrides = [set("parameters.speed", &speed.to_string())];
+    let mut session = model.session(&overrides).unwrap_or_else(|error| panic!("{error}"));
+    let (record, report) = session.record();
+    assert!(report.is_complete(), "{:?}", report.error());
+    let told = session.warnings().filter_map(|warning| match warning {
+        lissom_core::judge::Warning::LoadStiffness { largest, .. } => {
+            Some((warning.code().to_owned(), 0.5 * largest))
+        }
+        lissom_core::judge::Warning::TurnsFast { .. } => None,
+        other => Some((other.code().to_owned(), 0.0)),
+    });
+    (last(&record, "end", "u3"), told.collect())
+}
+
+/// The files of a reduction without what it tells of geometric stiffness, as another program would give them.
+fn bare(report: &ReduceReport) -> ReduceReport {
+    let mut report = report.clone();
+    for (_, text) in &mut report.files {
+        let kept: Vec<&str> = text.lines().filter(|line| !line.starts_with("geometric")).collect();
+        *text = format!("{}\n", kept.join("\n"));
+    }
+    report
+}
+
+const SPIN: &str = "[joints.hinge]\nkind = \"prescribed_motion\"\nbase = \"ground\"\ntip = \"START\"\nrz = \"speed*t\"\n\
+     [initial]\nangular_velocity = [0, 0, \"speed\"]\n\
+     [outputs.end]\nkind = \"displacement\"\nof = \"END\"\n\
+     [analysis]\nkind = \"dynamics\"\nend = 0.4\nstep = 1e-3\nscheme = \"radau-iia\"\n";
+
+/// Spinning beam of a hub and a tip, over speeds: an error of 1 % of what it bends is told, and one of 0.1 % is not.
+#[test]
+fn stiffness_that_rotation_changes_is_told() {
+    let damped = beam(MODES).replace("[beams.bar]", "damping = 0.01\n[beams.bar]");
+    let report = bare(&reduced(&damped, &["bar.start", "bar.end"], 4));
+    // Gravity and parameters stand above all tables.
+    let weighed = |text: &str, start: &str, end: &str| {
+        let text =
+            text.replace("lissom = 1\n", "lissom = 1\ngravity = [0, 0, -0.5]\n[parameters]\nspeed = 1\n");
+        let text = text.replace(MODES, "");
+        Model::from_text("model.toml", &format!("{text}{}", SPIN.replace("START", start).replace("END", end)))
+    };
+    let exact = weighed(&damped, "bar.start", "bar.end");
+    let (_, table) = report.files.last().expect("the table");
+    let texts: BTreeMap<String, String> = report.files.iter().cloned().collect();
+    let own = weighed(table, "part.bar_start", "part.bar_end").with_known(texts);
+    let mut sides = [0, 0];
+    for speed in [0.5, 1.0, 2.0, 4.0, 7.0, 10.0, 15.0] {
+        let (bent, none) = spinning(&exact, speed);
+        assert!(none.is_empty(), "{none:?}");
+        let (found, told) = spinning(&own, speed);
+        let error = (found / bent - 1.0).abs();
+        match told.as_slice() {
+            [] => assert!(error < 0.005, "{speed} rad/s: {error} and nothing is told"),
+            [(code, share)] => {
+                assert_eq!(code, "load-stiffness");
+                assert!(
+                    error > 0.001 && (0.5..5.0).contains(&(0.01 * share / error)),
+                    "{speed}: {error} {share}"
+                );
+            }
+            more => panic!("{more:?}"),
+        }
+        sides[usize::from(error > 0.01)] += 1;
+    }
+    assert!(sides[0] > 2 && sides[1] > 2, "{sides:?}");
+}
+
+/// The rod of the slider crank, over speeds: the same.
+#[test]
+fn stiffness_that_axial_forces_change_is_told() {
+    let (exact, model) = slider_cranks();
+    for speed in [100, 250, 500, 1000] {
+        let overrides = [set("parameters.speed", &format!("{speed}*2*pi/60"))];
+        let (error, _) = rod_error(&exact, &model, &overrides);
+        let mut session = model.session(&overrides).expect("a good model");
+        assert!(session.record().1.is_complete());
+        let codes: Vec<&str> = session.warnings().map(lissom_core::judge::Warning::code).collect();
+        match codes.as_slice() {
+            [] => assert!(error < 0.005, "{speed} 1/min: {error} and nothing is told"),
+            ["load-stiffness"] => assert!(error > 0.001, "{speed} 1/min: {error}"),
+            more => panic!("{more:?}"),
+        }
+        assert_eq!(codes.is_empty(), speed < 300, "{speed} 1/min: {error}");
     }
 }

@@ -136,8 +136,22 @@ pub struct LinearRange {
     pub part: f64,
     /// The node that deforms most, or turns.
     pub node: NodeId,
-    /// Whether it is the rate of rotation, or else a deformation.
-    pub is_spin: bool,
+}
+
+/// What takes a linear law out of its range.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LinearLimit {
+    /// Deformations.
+    Deformation,
+    /// The rate of rotation.
+    Spin,
+    /// The share of the stiffness that axial forces and rotation give or take.
+    Load,
+}
+
+impl LinearLimit {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Deformation, Self::Spin, Self::Load];
 }
 
 /// Adds `block` to the local matrix at local rows from `row` and columns from `column`.
@@ -245,9 +259,9 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
         None
     }
 
-    /// What goes furthest beyond that up to which its linear law is believed, for elements that are linear in a frame of their own.
+    /// How far it goes towards a limit up to which its linear law is believed, for elements that are linear in a frame of their own.
     /// Default: none.
-    fn linear_range(&self, _at: &Kinematics) -> Option<LinearRange> {
+    fn linear_range(&self, _limit: LinearLimit, _at: &Kinematics) -> Option<LinearRange> {
         None
     }
 

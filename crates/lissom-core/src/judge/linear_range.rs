@@ -1,19 +1,30 @@
-//! Whether superelements deform no more than their linear matrices can tell.
+//! Whether superelements deform no more than their linear matrices can tell, and are loaded no more than that.
 
 use super::Warning;
-use crate::elements::LinearRange;
+use crate::elements::{LinearLimit, LinearRange};
 use crate::system::{State, System};
 
-/// Adds the first superelement that leaves its linear range, if no other was told.
+/// Adds the first superelement that leaves its linear range in each way, if no other was told.
 pub(crate) fn tell(system: &System, state: &State, warnings: &mut Vec<Warning>) {
-    let Some(LinearRange { part, node, is_spin }) =
-        system.linear_range(&state.kinematics).filter(|own| own.part > 1.0)
-    else {
-        return;
-    };
-    let known = warnings.iter_mut().find_map(|warning| match warning {
-        Warning::BeyondLinear { largest, .. } if !is_spin => Some(largest),
-        Warning::TurnsFast { largest, .. } if is_spin => Some(largest),
+    for limit in LinearLimit::ALL {
+        let Some(found) = system.linear_range(limit, &state.kinematics).filter(|own| own.part > 1.0) else {
+            continue;
+        };
+        tell_of(system, state, (limit, found), warnings);
+    }
+}
+
+fn tell_of(
+    system: &System,
+    state: &State,
+    (limit, found): (LinearLimit, LinearRange),
+    warnings: &mut Vec<Warning>,
+) {
+    let LinearRange { part, node } = found;
+    let known = warnings.iter_mut().find_map(|warning| match (limit, warning) {
+        (LinearLimit::Deformation, Warning::BeyondLinear { largest, .. })
+        | (LinearLimit::Spin, Warning::TurnsFast { largest, .. })
+        | (LinearLimit::Load, Warning::LoadStiffness { largest, .. }) => Some(largest),
         _ => None,
     });
     if let Some(largest) = known {
@@ -22,9 +33,9 @@ pub(crate) fn tell(system: &System, state: &State, warnings: &mut Vec<Warning>) 
     }
     let interface = system.layout().name_of_node(node).to_owned();
     let (time, largest) = (state.kinematics.time, part);
-    warnings.push(if is_spin {
-        Warning::TurnsFast { time, interface, largest }
-    } else {
-        Warning::BeyondLinear { time, interface, largest }
+    warnings.push(match limit {
+        LinearLimit::Deformation => Warning::BeyondLinear { time, interface, largest },
+        LinearLimit::Spin => Warning::TurnsFast { time, interface, largest },
+        LinearLimit::Load => Warning::LoadStiffness { time, interface, largest },
     });
 }

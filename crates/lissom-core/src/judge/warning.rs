@@ -202,6 +202,20 @@ pub enum Warning {
         /// The largest rate of rotation over that up to which the matrices are believed.
         largest: f64,
     },
+    /// Loads change the stiffness of a superelement, which its matrices do not know.
+    #[error(
+        "from t = {time:.6e} s on axial forces and rotation give or take an estimated share of up to {:.2} % of the stiffness against \
+         what the superelement of `{interface}` bends, which its matrices do not know: it bends by about that much wrongly; cut \
+         it into several superelements, or model it by beams", 0.5 * largest
+    )]
+    LoadStiffness {
+        /// When it was first seen [s].
+        time: f64,
+        /// Name of the interface that carries its floating frame.
+        interface: String,
+        /// The largest share over that up to which the matrices are believed, 0.5 %.
+        largest: f64,
+    },
     /// An output that goes on along the motion could not go on.
     #[error(
         "at t = {time:.6e} s the output `{output}` cannot go on: from one step to the next it changes by more than can be told,          and is not a number from there on; take smaller steps; an angle about an axis has no value where the axis is turned          by half a turn"
@@ -239,6 +253,7 @@ impl Warning {
             Self::ReactionsNotUnique { .. } => "reactions-not-unique",
             Self::BeyondLinear { .. } => "beyond-linear",
             Self::TurnsFast { .. } => "turns-fast",
+            Self::LoadStiffness { .. } => "load-stiffness",
             Self::AccumulationLost { .. } => "output-lost",
             Self::Model { .. } => "model",
         }

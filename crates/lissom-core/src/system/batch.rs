@@ -17,7 +17,7 @@ use super::work::{power, work};
 use crate::elements::blocks::Blocks;
 use crate::elements::sides::Sides;
 use crate::elements::step_stages::{STAGES, StepStages};
-use crate::elements::{Element, Energy, LinearRange, Tangents, USUAL_UNKNOWNS, is_same};
+use crate::elements::{Element, Energy, LinearLimit, LinearRange, Tangents, USUAL_UNKNOWNS, is_same};
 use crate::joints::derivatives::IncrementTangent;
 use crate::lanes::processor_for;
 
@@ -77,7 +77,7 @@ pub(crate) trait AnyBatch: Send + Sync {
     /// The largest rate at which an element deforms [1/s], with one of its nodes.
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)>;
     /// What goes furthest beyond the range of an element's linear law.
-    fn linear_range(&self, at: &Kinematics) -> Option<LinearRange>;
+    fn linear_range(&self, limit: LinearLimit, at: &Kinematics) -> Option<LinearRange>;
     /// Hands on the mass matrix of every item that has one, row after row: its nodes, its coordinates, its rows.
     fn masses(&self, at: &Kinematics, each: &mut dyn FnMut(&Mass<'_>));
     /// The two nodes of an element that are turned most against each other, and the cosine of half that angle.
@@ -372,8 +372,8 @@ impl<E: Element> AnyBatch for Batch<E> {
         rates.reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
     }
 
-    fn linear_range(&self, at: &Kinematics) -> Option<LinearRange> {
-        let parts = self.items.iter().filter_map(|item| item.linear_range(at));
+    fn linear_range(&self, limit: LinearLimit, at: &Kinematics) -> Option<LinearRange> {
+        let parts = self.items.iter().filter_map(|item| item.linear_range(limit, at));
         parts.reduce(|most, own| if own.part > most.part { own } else { most })
     }
 

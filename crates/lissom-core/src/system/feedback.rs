@@ -22,7 +22,7 @@ use super::state::{CoordinateId, Kinematics, NodeId};
 use super::threads::Threads;
 use super::work::{power, work};
 use crate::elements::step_stages::StepStages;
-use crate::elements::{Element, Energy, LinearRange, Tangents, USUAL_UNKNOWNS};
+use crate::elements::{Element, Energy, LinearLimit, LinearRange, Tangents, USUAL_UNKNOWNS};
 use crate::signals::measurement::Measurement;
 use crate::signals::{Argument, Graph, HeldId, SignalId};
 
@@ -381,7 +381,7 @@ impl AnyBatch for Arc<Feedback> {
         None
     }
 
-    fn linear_range(&self, _: &Kinematics) -> Option<LinearRange> {
+    fn linear_range(&self, _: LinearLimit, _: &Kinematics) -> Option<LinearRange> {
         None
     }
 

@@ -34,7 +34,7 @@ use lissom_solver::Structure;
 use nalgebra::DMatrix;
 
 use crate::elements::inertia::{Gravity, Inertia};
-use crate::elements::{Energy, LinearRange};
+use crate::elements::{Energy, LinearLimit, LinearRange};
 use crate::joints::attached::AttachedJoint;
 use crate::joints::blocks::{Batches, JointStarts};
 use crate::joints::coupling::Coupling;
@@ -245,8 +245,8 @@ impl System {
     }
 
     /// What goes furthest beyond the range of an element's linear law; none where no element is linear in a frame of its own.
-    pub(crate) fn linear_range(&self, at: &Kinematics) -> Option<LinearRange> {
-        let parts = self.batches.iter().filter_map(|batch| batch.linear_range(at));
+    pub(crate) fn linear_range(&self, limit: LinearLimit, at: &Kinematics) -> Option<LinearRange> {
+        let parts = self.batches.iter().filter_map(|batch| batch.linear_range(limit, at));
         parts.reduce(|most, own| if own.part > most.part { own } else { most })
     }
 

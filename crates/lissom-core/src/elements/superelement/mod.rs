@@ -27,6 +27,7 @@
 mod build;
 mod centre;
 mod linearize;
+mod load_stiffness;
 mod matrices;
 mod room;
 mod step_stages;
@@ -39,12 +40,14 @@ use nalgebra::{DMatrix, DVector, Matrix3xX};
 pub use self::build::{InterfacePlace, SuperelementDescription, add_superelement};
 use self::centre::{Centre, Derivatives};
 use self::linearize::Maps;
+use self::load_stiffness::{LARGEST_SHARE, LoadStiffness};
 pub use self::matrices::{Damping, ReducedMatrices};
 use self::matrices::{RigidMotion, rigid_motion};
 use self::room::{Room, product};
 use super::inertia::Gravity;
 use super::step_stages::{STAGES, StepStages};
-use super::{Element, Energy, LinearRange, Tangents};
+use super::{Element, Energy, LinearLimit, LinearRange, Tangents};
+use crate::system::state::split;
 use crate::system::{CoordinateId, Kinematics, NodeId};
 
 /// Elastic rotation of an interface against the floating frame from which on linear matrices are in doubt [rad].
@@ -79,6 +82,8 @@ pub struct Superelement {
     gravity: Gravity,
     /// Rate of rotation up to which matrices are believed [rad/s]; none where nothing swings.
     largest_spin: Option<f64>,
+    /// What estimates how loads change the stiffness; none where the matrices know that.
+    load_stiffness: Option<LoadStiffness>,
 }
 
 /// Room of this thread, so that nothing is allocated once it is large enough.
@@ -130,13 +135,15 @@ impl Superelement {
             carried,
             gravity,
             largest_spin: None,
+            load_stiffness: None,
         }
     }
 
-    /// With a rate of rotation from which on a warning is told [rad/s].
+    /// With a rate of rotation from which on a warning is told [rad/s], and with one of loads that change the stiffness.
     #[must_use]
     pub fn believed_up_to(self, spin: Option<f64>) -> Self {
-        Self { largest_spin: spin, ..self }
+        let load_stiffness = Some(LoadStiffness::of(&self));
+        Self { largest_spin: spin, load_stiffness, ..self }
     }
 
     fn size(&self) -> usize {
@@ -310,24 +317,31 @@ impl Element for Superelement {
         pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
     }
 
-    fn linear_range(&self, at: &Kinematics) -> Option<LinearRange> {
+    fn linear_range(&self, limit: LinearLimit, at: &Kinematics) -> Option<LinearRange> {
         let reach = self.reach();
+        let frame = self.nodes[self.frame];
+        let spin = split(&at.nodes[frame].twist).1;
+        if limit == LinearLimit::Spin {
+            return self.largest_spin.map(|most| LinearRange { part: spin.norm() / most, node: frame });
+        }
         ROOMS.with_borrow_mut(|Rooms { own: room, .. }| {
             room.enter(self, at);
+            if limit == LinearLimit::Load {
+                let estimate = self.load_stiffness.as_ref()?;
+                product(&self.stiffness, &room.displacement, &mut room.stress);
+                let share = estimate.share(self, (&room.displacement, &room.stress, &spin))?;
+                return Some(LinearRange { part: share / LARGEST_SHARE, node: frame });
+            }
             let deformed = |i: usize| {
                 let (linear, angular) =
                     (three(&room.displacement, 6 * i).norm(), three(&room.displacement, 6 * i + 3).norm());
                 let by_length = if reach > 0.0 { linear / (LARGEST_DISPLACEMENT * reach) } else { 0.0 };
                 let part = by_length.max(angular / LARGEST_ROTATION);
-                LinearRange { part, node: self.nodes[i], is_spin: false }
+                LinearRange { part, node: self.nodes[i] }
             };
-            let spin = self.largest_spin.map(|most| LinearRange {
-                part: room.twist[1].norm() / most,
-                node: self.nodes[self.frame],
-                is_spin: true,
-            });
-            let all = (0..self.nodes.len()).map(deformed).chain(spin);
-            all.reduce(|most, own| if own.part > most.part { own } else { most })
+            (0..self.nodes.len())
+                .map(deformed)
+                .reduce(|most, own| if own.part > most.part { own } else { most })
         })
     }
 }
