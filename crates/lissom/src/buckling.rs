@@ -119,12 +119,17 @@ pub fn buckling(
     }
     match buckling.completeness {
         Completeness::Missing(missing) => return Err(BucklingRunError::Missing(missing)),
-        Completeness::Unknown if !buckling.modes.is_empty() => {
-            warnings.push("whether a lower load factor was missed is not known".to_owned());
-        }
-        _ => {}
+        Completeness::Counted => {}
+        Completeness::Unknown | Completeness::NotCounted => warnings.push(
+            if buckling.modes.is_empty() {
+                "no load factor was found, and whether there is one is not known"
+            } else {
+                "whether a lower load factor was missed is not known"
+            }
+            .to_owned(),
+        ),
     }
-    if buckling.modes.is_empty() {
+    if buckling.modes.is_empty() && buckling.completeness == Completeness::Counted {
         warnings.push(
             "no positive load factor makes the stiffness singular: these loads stiffen the model".to_owned(),
         );

@@ -1,6 +1,7 @@
 //! Linear buckling against closed forms.
 
 use std::f64::consts::PI;
+use std::fmt::Write;
 
 use lissom::Model;
 use lissom::buckling::{BucklingReport, BucklingRunError, buckling};
@@ -66,6 +67,41 @@ fn what_does_not_buckle_is_told() {
         report.warnings
     );
     assert!(matches!(find(&column("vector = [-300, 0, 0]"), 1), Err(BucklingRunError::AlreadyCritical(_))));
+    assert_eq!(report.buckling.completeness, Completeness::Counted);
     let follower = find(&column("vector = [0, 0.1, 0]\nfollower = true"), 1);
     assert!(matches!(follower, Err(BucklingRunError::Buckling(_))), "{follower:?}");
+}
+
+/// Clamped columns side by side, each as stiff about both axes of its section, under the same load.
+fn round_columns(count: usize) -> String {
+    let mut text = "lissom = 1\n[analysis]\nkind = \"buckling\"\n[sections.tube]\nshape = \"general\"\n\
+        stiffness = [1e7, 1e7, 1e7, 1e4, 200, 200]\nmass = [1, 1, 1, 1, 1, 1]\n"
+        .to_owned();
+    for k in 0..count {
+        // Writing to a string cannot fail.
+        let _ = write!(
+            text,
+            "[beams.b{k}]\nsection = \"tube\"\nfrom = [0, {k}, 0]\nto = [1, {k}, 0]\nelements = 4\n\
+            [joints.j{k}]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"b{k}.start\"\n\
+            [loads.l{k}]\nkind = \"force\"\non = \"b{k}.end\"\nvector = [-2, 0, 0]\n"
+        );
+    }
+    text
+}
+
+#[test]
+fn factors_that_come_several_times_are_counted_whole_wherever_the_count_cuts_them() {
+    for (columns, counts) in [(1, 1..=6), (4, 3..=3), (6, 5..=5)] {
+        for count in counts {
+            let report = find(&round_columns(columns), count).unwrap();
+            assert_eq!(report.buckling.completeness, Completeness::Counted, "{count} of {columns}");
+            assert!(report.warnings.is_empty(), "{:?}", report.warnings);
+            assert_eq!(report.buckling.modes.len(), count);
+            for (index, mode) in report.buckling.modes.iter().enumerate() {
+                let order = 2.0 * (index / (2 * columns)) as f64 + 1.0;
+                let exact = PI.powi(2) * order * order * 200.0 / 8.0;
+                assert!((mode.load_factor / exact - 1.0).abs() < 2e-3, "{} for {exact}", mode.load_factor);
+            }
+        }
+    }
 }

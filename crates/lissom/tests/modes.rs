@@ -1,6 +1,7 @@
 //! Natural modes against closed forms.
 
 use std::f64::consts::{PI, TAU};
+use std::fmt::Write;
 
 use lissom::Model;
 use lissom::modes::{About, ModeReport, ModeRequest, ModesError, modes};
@@ -482,6 +483,35 @@ fn a_rotor_that_turns_freely_has_a_rigid_mode_and_all_others() {
         assert_eq!(frequencies[0], 0.0);
         for (found, exact) in frequencies[1..].iter().zip(exact) {
             assert!((found / exact - 1.0).abs() < 1e-9, "{found} for {exact}");
+        }
+    }
+}
+
+#[test]
+fn frequencies_that_come_several_times_are_counted_whole_wherever_the_count_cuts_them() {
+    // Clamped beams side by side, each as stiff about both axes of its section: 2, 6 and 10 equal frequencies.
+    for (beams, counts) in [(1, 1..=5), (3, 3..=3), (5, 2..=3)] {
+        let mut text = "lissom = 1\n[analysis]\nkind = \"modes\"\n[sections.tube]\nshape = \"general\"\n\
+            stiffness = [1e6, 4e4, 4e4, 300, 100, 100]\nmass = { per_length = 1, inertia = [2e-3, 1e-3, 1e-3] }\n"
+            .to_owned();
+        for k in 0..beams {
+            // Writing to a string cannot fail.
+            let _ = write!(
+                text,
+                "[beams.b{k}]\nsection = \"tube\"\nfrom = [0, {k}, 0]\nto = [1, {k}, 0]\nelements = 3\n\
+                [joints.j{k}]\nkind = \"clamp\"\nbase = \"ground\"\ntip = \"b{k}.start\"\n"
+            );
+        }
+        for count in counts {
+            let report = find(&text, About::Static, count);
+            assert_eq!(report.completeness, Completeness::Counted, "{count} of {beams}");
+            assert!(report.warnings.is_empty(), "{:?}", report.warnings);
+            let found = frequencies(&report);
+            assert_eq!(found.len(), count);
+            let same = count.min(2 * beams);
+            near(found[same - 1], found[0], 1e-7);
+            near(found[0], 1.875_104_f64.powi(2) * 10.0 / TAU, 0.02);
+            assert!(found.get(same).is_none_or(|next| *next > 4.0 * found[0]), "{found:?}");
         }
     }
 }

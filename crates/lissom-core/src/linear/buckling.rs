@@ -9,7 +9,7 @@
 //! factor above the last one count those below.
 
 use super::krylov::{Krylov, Operator, product};
-use super::lanczos::{is_converged, ritz};
+use super::lanczos::{is_converged, ritz, whole_clusters};
 use super::mode::Completeness;
 use super::model::{LinearError, LinearModel};
 use super::shifted::RealShift;
@@ -19,10 +19,12 @@ use crate::interrupt;
 const BLOCK: usize = 6;
 /// Steps between two looks at the eigenvalues.
 const BETWEEN: usize = 8;
-/// Modes sought beyond those asked for.
-const BEYOND: usize = 2;
+/// Modes sought beyond those asked for, so that a factor of several modes at the last one is seen whole.
+const BEYOND: usize = 4;
 /// Eigenvalues of the operator below this part of the largest one are round-off.
 const NOTHING: f64 = 1e-9;
+/// Load factor below which no mode is believed to be where none is found, over the magnitude of the lowest negative one.
+const FAR_AWAY: f64 = 1e3;
 /// A search that has so many vectors, and eight times as many as modes are sought, is ended: there are no more modes.
 const MOST_VECTORS: usize = 300;
 /// Times the search is started again with new vectors.
@@ -134,23 +136,47 @@ impl LinearModel<'_> {
         };
         let mut krylov = Krylov::new(operator.size());
         let mut is_exhausted = krylov.start(&mut operator, BLOCK, 1) == 0;
-        for restart in 0.. {
-            let modes = search(&mut krylov, &mut operator, count + BEYOND, &mut is_exhausted)?;
-            let next = modes.get(count).map(|mode| mode.load_factor);
-            let mut modes = modes;
-            modes.truncate(count);
-            let completeness = self.counted(&change, &modes, next);
-            if completeness == Completeness::Counted || is_exhausted || restart == MOST_RESTARTS {
+        let mut wanted = count + BEYOND;
+        let mut restarts = 0;
+        loop {
+            let Search { mut modes, is_whole, largest } =
+                search(&mut krylov, &mut operator, wanted, &mut is_exhausted)?;
+            let rates: Vec<f64> = modes.iter().map(|mode| mode.load_factor.recip()).collect();
+            // All modes of a factor are counted together: between two of them the matrix is singular.
+            let keep = whole_clusters(&rates, count.min(rates.len()));
+            if keep == wanted {
+                // The factor may have more modes than were sought.
+                wanted += BLOCK;
+                continue;
+            }
+            let next = modes.get(keep).map(|mode| mode.load_factor);
+            modes.truncate(keep);
+            let counted = self.counted(&change, &modes, next, largest);
+            let is_short = modes.len() < count && !is_whole;
+            if counted == Completeness::Counted || is_exhausted || restarts == MOST_RESTARTS {
+                modes.truncate(count);
+                let is_unknown = is_short && counted == Completeness::Counted;
+                let completeness = if is_unknown { Completeness::Unknown } else { counted };
                 return Ok(Buckling { modes, completeness });
             }
+            restarts += 1;
             is_exhausted = krylov.start(&mut operator, BLOCK, 1) == 0;
         }
-        unreachable!("the search ends with its last restart")
     }
 
-    /// Compares the number of modes with the number of negative pivots above the last one.
-    fn counted(&self, change: &[f64], modes: &[BucklingMode], next: Option<f64>) -> Completeness {
-        let Some(last) = modes.last().map(|mode| mode.load_factor) else { return Completeness::Unknown };
+    /// Compares the number of modes with the number of negative pivots above the last one; where there is none, far above the
+    /// magnitude of the lowest negative load factor, the reciprocal of `largest`.
+    fn counted(
+        &self,
+        change: &[f64],
+        modes: &[BucklingMode],
+        next: Option<f64>,
+        largest: f64,
+    ) -> Completeness {
+        if modes.is_empty() && largest == 0.0 {
+            return Completeness::Counted;
+        }
+        let last = modes.last().map_or(FAR_AWAY / largest, |mode| mode.load_factor);
         let mut solver = RealShift::new(self.system, &self.representative);
         for part in [0.5, 0.4, 0.6, 0.3] {
             let at = next.map_or((1.0 + part) * last, |next| last + part * (next - last));
@@ -170,13 +196,22 @@ impl LinearModel<'_> {
     }
 }
 
+/// What a search found.
+struct Search {
+    modes: Vec<BucklingMode>,
+    /// Whether there are no other modes than those found and those beyond the ones sought.
+    is_whole: bool,
+    /// The largest magnitude of an eigenvalue of the operator, whatever its sign.
+    largest: f64,
+}
+
 /// Builds the basis until the `wanted` largest positive eigenvalues have converged, or there are no more.
 fn search(
     krylov: &mut Krylov<f64>,
     operator: &mut Inverse<'_, '_, '_>,
     wanted: usize,
     is_exhausted: &mut bool,
-) -> Result<Vec<BucklingMode>, LinearError> {
+) -> Result<Search, LinearError> {
     let mut since = 0;
     loop {
         interrupt::check()?;
@@ -196,10 +231,14 @@ fn search(
         *is_exhausted |= krylov.order() > MOST_VECTORS.max(8 * wanted);
         let are_enough = positive.len() >= wanted && positive[..wanted].iter().all(is_converged);
         if are_enough || *is_exhausted {
+            let before = positive.len();
+            // What has not converged when a search is ended is no mode yet.
+            positive.retain(is_converged);
+            let is_whole = positive.len() == before;
             positive.truncate(wanted);
             let of =
                 |(value, weights, _): &(f64, Vec<f64>, f64)| mode(operator, &krylov.combine(weights), *value);
-            return Ok(positive.iter().map(of).collect());
+            return Ok(Search { modes: positive.iter().map(of).collect(), is_whole, largest });
         }
     }
 }

@@ -256,7 +256,12 @@ fn search<'a>(
             continue;
         }
         let distances: Vec<f64> = pairs.iter().map(|pair| (pair.square - shift).abs().recip()).collect();
-        let keep = whole_clusters(&distances, options.count);
+        let keep = whole_clusters(&distances, options.count.min(distances.len()));
+        if keep == wanted {
+            // The cluster may have more modes than were sought.
+            wanted += BLOCK;
+            continue;
+        }
         let next = distances.get(keep).copied();
         pairs.truncate(keep);
         let are_all = next.is_none() && pairs.len() < options.count;
@@ -286,8 +291,8 @@ fn search<'a>(
 }
 
 /// The first so many of values in descending order, at least `count`, that end where a gap is.
-fn whole_clusters(values: &[f64], count: usize) -> usize {
-    (count..values.len())
+pub(super) fn whole_clusters(values: &[f64], count: usize) -> usize {
+    (count.max(1)..values.len())
         .find(|&keep| values[keep] < (1.0 - CLUSTER) * values[keep - 1])
         .unwrap_or(values.len())
 }
