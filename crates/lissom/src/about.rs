@@ -154,6 +154,11 @@ fn in_rotation<T, E: From<ModesError>>(
     if model.unsteadiness() > STEADY_ROTATION {
         return Err(ModesError::Unsteady(model.unsteadiness()).into());
     }
+    // Loads at rest in space can be in balance at one azimuth, as gravity across the axis of a rotor.
+    let later = model.turned().map_err(ModesError::from)?.unsteadiness();
+    if later.is_nan() || later > STEADY_ROTATION {
+        return Err(ModesError::SteadyHereAlone(later).into());
+    }
     then(Reached { model: &model, channels: &channels, warnings: Vec::new() })
 }
 

@@ -85,6 +85,11 @@ pub enum ModesError {
          gravity across the axis, loads at rest in space and other motions are not steady in rotating axes"
     )]
     Unsteady(f64),
+    /// The rotation is steady at the azimuth of the start alone.
+    #[error(
+        "the rotation is not steady: a part of a turn after the start the twists of nodes change by {0:.1e} of their squares, as          under gravity across the axis or other loads at rest in space; leave them out (`--unset gravity`), or let gravity act          along the axis"
+    )]
+    SteadyHereAlone(f64),
     /// Coefficients change as the model turns.
     #[error(
         "mode {number} ({frequency:.4e} Hz) belongs to coefficients that change as the model turns ({departure:.1e}): parts that \

@@ -481,3 +481,33 @@ stiffness = 1e5
     let found = modes(&Model::from_text("model.toml", &heavy), &[], &ask);
     assert!(found.is_err(), "{found:?}");
 }
+
+const TURBINE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/turbine-rotor.toml");
+
+#[test]
+fn a_rotor_that_turns_freely_needs_no_gravity_across_its_axis() {
+    let turbine = Model::read(std::path::Path::new(TURBINE)).unwrap();
+    let of_speed = request("parameters.speed", 0.1, 4.0, 4, 8, &[3]);
+    // At some azimuths the weights of the blades are in balance: not even there is the rotation steady.
+    let refused = campbell(&turbine, &[], &of_speed).unwrap_err();
+    let CampbellError::Modes { error, value: 0.1, .. } = &refused else { panic!("{refused}") };
+    assert!(matches!(**error, ModesError::SteadyHereAlone(_)), "{refused}");
+    assert!(refused.to_string().contains("--unset gravity"), "{refused}");
+
+    let weightless = [("gravity".to_owned(), "[0, 0, 0]".to_owned())];
+    let found = campbell(&turbine, &weightless, &of_speed).unwrap();
+    let lowest = |point: usize, mode: usize| found.points[point].modes[mode].mode.frequency;
+    for point in 0..4 {
+        // The free rotation, and three blades that bend about their soft axis, two of them alike.
+        assert_eq!(lowest(point, 0), 0.0);
+        assert!((lowest(point, 2) / lowest(point, 1) - 1.0).abs() < 1e-6);
+        assert!(lowest(point, 3) > lowest(point, 2));
+        // Centrifugal forces stiffen them (Southwell): ω² = ω₀² + k Ω², with the same k at every speed.
+        let rise = |point: usize| lowest(point, 1).powi(2) - lowest(0, 1).powi(2);
+        let expected = (found.points[point].spin.powi(2) - found.points[0].spin.powi(2))
+            / (found.points[3].spin.powi(2) - found.points[0].spin.powi(2))
+            * rise(3);
+        assert!((rise(point) - expected).abs() <= 1e-2 * rise(3), "{} for {expected}", rise(point));
+    }
+    assert!(lowest(3, 1) > lowest(0, 1));
+}
