@@ -128,7 +128,7 @@ impl Simulation {
                     if share < 1.0 && start.is_none() {
                         start = Some((self.state.clone(), self.ledger));
                     }
-                    self.note_resolution(share == 1.0 && located.is_none());
+                    self.note_resolution(located.as_ref().map_or(share, |located| located.size / whole));
                     self.accept_step();
                     self.note_impacts();
                     note(report, &outcome);

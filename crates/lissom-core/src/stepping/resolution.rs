@@ -65,8 +65,8 @@ pub(crate) struct Resolution {
     first: Vec<[f64; 2]>,
     /// Whether they are those of the last step.
     has_first: bool,
-    /// Steps since the last pair.
-    steps: u32,
+    /// Planned steps since the last pair; parts of them by their share.
+    steps: f64,
     /// Steps until the next pair.
     wait: u32,
     pairs: f64,
@@ -83,13 +83,15 @@ impl Resolution {
         }
     }
 
-    /// Counts a step. Whether its error is to be estimated; steps that are not of the planned size are not looked at.
-    fn is_due(&mut self, is_whole: bool) -> bool {
+    /// Counts a step, or a part of one, by its share of the planned size. Whether its error is to be estimated; parts are
+    /// not looked at.
+    fn is_due(&mut self, share: f64) -> bool {
         if self.missed.is_empty() {
             return false;
         }
-        self.steps += 1;
+        self.steps += share;
         self.wait = self.wait.saturating_sub(1);
+        let is_whole = share == 1.0;
         self.has_first &= is_whole;
         is_whole && self.wait == 0
     }
@@ -109,7 +111,7 @@ impl Resolution {
         let other = largest(&mut errors.clone().map(|errors| errors[0]));
         let weight = (SPIKE * one.min(other) / one.max(other)).min(1.0);
         let weight = if weight.is_nan() { 0.0 } else { weight };
-        let (steps, is_first) = (f64::from(self.steps), self.pairs == 0.0);
+        let (steps, is_first) = (self.steps, self.pairs == 0.0);
         for ((missed, first), second) in self.missed.iter_mut().zip(&self.first).zip(errors) {
             let error = 0.5 * weight * (first[0].abs() + second[0].abs());
             missed.sum += 0.5 * steps * (error + if is_first { error } else { missed.last });
@@ -118,7 +120,7 @@ impl Resolution {
             missed.differences += 2.0 * (first[1] - second[1]).abs();
         }
         self.pairs += 1.0;
-        (self.has_first, self.steps, self.wait) = (false, 0, STRIDE - 1);
+        (self.has_first, self.steps, self.wait) = (false, 0.0, STRIDE - 1);
         true
     }
 
@@ -130,9 +132,9 @@ impl Resolution {
 }
 
 impl Simulation {
-    /// Before a step of planned size, or a part of one, is accepted.
-    pub(super) fn note_resolution(&mut self, is_whole: bool) {
-        if !self.resolution.is_due(is_whole) {
+    /// Before a step of planned size, or a part of one that is this share of it, is accepted.
+    pub(super) fn note_resolution(&mut self, share: f64) {
+        if !self.resolution.is_due(share) {
             return;
         }
         self.estimate_error(Order::Third);
@@ -173,7 +175,7 @@ mod tests {
     fn estimated(angle: f64, amplitude: f64, steps: u32) -> f64 {
         let mut resolution = Resolution::new(1);
         for step in 0..steps {
-            if resolution.is_due(true) {
+            if resolution.is_due(1.0) {
                 let error = OSCILLATION * angle.powi(3) * amplitude * (angle * f64::from(step)).cos();
                 resolution.note(std::iter::once([error; 2]));
             }
@@ -196,7 +198,7 @@ mod tests {
     fn a_single_step_that_errs_does_not_count_for_those_around_it() {
         let mut resolution = Resolution::new(1);
         for step in 0..100 {
-            if resolution.is_due(true) {
+            if resolution.is_due(1.0) {
                 let error = if step == FIRST { 1.0 } else { 1e-6 };
                 resolution.note(std::iter::once([error; 2]));
             }
@@ -208,7 +210,7 @@ mod tests {
     fn a_motion_that_begins_late_does_not_count_for_the_steps_before() {
         let mut resolution = Resolution::new(1);
         for step in 0..=FIRST + STRIDE {
-            if resolution.is_due(true) {
+            if resolution.is_due(1.0) {
                 resolution.note(std::iter::once([if step < FIRST + 10 { 0.0 } else { 1.0 }; 2]));
             }
         }
@@ -219,7 +221,27 @@ mod tests {
     #[test]
     fn steps_of_other_sizes_are_no_pair() {
         let mut resolution = Resolution::new(1);
-        let due = (0..40).filter(|step| resolution.is_due(step % 2 == 0)).count();
+        let due = (0..40).filter(|step| resolution.is_due(if step % 2 == 0 { 1.0 } else { 0.5 })).count();
         assert!(due > 0 && !resolution.has_first);
+    }
+
+    /// A motion of constant error per step, which a failure in the middle has taken in sixteenths for a while.
+    #[test]
+    fn steps_that_are_taken_in_parts_count_as_often_as_whole_ones() {
+        let estimated = |parts: u32| {
+            let mut resolution = Resolution::new(1);
+            for step in 0..10 * STRIDE {
+                let in_parts = (100..200).contains(&step);
+                for _ in 0..if in_parts { parts } else { 1 } {
+                    let share = if in_parts { f64::from(parts).recip() } else { 1.0 };
+                    if resolution.is_due(share) {
+                        resolution.note(std::iter::once([1.0; 2]));
+                    }
+                }
+            }
+            resolution.worst().1
+        };
+        let [whole, parts] = [estimated(1), estimated(16)];
+        assert!((parts / whole - 1.0).abs() < 0.12, "{parts} {whole}");
     }
 }

@@ -19,7 +19,7 @@ use crate::scaling::Scaled;
 use crate::system::{CoordinateMotion, Kinematics, NodeMotion, State};
 
 /// Changes whenever what a snapshot holds does.
-const VERSION: u32 = 10;
+const VERSION: u32 = 11;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
