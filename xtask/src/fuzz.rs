@@ -11,8 +11,12 @@ use lissom_model::Document;
 use lissom_model::lower::registry::registry;
 use lissom_model::registry::Registry;
 
+#[path = "../../crates/lissom-model/tests/support/damage.rs"]
+mod damage;
+
 use crate::random::draw::Draw;
 use crate::verify::root;
+use damage::{Damage, STRANGERS, tokens};
 
 /// What is tried.
 #[derive(clap::Args)]
@@ -35,65 +39,6 @@ pub(crate) struct FuzzArguments {
     /// Folder for the texts that are answered badly
     #[arg(long, default_value = "out/fuzz")]
     keep: PathBuf,
-}
-
-/// What stands in for a token.
-const STRANGERS: [&str; 40] = [
-    "nan",
-    "-inf",
-    "1e400",
-    "-0",
-    "0",
-    "-1",
-    "1e-320",
-    "1e308",
-    "9223372036854775808",
-    "\"\"",
-    "\"t\"",
-    "\"s^\"",
-    "\"1/t\"",
-    "\"sqrt(-t)\"",
-    "\"step(t - 0.5)\"",
-    "\"((((\"",
-    "true",
-    "[]",
-    "{}",
-    "[[]]",
-    "[0, 0]",
-    "[0, 0, 1e300]",
-    "\"ground\"",
-    "\"beam@0.5\"",
-    "\"beam@nan\"",
-    "ground",
-    "start",
-    "parameters",
-    "\n",
-    "=",
-    "\"",
-    "'''",
-    "]",
-    "[",
-    "#",
-    ".",
-    "0x10",
-    "1979-05-27",
-    "\u{0}",
-    "é",
-];
-
-/// Words, numbers, signs, blanks and line ends.
-fn tokens(text: &str) -> Vec<String> {
-    let is_word = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '-' | '+');
-    let mut tokens: Vec<String> = Vec::new();
-    let mut was_word = false;
-    for c in text.chars() {
-        match tokens.last_mut() {
-            Some(token) if was_word && is_word(c) => token.push(c),
-            _ => tokens.push(c.to_string()),
-        }
-        was_word = is_word(c);
-    }
-    tokens
 }
 
 /// Tokens of the model files that are damaged: examples, and what the reader is tested with.
@@ -121,18 +66,15 @@ fn damaged(models: &[Vec<String>], seed: u64, index: u64) -> String {
     for _ in 0..=draw.below(4) {
         let place = draw.below(tokens.len());
         match draw.below(6) {
-            0 => drop(tokens.remove(place)),
-            1 => tokens.insert(place, tokens[place].clone()),
-            2 => {
-                let other = draw.below(tokens.len());
-                tokens.swap(place, other);
-            }
+            0 => Damage::Remove.apply(&mut tokens, place),
+            1 => Damage::Double.apply(&mut tokens, place),
+            2 => Damage::Swap(draw.below(tokens.len())).apply(&mut tokens, place),
             // A token of another model: names and kinds that exist, in the wrong place.
             3 => {
                 let other = &models[draw.below(models.len())];
-                tokens[place].clone_from(&other[draw.below(other.len())]);
+                Damage::Replace(&other[draw.below(other.len())]).apply(&mut tokens, place);
             }
-            _ => draw.of(&STRANGERS).clone_into(&mut tokens[place]),
+            _ => Damage::Replace(draw.of(&STRANGERS)).apply(&mut tokens, place),
         }
         if tokens.is_empty() {
             break;

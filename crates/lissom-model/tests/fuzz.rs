@@ -6,7 +6,11 @@ use std::path::Path;
 use lissom_model::Document;
 use proptest::prelude::*;
 
+#[path = "support/damage.rs"]
+mod damage;
 mod support;
+
+use damage::{Damage, STRANGERS, tokens};
 
 fn good_files() -> Vec<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/good");
@@ -14,67 +18,6 @@ fn good_files() -> Vec<String> {
     paths.sort();
     paths.into_iter().map(|path| fs::read_to_string(path).unwrap()).collect()
 }
-
-/// Words, numbers, quoted texts, signs, blanks and line ends.
-fn tokens(text: &str) -> Vec<String> {
-    #[derive(PartialEq)]
-    enum Kind {
-        Word,
-        Blank,
-        Sign,
-    }
-    let kind = |c: char| match c {
-        _ if c.is_alphanumeric() || matches!(c, '_' | '.' | '-' | '+') => Kind::Word,
-        ' ' => Kind::Blank,
-        _ => Kind::Sign,
-    };
-    let mut tokens: Vec<String> = Vec::new();
-    let mut last = Kind::Sign;
-    for c in text.chars() {
-        let now = kind(c);
-        match tokens.last_mut() {
-            Some(token) if now == last && now != Kind::Sign => token.push(c),
-            _ => tokens.push(c.to_string()),
-        }
-        last = now;
-    }
-    tokens
-}
-
-const STRANGERS: [&str; 32] = [
-    "nan",
-    "-inf",
-    "1e400",
-    "-0",
-    "0",
-    "-1",
-    "1e-320",
-    "1e308",
-    "9223372036854775808",
-    "\"\"",
-    "\"t\"",
-    "\"s^\"",
-    "true",
-    "[]",
-    "{}",
-    "[[]]",
-    "\"ground\"",
-    "\"beam@0.5\"",
-    "\"beam@nan\"",
-    "ground",
-    "start",
-    "\n",
-    "=",
-    "\"",
-    "'''",
-    "]",
-    "#",
-    ".",
-    "0x10",
-    "1979-05-27",
-    "\u{0}",
-    "é",
-];
 
 /// Reads the text, shows the report, and looks at every span.
 fn answer(text: &str, overrides: &[(String, String)]) {
@@ -117,15 +60,13 @@ proptest! {
                 break;
             }
             let index = place.index(tokens.len());
-            match damage {
-                0 => drop(tokens.remove(index)),
-                1 => tokens.insert(index, tokens[index].clone()),
-                2 => {
-                    let other = (index * 7 + stranger * 13) % tokens.len();
-                    tokens.swap(index, other);
-                }
-                _ => tokens[index] = STRANGERS[stranger].to_owned(),
-            }
+            let damage = match damage {
+                0 => Damage::Remove,
+                1 => Damage::Double,
+                2 => Damage::Swap((index * 7 + stranger * 13) % tokens.len()),
+                _ => Damage::Replace(STRANGERS[stranger]),
+            };
+            damage.apply(&mut tokens, index);
         }
         answer(&tokens.concat(), &[]);
     }
@@ -140,7 +81,7 @@ proptest! {
         let files = good_files();
         let mut tokens = tokens(&files[file % files.len()]);
         let numbers: Vec<usize> = (0..tokens.len()).filter(|index| tokens[*index].parse::<f64>().is_ok()).collect();
-        tokens[numbers[place.index(numbers.len())]] = STRANGERS[stranger].to_owned();
+        Damage::Replace(STRANGERS[stranger]).apply(&mut tokens, numbers[place.index(numbers.len())]);
         answer(&tokens.concat(), &[]);
     }
 
