@@ -1,5 +1,7 @@
 //! Stops, friction in joints, bushings, rotors and solids, against closed forms.
 
+#[path = "support/refused.rs"]
+mod refused;
 #[path = "support/sessions.rs"]
 mod sessions;
 
@@ -11,7 +13,7 @@ const SCHEMES: [&str; 4] = ["radau-iia", "energy-decaying", "generalized-alpha",
 
 /// Why a model is refused, on one line.
 fn refused(text: &str) -> String {
-    sessions::refused(text).split_whitespace().collect::<Vec<_>>().join(" ")
+    refused::refused(text).split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 /// A column of a whole run, with its times.

@@ -1,42 +1,22 @@
 //! Events, and forces with kinks: instants against closed forms, what happens there, and what is refused.
 
+#[path = "support/rail.rs"]
+mod rail;
+#[path = "support/refused.rs"]
+mod refused;
 #[path = "support/sessions.rs"]
 mod sessions;
 
 use lissom::Session;
-use sessions::{finished, refused, session};
+use rail::force;
+use refused::refused;
+use sessions::{finished, session};
 
 const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
 
 /// A mass of 1 kg on a rail along x, thrown with 0.5 m/s; `tables` and keys of the analysis are added.
 fn rail(tables: &str, analysis: &str) -> String {
-    format!(
-        r#"
-lissom = 1
-[bodies.ball]
-mass = 1
-inertia = [1, 1, 1]
-velocity = [0.5, 0, 0]
-[joints.rail]
-kind = "prismatic"
-base = "ground"
-tip = "ball"
-axis = [1, 0, 0]
-[outputs.rail]
-kind = "relative"
-of = "rail"
-{tables}
-[analysis]
-kind = "dynamics"
-end = 1
-{analysis}
-"#
-    )
-}
-
-/// A constant force, by an event's input or without one.
-fn force(size: &str) -> String {
-    format!("[loads.push]\nkind = \"joint_force\"\njoint = \"rail\"\nforce = \"{size}\"\n")
+    rail::rail(0.5, tables, analysis)
 }
 
 fn failure(text: &str) -> String {

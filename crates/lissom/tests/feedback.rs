@@ -1,10 +1,13 @@
 //! Feedback: sizes of loads that depend on the motion, first-order states, samples, inputs. Solutions are compared
 //! with closed forms and with recursions.
 
+#[path = "support/refused.rs"]
+mod refused;
 #[path = "support/sessions.rs"]
 mod sessions;
 
-use sessions::{finished, refused, session};
+use refused::refused;
+use sessions::{finished, session};
 
 /// Moment of inertia of the arm about its hinge: 0.1 + 2 · 0.5² [kg m²].
 const INERTIA: f64 = 0.6;

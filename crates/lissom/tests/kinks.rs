@@ -1,43 +1,18 @@
 //! Kinks and jumps of loads over time, on steps and between them, with every scheme: against closed forms.
 
-use lissom::{Model, Session};
+#[path = "support/rail.rs"]
+mod rail;
+#[path = "support/sessions.rs"]
+mod sessions;
+
+use lissom::Session;
+use sessions::{finished, session};
 
 const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
 
 /// A mass of 1 kg on a rail under a force [N].
 fn rail(force: &str, analysis: &str) -> String {
-    format!(
-        r#"
-lissom = 1
-[bodies.ball]
-mass = 1
-inertia = [1, 1, 1]
-[joints.rail]
-kind = "prismatic"
-base = "ground"
-tip = "ball"
-axis = [1, 0, 0]
-[loads.push]
-kind = "joint_force"
-joint = "rail"
-force = "{force}"
-[outputs.rail]
-kind = "relative"
-of = "rail"
-[analysis]
-kind = "dynamics"
-end = 1
-{analysis}
-"#
-    )
-}
-
-/// A session at its end.
-fn finished(text: &str) -> Session {
-    let mut session = Model::from_text("model.toml", text).session(&[]).expect("a good model");
-    let (_, report) = session.record();
-    assert!(report.is_complete(), "{text}\n{report:?}");
-    session
+    rail::rail(0.0, &rail::force(force), analysis)
 }
 
 /// Errors of place and velocity at 1 s.
@@ -122,7 +97,7 @@ fn drives_that_jump_are_told() {
     let driven = |displacement: &str, analysis: &str| {
         let drive = "[joints.drive]\nkind = \"prescribed_displacement\"\njoint = \"rail\"";
         let text = format!("{}\n{drive}\ndisplacement = \"{displacement}\"\n", rail("0", analysis));
-        let mut session = Model::from_text("model.toml", &text).session(&[]).expect("a good model");
+        let mut session = session(&text);
         let (_, report) = session.record();
         let warns = session.warnings().any(|warning| warning.code() == "drive-jumps");
         (report.is_complete(), warns)

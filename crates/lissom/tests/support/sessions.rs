@@ -1,6 +1,6 @@
-//! Sessions of models that are good, or are not.
+//! Sessions of models that are good.
 
-use lissom::{Model, Session, SessionError};
+use lissom::{Model, Session};
 
 /// A session at its start.
 pub(crate) fn session(text: &str) -> Session {
@@ -16,13 +16,4 @@ pub(crate) fn finished(text: &str) -> Session {
     let (_, report) = session.record();
     assert!(report.is_complete(), "{text}\n{report:?}");
     session
-}
-
-/// Why a model is refused.
-pub(crate) fn refused(text: &str) -> String {
-    match Model::from_text("model.toml", text).session(&[]) {
-        Ok(_) => panic!("{text} is no good model"),
-        Err(SessionError::Model(report)) => report.render(false),
-        Err(error) => error.to_string(),
-    }
 }
