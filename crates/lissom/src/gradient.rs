@@ -105,6 +105,17 @@ pub enum GradientError {
     /// A neighbouring model has other unknowns.
     #[error("another value at `{0}` changes the unknowns of the model: there is no derivative by it")]
     Unlike(String),
+    /// A function of time has its kinks at other times in a neighbouring model.
+    #[error(
+        "another value at `{path}` moves a kink or jump of a load or drive, at t = {time:.6e} s: steps end where it stands, and see \
+         nothing of how it moves; smooth it out over several steps, or compare runs"
+    )]
+    KinkMoves {
+        /// Path of the number.
+        path: String,
+        /// The kink [s].
+        time: f64,
+    },
     /// Loads depend on the motion, or signals are sampled.
     #[error(
         "nothing is differentiated along the motion of a model with feedback, states or samples: remove loads and states whose \
@@ -141,6 +152,7 @@ impl GradientError {
                 | Self::Time { .. }
                 | Self::NotInTime(_)
                 | Self::Unlike(_)
+                | Self::KinkMoves { .. }
                 | Self::Feedback
         )
     }

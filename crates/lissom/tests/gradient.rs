@@ -2,6 +2,8 @@
 
 #[path = "support/cantilever.rs"]
 mod cantilever;
+#[path = "support/rail.rs"]
+mod rail;
 
 use cantilever::CANTILEVER;
 use lissom::gradient::{Confirmation, GradientError, Target, gradient};
@@ -264,6 +266,68 @@ fn a_four_bar_is_differentiated_over_time() {
         // The moment hardly depends on these: a millionth of it is round-off of the runs.
         let little = [("parameters.EI", 70.656, 1e-2), ("parameters.reach", 0.24, 1e-3)];
         agrees_closely(&model, "drive.moment", drive, &little, &set, 1e-5);
+    }
+}
+
+/// A mass on a rail under a force of time: place and velocity in closed form, and their derivatives by mass, size and instant.
+fn pushed(force: &str, analysis: &str) -> Model {
+    let tables = rail::force(force);
+    let text = rail::rail(0.0, &tables, analysis)
+        .replace("mass = 1\n", "mass = 2\n")
+        .replace("lissom = 1\n", "lissom = 1\n[parameters]\nsize = 3\nfrom = 0.5035\non_a_step = 0.5\n");
+    Model::from_text("model.toml", &text)
+}
+
+/// Planned steps are divided there, along which nothing is differentiated; chosen ones end there.
+#[test]
+fn kinks_and_jumps_over_time_are_differentiated_across_or_refused() {
+    let target: Target = "rail.displacement".parse().unwrap();
+    let mut across = 0;
+    for scheme in CARRIED {
+        for (size, force) in [
+            ((1.0_f64 - 0.5035).powi(3) / 6.0, "size*max(t - 0.5035, 0)"),
+            ((1.0_f64 - 0.5035).powi(2) / 2.0, "size*step(t - 0.5035)"),
+        ] {
+            for analysis in ["step = 1e-2", "step = 3e-3", "relative_tolerance = 1e-6"] {
+                let model = pushed(force, &format!("{analysis}\nscheme = \"{scheme}\""));
+                let paths = ["bodies.ball.mass", "parameters.size"].map(str::to_owned);
+                match gradient(&model, &[], &target, &paths, true) {
+                    Ok(found) => {
+                        let wanted = [-size * 3.0 / 4.0, size / 2.0];
+                        for (derivative, wanted) in found.derivatives.iter().zip(wanted) {
+                            let missed = (derivative.value / wanted - 1.0).abs();
+                            assert!(missed < 1e-6, "{scheme}, {force}, {analysis}: {derivative:?}, {wanted}");
+                        }
+                        across += 1;
+                    }
+                    Err(error) => {
+                        assert!(matches!(error, GradientError::InParts(_)), "{scheme}, {force}: {error}");
+                        assert!(error.to_string().contains("kink or jump"), "{error}");
+                    }
+                }
+            }
+        }
+    }
+    assert!(across >= 4, "{across}");
+}
+
+/// Steps do not see that it moves: derivatives were wrong by 2 %, or a hundredfold.
+#[test]
+fn numbers_that_move_kinks_are_refused() {
+    let target: Target = "rail.displacement".parse().unwrap();
+    for scheme in CARRIED {
+        for force in ["size*max(t - PATH, 0)", "size*step(t - PATH)"] {
+            for analysis in ["step = 1e-2", "relative_tolerance = 1e-6"] {
+                for path in ["from", "on_a_step"] {
+                    let model =
+                        pushed(&force.replace("PATH", path), &format!("{analysis}\nscheme = \"{scheme}\""));
+                    let paths = [format!("parameters.{path}")];
+                    let error = gradient(&model, &[], &target, &paths, true).map(|_| ()).unwrap_err();
+                    assert!(matches!(error, GradientError::KinkMoves { .. }), "{force}, {analysis}: {error}");
+                    assert!(error.is_of_question() && error.to_string().contains("smooth it out"), "{error}");
+                }
+            }
+        }
     }
 }
 

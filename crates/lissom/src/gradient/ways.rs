@@ -29,6 +29,9 @@ const TRIED: i32 = 5;
 /// A step that is shorter than the others by more than this part is of another size.
 const WHOLE: f64 = 1e-9;
 
+/// Kinks that are nearer than this part of the run are at the same time.
+const SAME_TIME: f64 = 1e-12;
+
 /// What is asked, of which model.
 pub(super) struct Question<'a> {
     pub(super) model: &'a Model,
@@ -112,12 +115,27 @@ impl Question<'_> {
             if unknowns(&neighbour) == unknowns(self.session)
                 && neighbour.simulation().system().pattern() == self.session.simulation().system().pattern()
             {
-                Ok((neighbour, weight / apart))
+                match self.moved_kink(&neighbour) {
+                    Some(time) => Err(GradientError::KinkMoves { path: path.to_owned(), time }),
+                    None => Ok((neighbour, weight / apart)),
+                }
             } else {
                 Err(GradientError::Unlike(path.to_owned()))
             }
         };
         sides.iter().map(neighbour).collect()
+    }
+
+    /// A time of the run at which functions of time have a kink that a neighbouring model has elsewhere [s].
+    fn moved_kink(&self, neighbour: &Session) -> Option<f64> {
+        let plan = self.session.plan();
+        let near = SAME_TIME * (plan.end.abs().max(plan.start.abs()) + (plan.end - plan.start));
+        let is_within = |time: &f64| (plan.start + near..plan.end - near).contains(time);
+        let [own, other] =
+            [self.session, neighbour].map(|session| session.simulation().system().kinks().into_iter());
+        let other: Vec<f64> = other.collect();
+        let is_elsewhere = |time: &f64| other.iter().all(|there| (there - time).abs() > near);
+        own.filter(is_within).find(is_elsewhere)
     }
 
     /// Whether all steps are of one size, as what schemes of one stage remember asks for.
