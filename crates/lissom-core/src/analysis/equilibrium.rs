@@ -34,7 +34,7 @@ pub(crate) fn hold_start(system: &System, state: &mut State, solver: &SolverKind
 /// Moves a motion's start into equilibrium, where that is asked for.
 ///
 /// # Errors
-/// As [`at_rest`].
+/// As [`at_rest`], and if what was found is free to rest elsewhere.
 pub(crate) fn start_at_rest(
     system: Arc<System>,
     state: State,
@@ -45,8 +45,24 @@ pub(crate) fn start_at_rest(
         return Ok((system, state));
     }
     let (system, state, doubts) = at_rest(system, state, settings)?;
+    // Round-off has decided where it rests, and whether it seems to be unstable.
+    if let Some(free) = free_motion(&system, &state, settings.solver) {
+        return Err(InitialError::Free { free });
+    }
     warnings.extend(doubts);
     Ok((system, state))
+}
+
+/// What nothing holds at the places of `state`, in words.
+fn free_motion(system: &System, state: &State, solver: &SolverKind) -> Option<String> {
+    let mut still = state.clone();
+    for node in &mut still.kinematics.nodes {
+        node.twist.fill(0.0);
+    }
+    for coordinate in &mut still.kinematics.coordinates {
+        coordinate.rate = 0.0;
+    }
+    LinearModel::of(system, &still, solver).ok()?.free_motion()
 }
 
 /// Moves the places of `state` into equilibrium, in one load step or, where that has no solution, by relaxation. Tells if it is
@@ -85,7 +101,10 @@ pub fn at_rest(
         Ok(_) => (reached, doubts),
         Err(error) => {
             let relaxed = may_help(&error).then(|| relax(&system, &state, &settings, time)).flatten();
-            relaxed.ok_or_else(|| InitialError::NoEquilibrium(Box::new(error)))?
+            relaxed.ok_or_else(|| match free_motion(&system, &state, settings.solver) {
+                Some(free) => InitialError::Free { free },
+                None => InitialError::NoEquilibrium(Box::new(error)),
+            })?
         }
     };
     let mut state = state;

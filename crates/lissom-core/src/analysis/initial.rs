@@ -45,6 +45,15 @@ pub enum InitialError {
     /// The places of rest were not found.
     #[error("initial equilibrium: {0}")]
     NoEquilibrium(Box<super::StepError>),
+    /// Something is free to rest anywhere.
+    #[error(
+        "initial equilibrium: nothing holds or carries the {free}: neither weight nor a spring decides where it rests, so any place \
+         is as good as another; hold it by a joint, a drive or a spring, or start from the places given, without an equilibrium"
+    )]
+    Free {
+        /// Coordinates of joints, or freedoms of nodes, that are free.
+        free: String,
+    },
     /// Velocities that the constraints exclude altogether.
     #[error(
         "the initial velocity of `{part}`, {given}, is excluded by the joints and drives: nothing of it remains; leave it \

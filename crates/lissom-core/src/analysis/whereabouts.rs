@@ -62,7 +62,7 @@ impl InitialError {
                 return Whereabouts { time: Some(error.time), part: Some(error.part()) };
             }
             Self::ZeroPivot { unknown, .. } | Self::NotFinite { unknown } => named(unknown),
-            Self::StateInStatics(words) => named(words),
+            Self::StateInStatics(words) | Self::Free { free: words } => named(words),
             Self::VelocityImpossible { part, .. } => Some(part.as_str()),
             Self::RatesContradict { violated } => named(violated),
         };

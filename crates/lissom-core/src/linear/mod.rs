@@ -12,6 +12,7 @@
 mod arnoldi;
 mod buckling;
 mod energy_shares;
+mod free;
 mod krylov;
 mod lanczos;
 mod mode;

@@ -1,0 +1,193 @@
+//! What nothing holds: motions that the constraints leave, against which there is no stiffness and along which no force
+//! acts. An equilibrium does not say where such parts rest.
+//!
+//! ```text
+//! x ← (K + s² M + constraints)⁻¹ M x,      s² a small part of k/m:      what remains of any x is the space in which K x = 0
+//! ```
+
+use std::collections::BTreeSet;
+
+use super::krylov::Noise;
+use super::model::{LinearModel, nothing, point};
+use super::shifted::{GeneralShift, small_square};
+use crate::joints::Quantity;
+use crate::system::LOCKED;
+
+/// s² over the small square of the model at first …
+const SHIFT: f64 = 1e-4;
+/// … and how much larger it is next time, where constraints under load could not be held with it.
+const LARGER: f64 = 100.0;
+const ATTEMPTS: usize = 4;
+/// Solutions: a motion whose square of a rate is ten times s² is left out to 1e-12.
+const SOLUTIONS: usize = 12;
+/// Corrections of each, which are to leave at most this violation of constraints [-].
+const REFINEMENTS: usize = 4;
+const VIOLATED: f64 = 1e-13;
+/// A stiffness below this part of the terms that it is made of is round-off …
+const NO_STIFFNESS: f64 = 1e-11;
+/// … and so is one whose square of a rate is this part of the small square.
+const NO_RATE: f64 = 1e-10;
+/// Work below this part of the terms that it is made of is round-off.
+const NO_WORK: f64 = 1e-9;
+/// Levers below this part of the model's length are what an equilibrium is found to: neither the work of forces along it nor
+/// the stiffness that forces make of it means anything.
+const NO_LEVER: f64 = 1e-9;
+/// Coordinates that move by less than this part of the largest motion do not take part.
+const TAKES_PART: f64 = 1e-6;
+/// Parts that are named.
+const MOST_NAMED: usize = 4;
+
+/// What forces do along a motion.
+struct ForcesAlong {
+    /// Their work [J].
+    work: f64,
+    /// Sum of the sizes of what each of them does [J].
+    of_terms: f64,
+    /// What they would do if all went along the largest way [J].
+    possible: f64,
+    /// The largest way [m].
+    way: f64,
+}
+
+impl LinearModel<'_> {
+    /// Names of what moves where nothing holds: coordinates of joints, and nodes of parts whose joints have none that
+    /// moves. None if everything is held, or if the state is not at rest.
+    pub(crate) fn free_motion(&self) -> Option<String> {
+        if !self.is_at_rest() || self.system.layout().state_count() > 0 {
+            return None;
+        }
+        let motion = self.softest_motion()?;
+        let forces = self.forces_along(&motion);
+        let (stiffness, of_terms) = self.form(&self.parts.stiffness, &motion);
+        let (mass, _) = self.form(&self.parts.mass, &motion);
+        let is_unresisted = stiffness.abs() <= NO_STIFFNESS * of_terms
+            || stiffness.abs() <= NO_LEVER * forces.possible * forces.way / self.length()
+            || stiffness.abs() <= NO_RATE * small_square(&self.representative) * mass;
+        let is_unforced =
+            forces.work.abs() <= NO_WORK * forces.of_terms || forces.work.abs() <= NO_LEVER * forces.possible;
+        (is_unresisted && is_unforced).then(|| self.names_of(&motion))
+    }
+
+    /// The motion with the smallest square of a rate, on the rows of the coordinates; none if it cannot be found.
+    fn softest_motion(&self) -> Option<Vec<f64>> {
+        let mut square = SHIFT * small_square(&self.representative);
+        (0..ATTEMPTS).find_map(|_| {
+            let found = self.softest_motion_at(square);
+            square *= LARGER;
+            found
+        })
+    }
+
+    /// The same with s² = `square`; none if it is too small for constraints to be held.
+    fn softest_motion_at(&self, square: f64) -> Option<Vec<f64>> {
+        let (pattern, count) = (self.pattern(), self.coordinate_count());
+        let mut parts = self.parts.clone();
+        parts.damping.fill(0.0);
+        let mut solver = GeneralShift::<f64>::new(self.system, &self.representative);
+        solver.factor(&parts, square.sqrt()).ok()?;
+        let whole: Vec<f64> = (0..pattern.entries())
+            .map(|k| parts.stiffness[k] + square * parts.mass[k] + parts.constraint[k])
+            .collect();
+        let mut noise = Noise(1);
+        let mut motion: Vec<f64> = (0..pattern.size()).map(|_| noise.number()).collect();
+        let (mut forces, mut product) = (vec![0.0; pattern.size()], vec![0.0; pattern.size()]);
+        for _ in 0..SOLUTIONS {
+            motion[count..].fill(0.0);
+            pattern.multiply(&parts.mass, &motion, &mut forces);
+            forces[count..].fill(0.0);
+            motion.fill(0.0);
+            // Refined: constraints that yield in the factors are held all the same.
+            for _ in 0..REFINEMENTS {
+                pattern.multiply(&whole, &motion, &mut product);
+                let mut rest: Vec<f64> =
+                    forces.iter().zip(&product).map(|(force, own)| force - own).collect();
+                solver.solve(&mut rest);
+                rest[count..].iter_mut().for_each(|value| *value *= solver.multiplier_factor());
+                motion.iter_mut().zip(&rest).for_each(|(value, change)| *value += change);
+            }
+            let size = motion[..count].iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            if !(size.is_finite() && size > 0.0) {
+                return None;
+            }
+            motion.iter_mut().for_each(|value| *value /= size);
+        }
+        motion[count..].fill(0.0);
+        (self.violation(&motion) <= VIOLATED).then_some(motion)
+    }
+
+    /// What the forces at the state do along a motion that the constraints leave.
+    fn forces_along(&self, motion: &[f64]) -> ForcesAlong {
+        let count = self.coordinate_count();
+        let mut forces = vec![0.0; motion.len()];
+        let (still, unchanged) = nothing(&self.at);
+        // Multipliers do no work along it.
+        let zeros = vec![0.0; self.multipliers().len()];
+        self.system.residual(&point(&self.at, (&still, &unchanged), &zeros, &zeros), &mut forces);
+        let way = (0..count).map(|row| self.way(motion, row)).fold(0.0, f64::max);
+        let mut along = ForcesAlong { work: 0.0, of_terms: 0.0, possible: 0.0, way };
+        for (row, &force) in forces.iter().enumerate().take(count) {
+            let term = force * motion[row];
+            along.work += term;
+            along.of_terms += term.abs();
+            along.possible += force.abs() * way / self.unit(row);
+        }
+        along
+    }
+
+    /// What makes the coordinate of a row a length.
+    fn unit(&self, row: usize) -> f64 {
+        match self.system.layout().quantities()[row] {
+            Quantity::Angle => self.length(),
+            Quantity::Length | Quantity::State => 1.0,
+        }
+    }
+
+    /// How far the coordinate of a row moves, as a length.
+    fn way(&self, motion: &[f64], row: usize) -> f64 {
+        motion[row].abs() * self.unit(row)
+    }
+
+    /// xᵀ A x of a matrix with these values, and the sum of the sizes of its terms.
+    fn form(&self, values: &[f64], motion: &[f64]) -> (f64, f64) {
+        let pattern = self.pattern();
+        let (mut sum, mut sizes) = (0.0, 0.0);
+        for (column, factor) in motion.iter().enumerate().filter(|(_, factor)| **factor != 0.0) {
+            let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+            for (&row, &value) in pattern.row_indices()[range.clone()].iter().zip(&values[range]) {
+                let term = motion[row] * value * factor;
+                sum += term;
+                sizes += term.abs();
+            }
+        }
+        (sum, sizes)
+    }
+
+    /// Coordinates of joints that move; where none does, the freedom of each part that moves most.
+    fn names_of(&self, motion: &[f64]) -> String {
+        let layout = self.system.layout();
+        let size = |row: usize| self.way(motion, row);
+        let count = self.coordinate_count();
+        let largest = (0..count).map(size).fold(0.0, f64::max);
+        let moves = |row: &usize| size(*row) > TAKES_PART * largest;
+        let of_joints = (0..self.at.coordinates.len()).map(|coordinate| layout.row_of_coordinate(coordinate));
+        let mut rows: Vec<usize> = of_joints.filter(moves).collect();
+        if rows.is_empty() {
+            let mut named = BTreeSet::new();
+            for node in 0..self.at.nodes.len() {
+                let own =
+                    layout.rows_of_node(node).iter().filter(|&&row| row != LOCKED).map(|&row| row as usize);
+                let most = own.filter(moves).max_by(|a, b| size(*a).total_cmp(&size(*b)));
+                let part = layout.node_name(node).split(['.', '@']).next().unwrap_or_default();
+                if let Some(row) = most
+                    && named.insert(part)
+                {
+                    rows.push(row);
+                }
+            }
+        }
+        let more = rows.len().saturating_sub(MOST_NAMED);
+        let named: Vec<String> = rows.iter().take(MOST_NAMED).map(|&row| layout.name_of(row)).collect();
+        let named = named.join(", ");
+        if more > 0 { format!("{named} and {more} more") } else { named }
+    }
+}
