@@ -13,6 +13,7 @@ mod digits;
 mod formula;
 mod fuzz;
 mod invariants;
+mod mutants;
 mod outcome;
 mod peers;
 mod random;
@@ -75,6 +76,8 @@ enum Chore {
     Random(random::RandomArguments),
     /// Read model files that are damaged by chance: each is read or refused with a line
     Fuzz(fuzz::FuzzArguments),
+    /// Break the code on purpose, one place at a time, and tell what no test notices
+    Mutants(mutants::MutantsArguments),
     /// Make the tables and figures of the book in docs/ anew
     Figures(FiguresArguments),
 }
@@ -198,6 +201,7 @@ fn main() -> ExitCode {
         Chore::Reference { check } => reference::reference(check).map_err(|error| error.to_string()),
         Chore::Random(arguments) => random::random(&arguments).map_err(|error| error.to_string()),
         Chore::Fuzz(arguments) => fuzz::fuzz(&arguments).map_err(|error| error.to_string()),
+        Chore::Mutants(arguments) => mutants::mutants(&arguments).map_err(|error| error.to_string()),
         Chore::Figures(arguments) => book::figures(&arguments).map_err(|error| error.to_string()),
     };
     match outcome {

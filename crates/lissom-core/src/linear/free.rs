@@ -109,7 +109,9 @@ impl LinearModel<'_> {
             if !(size.is_finite() && size > 0.0) {
                 return None;
             }
-            motion.iter_mut().for_each(|value| *value /= size);
+            for value in &mut motion {
+                *value /= size;
+            }
         }
         motion[count..].fill(0.0);
         (self.violation(&motion) <= VIOLATED).then_some(motion)
