@@ -118,7 +118,8 @@ impl Trials {
 
     /// Builds the tests of a stage, or runs them.
     fn cargo(&self, stage: &[String], only_build: bool) -> Result<Output, MutantsError> {
-        let program = std::env::var_os("LISSOM_CARGO").unwrap_or_else(|| "cargo".into());
+        // The one that runs this program, if one does.
+        let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         // Programs that tests start end with it.
         let mut command = Command::new("timeout");
         command.arg("--kill-after=10").arg(LONGEST.to_string()).arg(program);
