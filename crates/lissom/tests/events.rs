@@ -95,6 +95,58 @@ fn roots_are_located_to_a_part_in_ten_thousand_million_of_the_step() {
     }
 }
 
+/// Uniform motion and even steps: every root is at the end of a step but for round-off, which hides its sign.
+#[test]
+fn roots_at_ends_of_steps_happen_there_and_once() {
+    for scheme in SCHEMES {
+        for (step, parts) in [("0.01", 100_u32), ("0.03125", 32), ("0.1", 10), ("0.25", 4)] {
+            for scale in [1.0, 1e-3, 1e3] {
+                let events = (1..parts).map(|k| {
+                    format!(
+                        "[events.e{k}]\nzero_of = \"{scale:?}*(rail.displacement - 0.5*{k}/{parts})\"\n\
+                         [events.f{k}]\nzero_of = \"rail.displacement - 0.5*{k}/{parts}\"\ndirection = \"falling\"\n"
+                    )
+                });
+                let session = finished(&rail(
+                    &events.collect::<String>(),
+                    &format!("step = {step}\nscheme = \"{scheme}\""),
+                ));
+                let found: Vec<(&str, f64)> = session.events().collect();
+                assert_eq!(found.len() as u32, parts - 1, "{scheme}, {step}, {scale}: {found:?}");
+                for (k, (name, time)) in (1..parts).zip(&found) {
+                    assert_eq!(*name, format!("e{k}"));
+                    let late = time - f64::from(k) / f64::from(parts);
+                    assert!(
+                        late.abs() < 1e-10 / f64::from(parts),
+                        "{scheme}, {step}, {scale}: {late:e} late"
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// What comes to zero at the end of a step and turns back is no event; what happens a little before it is found there.
+#[test]
+fn numbers_that_turn_back_at_the_end_of_a_step_do_not_pass() {
+    // x = t/2 - t²: its rate is zero at 0.25 s, where x is 1/16.
+    let touched = format!("{}[events.top]\nzero_of = \"rail.displacement - 0.0625 - 1e-12\"\n", force("-2"));
+    for step in ["0.05", "0.125", "0.25"] {
+        let session = finished(&rail(&touched, &format!("step = {step}\nscheme = \"radau-iia\"")));
+        assert_eq!(session.events().count(), 0, "{step}");
+    }
+    for (before, allowed) in [(1e-4, 1e-12), (1e-6, 1e-12), (1e-8, 1e-12), (1e-11, 2e-12), (0.0, 1e-12)] {
+        let event = format!(
+            "[events.half]\nzero_of = \"rail.displacement - 0.25*(1 - {before:?})\"\nset = {{ push = 1 }}\n"
+        );
+        let tables = format!("[inputs]\npush = 0\n{}{event}", force("push"));
+        let session = finished(&rail(&tables, "step = 0.01\nscheme = \"radau-iia\""));
+        let found: Vec<f64> = session.events().map(|(_, time)| time).collect();
+        assert_eq!(found.len(), 1, "{before:e}: {found:?}");
+        assert!((found[0] - 0.5 * (1.0 - before)).abs() < allowed, "{before:e}: {found:?}");
+    }
+}
+
 #[test]
 fn an_event_that_stops_ends_the_run_there() {
     let event = "[events.half]\nzero_of = \"rail.displacement - 0.123\"\nstop = true\n";

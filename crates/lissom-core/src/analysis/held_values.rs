@@ -103,6 +103,12 @@ impl Simulation {
         self.system.latches.iter().any(is_new)
     }
 
+    /// Whether a latch engages or lets go with the held values of `at`.
+    fn switches_latch(&self, at: &Kinematics) -> bool {
+        let is_other = |&input: &usize| holds(at.held[input]) != holds(self.state.kinematics.held[input]);
+        self.system.latches.iter().any(is_other)
+    }
+
     /// Goes over to the held values of `at`, which is the present state otherwise: accelerations, multipliers, and the
     /// rates of states jump, and where a latch engages velocities, by an impact without rebound.
     ///
@@ -110,6 +116,11 @@ impl Simulation {
     /// If there are no consistent accelerations; the state is then as it was.
     pub(crate) fn change_held_values(&mut self, at: Kinematics) -> Result<(), InitialError> {
         let engages = self.engages(&at);
+        if self.switches_latch(&at) {
+            // The tangent of the equation that the latch had would solve the one it has to the tolerance alone, and leave that
+            // much of a force where there is none.
+            self.memory.has_tangent = false;
+        }
         let Some(initial) = &mut self.held_values else {
             self.state.kinematics = at;
             return Ok(());

@@ -6,6 +6,10 @@
 //!               t* ← t* - g/ġ with the step to t* solved anew, to 1e-10 of the step
 //! ```
 //!
+//! A root at the end of a step shows no change of sign there, or one that is lost in round-off: it is where the tangent at the end
+//! meets zero, if the step has come from a clear value. The step that begins there could take it only as late as its first
+//! millionth.
+//!
 //! Between two steps each number has a side, 1 or -1. Functions and forces are continued from their side over the whole
 //! step, so that it is smooth; what was beyond the root is not used. At the root the side changes whatever round-off says, so
 //! that the same root is not found again.
@@ -19,6 +23,8 @@ use crate::system::{Kinematics, State, System};
 /// Instants within a step at which signs are looked at, in parts of the step: numbers that pass through zero and back
 /// between two of them pass unseen.
 const INSTANTS: [f64; 4] = [0.25, 0.5, 0.75, 1.0];
+/// The last of them before the end.
+const BEFORE_END: f64 = 0.75;
 /// Numbers smaller than this part of the largest seen have no sign.
 const NOISE: f64 = 1e-9;
 /// Accuracy of a root, in parts of the step.
@@ -26,6 +32,10 @@ const ACCURACY: f64 = 1e-10;
 /// Roots closer than this to an end of the step, in parts of the step, are at that end: accelerations that a shorter step
 /// leaves are round-off.
 const CLOSE: f64 = 1e-6;
+/// How far from the end of a step the rate of what is watched is looked at, in parts of the step.
+const BESIDE: f64 = 1e-3;
+/// Round-off of a watched number, relative to the largest seen.
+const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 /// Steps solved anew for one root: three are usual.
 const MOST_REFINEMENTS: usize = 6;
 /// Changes of sign within a longest step above which the motion slides along the surface that is passed.
@@ -175,7 +185,45 @@ impl Watch {
             };
             return Some(Located { size: share * size, whole: size, who, refinements: 0 });
         }
-        None
+        self.root_at_end(system, step, size)
+    }
+
+    /// An event whose root is at the end of the step of `size` [s], or so near before it that the sign of its number is not
+    /// clear there. The values at the end are those known.
+    fn root_at_end(&mut self, system: &System, step: (&State, &State), size: f64) -> Option<Located> {
+        let events = system.signals().events();
+        let is_doubtful = |watch: &Self, k: usize| {
+            let side = watch.known.sides[k];
+            watch.values[k].abs() <= CLOSE * watch.known.largest[k]
+                && side != 0
+                && events[k].direction.allows(side < 0)
+        };
+        let doubtful: Vec<(usize, f64)> =
+            (0..events.len()).filter(|&k| is_doubtful(self, k)).map(|k| (k, self.values[k])).collect();
+        if doubtful.is_empty() {
+            return None;
+        }
+        self.at(system, step, 1.0 - BESIDE);
+        let beside = self.values.clone();
+        self.at(system, step, BEFORE_END);
+        let mut roots = Vec::new();
+        for (k, end) in doubtful {
+            let (side, noise) = (f64::from(self.known.sides[k]), NOISE * self.known.largest[k]);
+            let rate = (end - beside[k]) / BESIDE;
+            // From the side that is known, clearly, towards zero.
+            if side * self.values[k] <= noise || side * rate >= 0.0 {
+                continue;
+            }
+            let beyond = -end / rate;
+            if end.abs() <= ROUND_OFF * self.known.largest[k] || beyond.abs() <= ACCURACY {
+                roots.push((k, 1.0));
+            } else if beyond < 0.0 && beyond > BEFORE_END - 1.0 {
+                roots.push((k, 1.0 + beyond));
+            }
+        }
+        let share = roots.iter().map(|root| root.1).reduce(f64::min)?;
+        let who = roots.iter().filter(|root| root.1 <= share + ACCURACY).map(|root| root.0).collect();
+        Some(Located { size: share * size, whole: size, who, refinements: 0 })
     }
 
     /// The forces switch at the start of the step already.
