@@ -25,6 +25,7 @@ mod model_text;
 mod npz;
 pub mod numbers;
 mod observers;
+mod other_words;
 pub mod output;
 mod output_channels;
 mod parts;

@@ -106,7 +106,7 @@ impl<'c, 'a> Reader<'c, 'a> {
         let what = self.words(key);
         let value = self.context.number(node, &what)?;
         let wanted = match *self.shape(key) {
-            Shape::Positive if value <= 0.0 => "greater than zero".to_owned(),
+            Shape::Positive | Shape::Mass if value <= 0.0 => "greater than zero".to_owned(),
             Shape::NotNegative if value < 0.0 => "zero or greater".to_owned(),
             Shape::Between(least, most) if !(least..=most).contains(&value) => {
                 format!("from {least} to {most}")

@@ -2,6 +2,8 @@
 
 use std::cmp::Reverse;
 
+use crate::other_words;
+
 /// The known word nearest to `word`, if one is near enough to be a slip of the pen.
 pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     // Long texts are no slips of the pen, and the distance costs their product.
@@ -21,10 +23,16 @@ pub(crate) fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
     (distance <= allowed).then_some(best)
 }
 
-/// A help line: the nearest word, else all the known ones if they are few, else nothing.
+/// A help line: the nearest word, else one that others call so, else all the known ones if they are few, else nothing.
 pub(crate) fn help<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Option<String> {
     let known: Vec<&str> = known.into_iter().collect();
     if let Some(found) = nearest(word, known.iter().copied()) {
+        return Some(format!("did you mean `{found}`?"));
+    }
+    if let Some(remedy) = other_words::remedy(word, &known) {
+        return Some(remedy);
+    }
+    if let Some(found) = other_words::known_for(word, &known) {
         return Some(format!("did you mean `{found}`?"));
     }
     let few = !known.is_empty() && known.len() <= 30;

@@ -191,6 +191,10 @@ fn syntax_problem(message: &str, mut span: Span, text: &str) -> Problem {
         "every name and key may be given only once in its table"
     } else if message.contains("string values must be quoted") {
         "texts and expressions stand in quotes, as in \"sin(t)\"; numbers as in 1.5 or 2e11"
+    } else if text.get(span.end..).is_some_and(|rest| rest.starts_with(','))
+        && text.get(..span.end).is_some_and(|before| before.ends_with(|last: char| last.is_ascii_digit()))
+    {
+        "decimals have a point, as in 1.5"
     } else {
         "the file is TOML: key = value lines below [table] headings"
     };

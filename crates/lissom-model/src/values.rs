@@ -26,7 +26,8 @@ impl Context<'_> {
     pub(crate) fn wrong_type<T>(&self, node: &Node, what: &str, wanted: &str) -> Option<T> {
         let found = type_of(node);
         let problem = Problem::error(node.span, format!("{what} must be {wanted}, not {found}"));
-        self.tell(problem.label(format!("this is {found}")).help(format!("write {wanted}")));
+        let example = if wanted == "a list of 3 numbers" { ", as [0, 0, -9.81]" } else { "" };
+        self.tell(problem.label(format!("this is {found}")).help(format!("write {wanted}{example}")));
         None
     }
 

@@ -167,8 +167,12 @@ fn check_words(context: &Context<'_>) {
     }
     for top in tables::tops().filter(|top| top.required && context.top(top.name).is_none()) {
         let message = format!("the model lacks [{}]", top.name);
-        let problem = Problem::error(Span::default(), message).help(format!("add it: {}", top.summary));
-        context.tell(problem);
+        let help = if top.name == "analysis" {
+            "add it, for example [analysis] with kind = \"dynamics\", end = 1 and step = 1e-3 on lines of their own".to_owned()
+        } else {
+            format!("add it: {}", top.summary)
+        };
+        context.tell(Problem::error(Span::default(), message).help(help));
     }
     // Generalised coordinates move without a part.
     let is_free = |node: &Node| {

@@ -13,13 +13,32 @@ use crate::sections::{Isotropic, SectionProperties, Shape, Shear, ShearTheory, m
 use crate::suggest;
 use crate::text::Value;
 
+/// Square of the speed of sound below which a material is hardly a solid [m²/s²]: soft rubber has 60, steel with E in MPa 27.
+const SOFTEST: f64 = 30.0;
+
 pub(super) fn materials(context: &Context<'_>) -> Vec<Material> {
     each(context, "materials", |reader, name| {
         let (young, density) = (reader.number("E"), reader.number("density"));
         let shear = shear_modulus(reader, young.as_ref().map(|young| young.value));
-        let constants = Isotropic { young: young?.value, shear: shear?, density: density?.value };
+        let (young, density) = (young?, density?);
+        warn_of_units(reader, &young, density.value);
+        let constants = Isotropic { young: young.value, shear: shear?, density: density.value };
         Some(Material { name: Located::new(name.to_owned(), reader.name), constants })
     })
+}
+
+/// A modulus in MPa or GPa shows as a solid through which sound creeps.
+fn warn_of_units(reader: &Reader<'_, '_>, young: &Located<f64>, density: f64) {
+    let square = young.value / density;
+    if square < SOFTEST {
+        let message = format!(
+            "sound would go through {} at {:.2} m/s alone, so soft is it: `E` or `density` may be in other units",
+            reader.what,
+            square.sqrt()
+        );
+        let help = "write `E` in Pa, as 210e9 for 210 GPa, and `density` in kg/m³";
+        reader.context.tell(Problem::warning(young.span, message).help(help));
+    }
 }
 
 /// From `G`, or from `nu` by `G = E/(2(1 + ν))`.

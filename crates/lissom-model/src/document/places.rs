@@ -108,6 +108,12 @@ impl Context<'_> {
             let help = format!("say which node: \"{text}.start\", \"{text}.end\" or \"{text}@0.5\"");
             return self.fail(span, message, help);
         }
+        if self.has("joints", text) {
+            let message = format!("{what} names the joint `{text}`, which is not a node");
+            let help = "name one of the nodes that it joins; what a joint does is recorded by outputs of the kinds `relative` and \
+                        `reaction`";
+            return self.fail(span, message, help);
+        }
         if let Some((superelement, interface)) = self.interface_in(text) {
             return self.interface((superelement, interface), span, what);
         }
