@@ -61,6 +61,9 @@ pub(crate) enum MutantsError {
     /// Tests fail in code that is not broken.
     #[error("the tests fail without a mutant, so that they tell nothing of mutants:\n{0}")]
     Baseline(String),
+    /// Something else than a mutant keeps the tests from being built.
+    #[error("the tests cannot be built:\n{0}")]
+    Build(String),
     /// The list of mutants, or what is known, is none.
     #[error("{what}: {error}")]
     Json {

@@ -95,15 +95,15 @@ impl Trials {
     }
 
     fn stages(&self, stages: &[Vec<String>]) -> Result<(Outcome, String), MutantsError> {
-        for (index, stage) in stages.iter().enumerate() {
+        for stage in stages {
             let built = self.cargo(stage, true)?;
             if !built.status.success() {
-                let output = String::from_utf8_lossy(&built.stderr).into_owned();
-                // What the first stage was built of is part of the others.
-                if index > 0 && !output.contains("error[") && !output.contains("error: ") {
-                    return Ok((Outcome::Hung, output));
+                let output = tail(&String::from_utf8_lossy(&built.stderr));
+                // A full disk, or a build that was ended, says nothing of the mutant.
+                if output.contains("could not compile") {
+                    return Ok((Outcome::NotBuilt, output));
                 }
-                return Ok((Outcome::NotBuilt, tail(&output)));
+                return Err(MutantsError::Build(output));
             }
             let run = self.cargo(stage, false)?;
             let output = String::from_utf8_lossy(&run.stdout).into_owned();
