@@ -4,6 +4,7 @@
 //! This crate opens no file, prints nothing and reads no clock.
 
 pub mod analysis;
+mod dual;
 pub mod elements;
 pub(crate) mod equilibration;
 pub mod interrupt;

@@ -441,7 +441,14 @@ mod tests {
                 node.twist[k] = 0.0;
             }
         }
-        let start = Kinematics { time: 0.0, elapsed: 0.0, nodes, coordinates: Vec::new(), held: Vec::new() };
+        let start = Kinematics {
+            time: 0.0,
+            elapsed: 0.0,
+            nodes,
+            coordinates: Vec::new(),
+            held: Vec::new(),
+            multipliers: Vec::new(),
+        };
         let mut list = || (0..layout.coordinate_count).map(|_| vector()[0] * size).collect::<Vec<f64>>();
         let (rates, curvatures, increments) = (list(), list(), [list(), list()]);
         let table = StageTable { meaning, ahead: 0.1, rate: [0.7, -1.5], curvature: [-3.0, 0.2], gain: 4.0 };

@@ -45,7 +45,14 @@ fn kinematics(numbers: &mut Numbers, count: usize, turn: f64) -> Kinematics {
             NodeMotion { frame, twist: numbers.vector(), acceleration: numbers.vector() }
         })
         .collect();
-    Kinematics { time: 0.0, elapsed: 0.0, nodes, coordinates: Vec::new(), held: Vec::new() }
+    Kinematics {
+        time: 0.0,
+        elapsed: 0.0,
+        nodes,
+        coordinates: Vec::new(),
+        held: Vec::new(),
+        multipliers: Vec::new(),
+    }
 }
 
 fn compare<E: Element>(elements: &[E], at: &Kinematics) {

@@ -106,7 +106,7 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
             touched.nodes.insert(*node);
         }
         Source::Place(Place::OnBeam { nodes, .. }, _) => touched.nodes.extend(nodes),
-        Source::Joint(index, _) | Source::RelativeMotion(index) => {
+        Source::Joint(index, _) | Source::RelativeMotion(index) | Source::Contact(index) => {
             let joint = &system.joints()[*index];
             touched.nodes.extend(joint.frames.map(|frame| frame.node));
             touched.coordinates.extend(&joint.coordinates);

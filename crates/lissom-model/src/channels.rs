@@ -6,6 +6,7 @@ use std::sync::Arc;
 use lissom_core::elements::beam::line::{BeamLine, BeamProbe};
 use lissom_core::elements::quadrature::gauss_lobatto;
 use lissom_core::elements::shape::lagrange;
+use lissom_core::joints::attached::AttachedJoint;
 use lissom_core::joints::{Equations, MOST_COORDINATES, Quantity};
 use lissom_core::signals::{Argument, SignalFunction};
 use lissom_core::system::{CoordinateId, ElementId, Kinematics, NodeId, State, System};
@@ -67,6 +68,8 @@ pub(crate) enum Source {
     Place(Place, Motion),
     Joint(usize, ReactionAxes),
     RelativeMotion(usize),
+    /// Of a wheel on a rail.
+    Contact(usize),
     Drive(usize),
     Coupling(usize),
     Slider(usize),
@@ -191,11 +194,15 @@ impl Channel {
                 let Motion { rotation, position } = system.joints()[*index].relative_motion(at);
                 out.extend(position.iter().chain(rotation.logarithm().iter()));
             }
+            Source::Contact(index) => {
+                let joint = &system.joints()[*index];
+                let Some(contact) = joint.rail_contact(at, &multipliers(joint, state)) else { return };
+                out.extend([contact.on_wheel, contact.on_rail, contact.shift_angle, contact.normal_force]);
+                out.extend(contact.forces.iter().chain(&contact.creepages));
+            }
             Source::Joint(index, axes) => {
                 let joint = &system.joints()[*index];
-                let mut mu = Equations::default();
-                let first = joint.first_multiplier;
-                mu[..joint.equations()].copy_from_slice(&state.multipliers[first..first + joint.equations()]);
+                let mu = multipliers(joint, state);
                 let reaction = joint.reaction(at, &mu);
                 let frame = match axes {
                     ReactionAxes::Ground => {
@@ -391,12 +398,17 @@ fn joint_source(
         return Ok(Source::Coordinates(coordinates));
     }
     if let Some(index) = system.joints().iter().position(|joint| joint.name == name.value) {
+        if output.kind == OutputKind::Contact && system.joints()[index].joint().rail_contact().is_none() {
+            let message = format!("`{}` is no wheel on a rail", name.value);
+            return Err(Problem::error(name.span, message).help("name a joint of kind `wheel_on_rail`"));
+        }
         return Ok(match output.kind {
             OutputKind::RelativeMotion => Source::RelativeMotion(index),
+            OutputKind::Contact => Source::Contact(index),
             _ => Source::Joint(index, output.axes),
         });
     }
-    if output.kind == OutputKind::RelativeMotion {
+    if matches!(output.kind, OutputKind::RelativeMotion | OutputKind::Contact) {
         let message = format!("`{}` stands between no two nodes", name.value);
         return Err(Problem::error(name.span, message).help("name the joint that it acts on"));
     }
@@ -509,6 +521,10 @@ pub(crate) fn components(
         (OutputKind::RelativeMotion, _) => {
             words(&["x", "y", "z", "r1", "r2", "r3"], &["m", "m", "m", "rad", "rad", "rad"])
         }
+        (OutputKind::Contact, _) => words(
+            &["wheel", "rail", "shift", "normal", "along", "across", "creepage1", "creepage2", "spin"],
+            &["m", "m", "rad", "N", "N", "N", "", "", "1/m"],
+        ),
         (OutputKind::Relative, Source::Coordinates(coordinates)) => relative(coordinates, system),
         (OutputKind::RelativeAcceleration, Source::Accelerations(owners)) => {
             let of = |&(joint, own): &(usize, usize)| system.joints()[joint].coordinates[own];
@@ -592,4 +608,12 @@ fn relative(coordinates: &[CoordinateId], system: &System) -> (Vec<String>, Vec<
         units.extend(of_words);
     }
     (components, units)
+}
+
+/// A joint's own of the state's multipliers.
+fn multipliers(joint: &AttachedJoint, state: &State) -> Equations {
+    let mut mu = Equations::default();
+    let first = joint.first_multiplier;
+    mu[..joint.equations()].copy_from_slice(&state.multipliers[first..first + joint.equations()]);
+    mu
 }

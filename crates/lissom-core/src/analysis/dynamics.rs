@@ -183,8 +183,8 @@ impl Simulation {
     ) -> Result<Self, InitialError> {
         let mut warnings = Vec::new();
         let (system, mut state) = equilibrium::start_at_rest(system, state, &settings, &mut warnings)?;
-        if let Some(row) = system.layout().rate_rows().next().filter(|_| !settings.scheme.dynamic) {
-            return Err(InitialError::StateInStatics(system.layout().name_of(row)));
+        if !settings.scheme.dynamic {
+            refuse_rates(&system)?;
         }
         let representative = known.copied().unwrap_or_else(|| {
             let at_start = Linearization::of_state(&system, &state.kinematics);
@@ -446,6 +446,7 @@ impl Simulation {
         let Some(end) = work.motions.last() else { unreachable!("every scheme has a stage") };
         copy_motion(&end.at, &mut self.next.kinematics);
         self.next.multipliers.copy_from_slice(&work.multipliers[last]);
+        self.next.kinematics.show_multipliers(&self.next.multipliers);
         let memory = &mut self.next.algorithmic;
         self.scaled.leave(&self.settings.scheme.algorithmic, &work.unit, &work.increments, memory);
         compensate(&self.state, &end.changes, &mut self.next);
@@ -558,6 +559,13 @@ pub(crate) fn warn(warnings: &mut Vec<Warning>, warning: Warning) {
 fn pivoting_unless(settings: &Settings) -> &'static SolverKind {
     let pivoting = lissom_solver::kind("pivoting").unwrap_or(settings.solver);
     if settings.scaling.augmented { settings.solver } else { pivoting }
+}
+
+/// Fails where equations hold rates, of which statics know nothing.
+fn refuse_rates(system: &System) -> Result<(), InitialError> {
+    let of_row = system.layout().rate_rows().next().map(|row| system.layout().name_of(row));
+    let of_creep = || system.sees_multipliers().then(|| "the creep of a wheel on a rail".to_owned());
+    of_row.or_else(of_creep).map_or(Ok(()), |name| Err(InitialError::StateInStatics(name)))
 }
 
 fn copy_motion(from: &Kinematics, to: &mut Kinematics) {

@@ -75,6 +75,11 @@ impl StepEquations<'_> {
                 &mut self.work.motions[i],
             );
         }
+        // Beyond the stages there is the end of the step, which has the multipliers of the last one.
+        let Workspace { motions, multipliers, .. } = &mut *self.work;
+        for (i, motion) in motions.iter_mut().enumerate() {
+            motion.at.show_multipliers(&multipliers[i.min(multipliers.len() - 1)]);
+        }
         if let Some(tableau) = &self.scheme.tableau {
             let work = &mut *self.work;
             self.scaled.integrate_velocities(

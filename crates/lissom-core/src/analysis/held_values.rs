@@ -191,5 +191,6 @@ impl Simulation {
             memory.iter_mut().zip(motion).for_each(|(value, jump)| *value += jump);
         }
         self.state.multipliers.iter_mut().zip(constraints).for_each(|(value, jump)| *value += jump);
+        self.state.kinematics.show_multipliers(&self.state.multipliers);
     }
 }

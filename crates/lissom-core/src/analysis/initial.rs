@@ -74,6 +74,15 @@ pub enum InitialError {
         /// Names of the constraints.
         violated: String,
     },
+    /// Normal forces and the creep forces that they allow do not agree.
+    #[error(
+        "initial accelerations: the normal forces of wheels on rails and the creep forces they allow are not found together (they \
+         still change by {change:.1e} of their size); look at friction_coefficient and at how the wheels are held"
+    )]
+    NormalForces {
+        /// The last change, relative to the largest multiplier.
+        change: f64,
+    },
     /// A beam is turned too far within an element.
     #[error("at the start: {0}")]
     Wrapped(Box<super::StepError>),
@@ -87,6 +96,12 @@ pub enum InitialError {
         unknown: String,
     },
 }
+
+/// Repetitions after which forces by multipliers count as not found.
+const MOST_REPETITIONS: usize = 100;
+
+/// Changes of multipliers below are round-off, where they fall no further.
+const REPEATED: f64 = 1e-10;
 
 /// Which inertias weigh in a projection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -345,13 +360,14 @@ impl Initial {
     /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
     pub fn accelerations(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {
         self.factor(system, state, Inertias::All)?;
-        let mut right = self.acceleration_vector(system, state);
+        let mut right = self.acceleration_vector(system, state)?;
         let layout = system.layout();
         for (row, impulse) in layout.impulses() {
             state.kinematics.coordinates[impulse].rate = std::mem::take(&mut right[row]);
         }
         scatter_accelerations(layout, &right, &mut state.kinematics);
         state.multipliers.copy_from_slice(&right[layout.coordinate_count()..]);
+        state.kinematics.show_multipliers(&state.multipliers);
         Ok(())
     }
 
@@ -404,10 +420,11 @@ impl Initial {
         state: &State,
     ) -> Result<Vec<f64>, InitialError> {
         self.factor(system, state, Inertias::All)?;
-        Ok(self.acceleration_vector(system, state))
+        self.acceleration_vector(system, state)
     }
 
-    fn acceleration_vector(&mut self, system: &System, state: &State) -> Vec<f64> {
+    /// Where forces depend on multipliers, these are found by repetition: friction is small against what presses.
+    fn acceleration_vector(&mut self, system: &System, state: &State) -> Result<Vec<f64>, InitialError> {
         let layout = system.layout();
         let count = layout.coordinate_count();
         let mut at = state.kinematics.clone();
@@ -417,13 +434,25 @@ impl Initial {
         }
         let zero = vec![0.0; layout.multiplier_count];
         let mut right = vec![0.0; layout.size()];
-        system.residual(&self.point(&at, &zero), &mut right);
-        self.turn_slides(system, &at, &mut right);
-        right[..count].iter_mut().for_each(|value| *value = -*value);
-        system.constraint_accelerations(&at, &mut right[count..]);
-        right[count..].iter_mut().for_each(|value| *value = -*value);
-        self.solve(system, &mut right);
-        right
+        let mut change = f64::INFINITY;
+        for _ in 0..MOST_REPETITIONS {
+            system.residual(&self.point(&at, &zero), &mut right);
+            self.turn_slides(system, &at, &mut right);
+            right[..count].iter_mut().for_each(|value| *value = -*value);
+            system.constraint_accelerations(&at, &mut right[count..]);
+            right[count..].iter_mut().for_each(|value| *value = -*value);
+            self.solve(system, &mut right);
+            let (seen, found) = (&mut at.multipliers, &right[count..]);
+            let largest = found.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+            let changes = seen.iter().zip(found).map(|(seen, found)| (seen - found).abs());
+            let last =
+                std::mem::replace(&mut change, changes.fold(0.0, f64::max) / largest.max(f64::MIN_POSITIVE));
+            if change == 0.0 || (change < REPEATED && change >= last) {
+                return Ok(right);
+            }
+            at.show_multipliers(found);
+        }
+        if change < REPEATED { Ok(right) } else { Err(InitialError::NormalForces { change }) }
     }
 
     /// Puts Ḃ v in the rows of constraints between velocities: their derivative by places, along the motion.
@@ -466,7 +495,7 @@ impl Initial {
         for sign in [1.0, -1.0] {
             let moved = moved(state, sign * delay);
             self.factor(system, &moved, Inertias::All)?;
-            let there = self.acceleration_vector(system, &moved);
+            let there = self.acceleration_vector(system, &moved)?;
             for (value, acceleration) in difference.iter_mut().zip(&there) {
                 *value += 0.5 * sign * acceleration;
             }

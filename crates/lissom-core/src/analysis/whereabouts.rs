@@ -65,6 +65,7 @@ impl InitialError {
             Self::StateInStatics(words) | Self::Free { free: words } => named(words),
             Self::VelocityImpossible { part, .. } => Some(part.as_str()),
             Self::RatesContradict { violated } => named(violated),
+            Self::NormalForces { .. } => None,
         };
         Whereabouts { time: None, part }
     }

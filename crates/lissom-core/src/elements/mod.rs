@@ -8,6 +8,7 @@ pub mod blocks;
 pub mod bushing;
 pub(crate) mod coordinate_dynamics;
 pub(crate) mod coordinate_spring;
+pub mod creep_force;
 pub mod force;
 pub(crate) mod force_law;
 mod frame_pair;
@@ -77,13 +78,15 @@ pub struct Tangents {
     pub damping: Vec<f64>,
     /// With respect to accelerations.
     pub mass: Vec<f64>,
+    /// How many of the last local unknowns are multipliers. Derivatives by them stand with the stiffness.
+    multipliers: usize,
 }
 
 impl Tangents {
     /// Room for `size` local unknowns, all zero.
     pub fn new(size: usize) -> Self {
         let zeros = vec![0.0; size * size];
-        Self { size, stiffness: zeros.clone(), damping: zeros.clone(), mass: zeros }
+        Self { size, stiffness: zeros.clone(), damping: zeros.clone(), mass: zeros, multipliers: 0 }
     }
 
     /// Multiplies everything by a number.
@@ -108,6 +111,19 @@ impl Tangents {
         }
     }
 
+    /// Adds the derivatives of all forces by a multiplier, the last local unknown.
+    pub(crate) fn add_by_multiplier(&mut self, forces: &[f64]) {
+        self.multipliers = 1;
+        for (i, force) in forces.iter().enumerate() {
+            self.stiffness[(i + 1) * self.size - 1] += force;
+        }
+    }
+
+    /// The first local unknown that is a multiplier.
+    pub(crate) fn first_multiplier(&self) -> usize {
+        self.size - self.multipliers
+    }
+
     /// Number of local unknowns.
     pub fn size(&self) -> usize {
         self.size
@@ -116,6 +132,7 @@ impl Tangents {
     /// Sets everything to zero, for an element of `size` unknowns.
     pub fn clear(&mut self, size: usize) {
         self.size = size;
+        self.multipliers = 0;
         for matrix in [&mut self.stiffness, &mut self.damping, &mut self.mass] {
             matrix.clear();
             matrix.resize(size * size, 0.0);
@@ -175,6 +192,11 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
 
     /// Algebraic coordinates it acts on, after the nodes in local order.
     fn coordinates(&self) -> &[CoordinateId] {
+        &[]
+    }
+
+    /// Multipliers on which its forces depend, among all; they follow its coordinates in local order. Default: none.
+    fn multipliers(&self) -> &[usize] {
         &[]
     }
 

@@ -11,10 +11,12 @@ use nalgebra::{SMatrix, SVector};
 
 use super::blocks::JointStarts;
 use super::derivatives::{Derivatives, IncrementTangent, Inner, LOCAL, OWN, Side, TIP};
+use super::wheel_on_rail::contact::{Pose, RailContactValues};
 use super::{AnyJoint, Curvature, Equations, Gradient, MOST_COORDINATES, MOST_EQUATIONS, Own, Relative};
+use crate::elements::creep_force::CreepForce;
 use crate::elements::rolling::Rolling;
 use crate::system::state::split;
-use crate::system::{CoordinateId, Kinematics, MotionChange, NodeId};
+use crate::system::{Chart, CoordinateId, Kinematics, MotionChange, NodeId, Point};
 
 /// A joint frame: a frame carried by a node.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -60,6 +62,19 @@ pub struct Increments<'a> {
 }
 
 impl AttachedJoint {
+    /// The same place for a joint of its own.
+    pub(super) fn with_joint(&self, joint: Box<dyn AnyJoint>) -> Self {
+        Self {
+            name: self.name.clone(),
+            kind: self.kind,
+            frames: self.frames,
+            coordinates: self.coordinates.clone(),
+            first_multiplier: self.first_multiplier,
+            impulses: self.impulses.clone(),
+            joint,
+        }
+    }
+
     /// Number of equations.
     pub fn equations(&self) -> usize {
         self.joint.equations().len()
@@ -197,6 +212,28 @@ impl AttachedJoint {
         out.fill(&self.sides(relative), charts, &inner);
     }
 
+    /// Derivatives at a point with respect to the unknowns of `chart`; `joint` is this joint's kind, where it is known.
+    pub(super) fn linearize_for<J: AnyJoint + ?Sized>(
+        &self,
+        joint: &J,
+        configuration: &(Relative, Own),
+        point: &Point<'_>,
+        chart: Chart<'_>,
+        out: &mut Derivatives,
+    ) {
+        // The curvature of the augmented term, w c ∂²c/∂q², is left out: it vanishes at the solution, and far
+        // from it, with w c much larger than the multipliers, it would spoil the correction.
+        let mut mu = Equations::default();
+        let own = self.first_multiplier..self.first_multiplier + self.equations();
+        mu[..self.equations()].copy_from_slice(&point.multipliers[own]);
+        let charts = match chart {
+            Chart::Increments(tangents) => Some(self.frames.map(|frame| &tangents[frame.node])),
+            Chart::Body | Chart::Departures(_) => None,
+        };
+        let weights = std::array::from_fn(|k| point.augmentation.relative(joint.equation_quantity(k)));
+        self.linearize_as(joint, configuration, &mu, &weights, charts, out);
+    }
+
     /// Derivatives of the forces at constant multipliers `mu` with respect to the local unknowns, as body variations.
     pub(crate) fn curvature(
         &self,
@@ -260,6 +297,32 @@ impl AttachedJoint {
         (inverse * right).into()
     }
 
+    /// Where a wheel touches its rail and what acts there, for the multipliers `mu`; none for joints that are no such contact.
+    pub fn rail_contact(&self, at: &Kinematics, mu: &Equations) -> Option<RailContactValues> {
+        let contact = self.joint.rail_contact()?;
+        let (relative, _) = self.outright(at);
+        let pose = Pose::new(&relative.rotation, &relative.position);
+        let place = contact.place(&pose).place;
+        let mut values = RailContactValues {
+            on_wheel: place.along,
+            on_rail: place.on_rail,
+            shift_angle: contact.wheel_point(&pose, place.along).shift.asin(),
+            normal_force: -mu[0],
+            ..RailContactValues::default()
+        };
+        if let Some(creep) = self.creep_force() {
+            let creep = creep.creep(at, -mu[0]);
+            (values.forces, values.creepages) = (creep.forces, creep.creepages);
+        }
+        Some(values)
+    }
+
+    /// The creep force of a wheel on a rail, if it is one that creeps.
+    pub(crate) fn creep_force(&self) -> Option<CreepForce> {
+        let (contact, law) = self.joint.rail_contact().zip(self.joint.creep())?;
+        Some(CreepForce::new(self.frames, self.first_multiplier, contact.clone(), law.clone()))
+    }
+
     /// Wrench of the joint on the tip at the joint's point, in inertial axes [N, N m], for the
     /// multipliers `mu` at the configuration `at`.
     pub fn reaction(&self, at: &Kinematics, mu: &Equations) -> Vector6 {
@@ -269,6 +332,9 @@ impl AttachedJoint {
         let mut wrench = -gradient.relative.tr_mul(&SVector::<f64, MOST_EQUATIONS>::from_column_slice(mu));
         if let Some(contact) = self.joint.contact() {
             wrench += Rolling::new(self.frames, self.impulses.clone(), contact).wrench(at);
+        }
+        if let Some(creep) = self.creep_force() {
+            wrench += creep.wrench(at, -mu[0]);
         }
         let tip = self.frames[1];
         let rotation = at.nodes[tip.node].frame.rotation * tip.offset.rotation;

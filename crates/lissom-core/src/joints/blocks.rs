@@ -15,7 +15,8 @@ use pulp::{Simd, WithSimd};
 use super::attached::AttachedJoint;
 use super::derivatives::{Derivatives, LOCAL, OWN, TIP};
 use super::moved::{Angle, Axes, FrameChange, Moved, OwnMoved};
-use super::{Coordinate, Equations, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Quantity};
+use super::singly::Singly;
+use super::{Coordinate, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Quantity};
 use crate::lanes::{Frames, Part, gather, gather_frames, parts, processor_for};
 use crate::system::{Chart, Kinematics, Point};
 
@@ -49,6 +50,19 @@ impl Batches {
         }
         let mut batch = Batch::<J>::new();
         batch.push(joint, index, attached);
+        self.0.push(Box::new(batch));
+    }
+
+    /// Adds a joint to the batch of those that are evaluated one by one.
+    pub(super) fn enter_singly(&mut self, index: usize, joint: AttachedJoint) {
+        for batch in &mut self.0 {
+            if let Some(batch) = batch.as_any_mut().downcast_mut::<Singly>() {
+                batch.push(index, joint);
+                return;
+            }
+        }
+        let mut batch = Singly::new();
+        batch.push(index, joint);
         self.0.push(Box::new(batch));
     }
 
@@ -270,18 +284,7 @@ impl<J: Joint> JointBatch for Batch<J> {
                 None => attached.start(point.increments.start),
             };
             let configuration = attached.configuration_from(start, &point.increments);
-            // The curvature of the augmented term, w c ∂²c/∂q², is left out: it vanishes at the solution, and far
-            // from it, with w c much larger than the multipliers, it would spoil the correction.
-            let mut mu = Equations::default();
-            let own = attached.first_multiplier..attached.first_multiplier + attached.equations();
-            mu[..attached.equations()].copy_from_slice(&point.multipliers[own]);
-            let charts = match chart {
-                Chart::Increments(tangents) => Some(attached.frames.map(|frame| &tangents[frame.node])),
-                Chart::Body | Chart::Departures(_) => None,
-            };
-            let weights =
-                std::array::from_fn(|k| point.augmentation.relative(attached.joint().equation_quantity(k)));
-            attached.linearize_as(joint, &configuration, &mu, &weights, charts, scratch);
+            attached.linearize_for(joint, &configuration, point, chart, scratch);
             take(index as usize, scratch);
         }
     }

@@ -37,11 +37,13 @@ pub mod revolute;
 pub mod rigid_link;
 pub mod rolling;
 pub mod screw;
+pub(crate) mod singly;
 pub mod slider;
 pub mod spherical;
 pub(crate) mod step_stages;
 pub mod swing_arm;
 pub mod universal;
+pub mod wheel_on_rail;
 
 use std::sync::Arc;
 
@@ -54,7 +56,9 @@ use contact::Contact;
 use coupling::Relation;
 use generalized_coordinates::FreeCoordinate;
 use moved::{Moved, OwnMoved};
+use wheel_on_rail::contact::RailContact;
 
+use crate::elements::creep_force::CreepLaw;
 use crate::registry::{Function, Parameter, ParameterError, Parameters};
 
 /// Most equations a joint may have.
@@ -236,6 +240,14 @@ pub trait AnyJoint: Send + Sync + std::fmt::Debug {
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion);
     /// See [`Joint::contact`].
     fn contact(&self) -> Option<Contact>;
+    /// The contact of a wheel with a rail, for joints that are one. Default: it is none.
+    fn rail_contact(&self) -> Option<&RailContact> {
+        None
+    }
+    /// The law of creep in that contact, if there is one.
+    fn creep(&self) -> Option<&CreepLaw> {
+        None
+    }
     /// See [`Joint::violation`].
     fn violation(&self, relative: &Relative, own: &Own) -> Equations;
     /// See [`Joint::violation_change`].
@@ -414,4 +426,5 @@ pub static KINDS: &[JointKind] = &[
     spherical::KIND,
     swing_arm::KIND,
     universal::KIND,
+    wheel_on_rail::KIND,
 ];

@@ -2,6 +2,8 @@
 
 use super::Warning;
 use crate::elements::rolling::Rolling;
+use crate::joints::attached::AttachedJoint;
+use crate::joints::wheel_on_rail::contact::Pose;
 use crate::system::{State, System};
 
 /// Forces below this part of the largest multiplier are round-off.
@@ -18,6 +20,27 @@ pub(crate) fn tell(system: &System, state: &State, warnings: &mut Vec<Warning>) 
 
 fn doubt(system: &System, state: &State) -> Option<Warning> {
     let largest = || state.multipliers.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+    let on_rails = system.joints().iter().find_map(|joint| {
+        joint.joint().rail_contact()?;
+        rail_doubt(joint, state, ROUND_OFF * largest())
+    });
+    on_rails.or_else(|| on_planes(system, state, &largest))
+}
+
+/// The first doubt about a wheel on a rail.
+fn rail_doubt(joint: &AttachedJoint, state: &State, round_off: f64) -> Option<Warning> {
+    let contact = joint.joint().rail_contact()?;
+    let normal = -state.multipliers[joint.first_multiplier];
+    let (time, name) = (state.kinematics.time, joint.name.clone());
+    if normal < -round_off {
+        return Some(Warning::WheelLifts { time, joint: name, force: -normal });
+    }
+    let (relative, _) = joint.outright(&state.kinematics);
+    let doubt = contact.doubt(&Pose::new(&relative.rotation, &relative.position))?;
+    Some(Warning::RailContact { time, joint: name, doubt })
+}
+
+fn on_planes(system: &System, state: &State, largest: &dyn Fn() -> f64) -> Option<Warning> {
     system.joints().iter().find_map(|joint| {
         let contact = joint.joint().contact()?;
         // The multiplier is the force that pulls the wheel to the plane.

@@ -122,9 +122,19 @@ pub enum Warning {
         /// Name of the unknown that errs most.
         unknown: String,
     },
+    /// A wheel on a rail touches where its model means nothing.
+    #[error("at t = {time:.6e} s the wheel of `{joint}` {doubt}")]
+    RailContact {
+        /// When it was first seen [s].
+        time: f64,
+        /// Name of the joint.
+        joint: String,
+        /// What is in doubt.
+        doubt: String,
+    },
     /// A wheel that rolls is pulled by its plane.
     #[error(
-        "at t = {time:.6e} s the plane of `{joint}` pulls its wheel with {force:.3e} N: a wheel that lies on the plane would \
+        "at t = {time:.6e} s the plane or rail of `{joint}` pulls its wheel with {force:.3e} N: a wheel that lies on it would \
          lift off, and this one cannot"
     )]
     WheelLifts {
@@ -249,6 +259,7 @@ impl Warning {
             Self::Unresolved { .. } => "unresolved-motion",
             Self::WheelLifts { .. } => "wheel-lifts",
             Self::WheelSlides { .. } => "wheel-slides",
+            Self::RailContact { .. } => "rail-contact",
             Self::SingularPosition { .. } => "singular-position",
             Self::ReactionsNotUnique { .. } => "reactions-not-unique",
             Self::BeyondLinear { .. } => "beyond-linear",

@@ -148,6 +148,7 @@ impl<'a> LinearModel<'a> {
         let point = point(&state.kinematics, (&still, &unchanged), &state.multipliers, &zeros);
         let chart = if is_at_rest { Chart::Body } else { Chart::Departures(&state.kinematics.nodes) };
         system.linearize(&point, chart, &mut parts);
+        parts.fold_multipliers();
         if !is_at_rest {
             if unsteadiness > NEARLY_STEADY {
                 let displaced = displacement_by_inertia(system, &state.kinematics, (&parts, &representative));
@@ -282,18 +283,18 @@ impl<'a> LinearModel<'a> {
         };
         let sizes = shape.iter().enumerate().map(|(row, value)| value.magnitude() * unit(row));
         let largest = sizes.fold(0.0, f64::max);
-        let mut violation = 0.0_f64;
-        for column in count..pattern.size() {
+        let mut sums = vec![(S::zero(), 0.0); pattern.size() - count];
+        for (column, &value) in shape.iter().enumerate().take(count) {
             let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
-            let (mut sum, mut possible) = (S::zero(), 0.0);
             let entries = pattern.row_indices()[range.clone()].iter().zip(&self.parts.constraint[range]);
-            for (&row, &entry) in entries.filter(|&(&row, _)| row < count) {
-                sum += S::from_real(entry) * shape[row];
-                possible += entry.abs() * largest / unit(row);
+            for (&row, &entry) in entries.filter(|&(&row, _)| row >= count) {
+                let (sum, possible) = &mut sums[row - count];
+                *sum += S::from_real(entry) * value;
+                *possible += entry.abs() * largest / unit(column);
             }
-            violation = violation.max(sum.magnitude() / possible.max(f64::MIN_POSITIVE));
         }
-        violation
+        let parts = sums.iter().map(|(sum, possible)| sum.magnitude() / possible.max(f64::MIN_POSITIVE));
+        parts.fold(0.0, f64::max)
     }
 
     /// An error of a factorisation, with the unknown's name.
@@ -410,6 +411,7 @@ fn hold(
     let mut imbalance = 0.0;
     // Refined: multipliers are as exact as forces.
     for _ in 0..3 {
+        state.kinematics.show_multipliers(&state.multipliers);
         let at = point(&state.kinematics, (&still, &unchanged), &state.multipliers, zeros);
         system.residual(&at, &mut residual);
         // Places stay: violations are none of the state's concern here.

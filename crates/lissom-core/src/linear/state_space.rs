@@ -49,6 +49,12 @@ pub enum StateSpaceError {
     /// Some freedoms have no mass.
     #[error("freedoms without mass are left, whose velocities are no states")]
     Massless,
+    /// Forces depend on normal forces.
+    #[error(
+        "creep forces of wheels on rails depend on the normal forces, which first-order equations have not among their states; \
+         `lissom modes` and `lissom response` know them"
+    )]
+    NormalForces,
     /// A reaction that is recorded is not unique.
     #[error("a reaction among the outputs is not unique, because constraints repeat each other")]
     Redundant,
@@ -71,6 +77,9 @@ impl LinearModel<'_> {
         }
         if inputs.iter().any(|input| input[count..].iter().any(|&value| value != 0.0)) {
             return Err(StateSpaceError::PrescribedInput);
+        }
+        if self.system.sees_multipliers() {
+            return Err(StateSpaceError::NormalForces);
         }
         let reduced = self.reduced(inputs)?;
         reduced.with_outputs(self, outputs, inputs)

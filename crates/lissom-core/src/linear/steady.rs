@@ -92,9 +92,11 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
             *violation -= start;
         }
         let (still, unchanged) = nothing(&state.kinematics);
+        state.kinematics.show_multipliers(&state.multipliers);
         let at = point(&state.kinematics, (&still, &unchanged), &state.multipliers, &violations);
         system.residual(&at, &mut residual);
         system.linearize(&at, Chart::Departures(&state.kinematics.nodes), &mut parts);
+        parts.fold_multipliers();
         shifted
             .factor(&parts, Complex64::from(SMALL * rate))
             .map_err(|error| stopped(system, time, &error))?;

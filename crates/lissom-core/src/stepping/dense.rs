@@ -46,6 +46,7 @@ pub(crate) fn interpolate(from: &State, to: &State, time: f64, out: &mut State) 
     for ((own, a), b) in out.multipliers.iter_mut().zip(&from.multipliers).zip(&to.multipliers) {
         *own = between(*a, *b);
     }
+    out.kinematics.show_multipliers(&out.multipliers);
 }
 
 /// Place and rate at x of the cubic from 0 to `whole` with these rates at its ends.

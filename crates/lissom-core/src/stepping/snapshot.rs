@@ -80,6 +80,8 @@ struct StateNumbers {
     coordinates: Vec<[f64; 3]>,
     held: Vec<f64>,
     multipliers: Vec<f64>,
+    /// Whether elements see them.
+    shows_multipliers: bool,
     violations: Vec<f64>,
     algorithmic: Vec<f64>,
     position_remainders: Vec<[f64; 3]>,
@@ -97,7 +99,7 @@ impl From<&State> for StateNumbers {
             position_remainders,
             accumulated,
         } = state;
-        let Kinematics { time, elapsed, nodes, coordinates, held } = kinematics;
+        let Kinematics { time, elapsed, nodes, coordinates, held, multipliers: shown } = kinematics;
         let of_node = |node: &NodeMotion| {
             let mut numbers = [0.0; 19];
             numbers[..4].copy_from_slice(&node.frame.rotation.quaternion());
@@ -114,6 +116,7 @@ impl From<&State> for StateNumbers {
             coordinates: coordinates.iter().map(|own| [own.value, own.rate, own.acceleration]).collect(),
             held: held.clone(),
             multipliers: multipliers.clone(),
+            shows_multipliers: !shown.is_empty(),
             violations: violations.clone(),
             algorithmic: algorithmic.clone(),
             position_remainders: position_remainders.iter().map(|place| (*place).into()).collect(),
@@ -144,6 +147,7 @@ impl From<&StateNumbers> for State {
                     .map(|&[value, rate, acceleration]| CoordinateMotion { value, rate, acceleration })
                     .collect(),
                 held: numbers.held.clone(),
+                multipliers: if numbers.shows_multipliers { numbers.multipliers.clone() } else { Vec::new() },
             },
             multipliers: numbers.multipliers.clone(),
             violations: numbers.violations.clone(),

@@ -77,6 +77,8 @@ pub struct Linearization {
     pub gram: Vec<f64>,
     /// B and Bᵀ in the multipliers' rows and columns.
     pub constraint: Vec<f64>,
+    /// Derivatives of elements' forces by multipliers, in the multipliers' columns.
+    pub by_multiplier: Vec<f64>,
     pub(super) scratch: Option<Box<Scratch>>,
 }
 
@@ -102,7 +104,8 @@ impl Linearization {
             damping: zeros.clone(),
             mass: zeros.clone(),
             gram: zeros.clone(),
-            constraint: zeros,
+            constraint: zeros.clone(),
+            by_multiplier: zeros,
             scratch: None,
         }
     }
@@ -125,10 +128,22 @@ impl Linearization {
         linearization
     }
 
+    /// Puts derivatives by multipliers to those of the constraints, Bᵀ in their columns: B stays in their rows.
+    pub(crate) fn fold_multipliers(&mut self) {
+        for (entry, value) in self.constraint.iter_mut().zip(&mut self.by_multiplier) {
+            *entry += std::mem::take(value);
+        }
+    }
+
     pub(super) fn clear(&mut self) {
-        for values in
-            [&mut self.stiffness, &mut self.damping, &mut self.mass, &mut self.gram, &mut self.constraint]
-        {
+        for values in [
+            &mut self.stiffness,
+            &mut self.damping,
+            &mut self.mass,
+            &mut self.gram,
+            &mut self.constraint,
+            &mut self.by_multiplier,
+        ] {
             values.fill(0.0);
         }
     }

@@ -38,6 +38,8 @@ pub(crate) struct Batch<E> {
 /// A batch of any kind.
 pub(crate) trait AnyBatch: Send + Sync {
     fn len(&self) -> usize;
+    /// Whether forces depend on multipliers.
+    fn sees_multipliers(&self) -> bool;
     fn connect(&mut self, layout: &Layout);
     fn locate(&mut self, pattern: &Pattern);
     /// Free rows of each item.
@@ -184,6 +186,10 @@ impl<E: Element> AnyBatch for Batch<E> {
         self.items.len()
     }
 
+    fn sees_multipliers(&self) -> bool {
+        self.items.iter().any(|item| !item.multipliers().is_empty())
+    }
+
     fn connect(&mut self, layout: &Layout) {
         self.rows.clear();
         self.starts = vec![0];
@@ -194,6 +200,8 @@ impl<E: Element> AnyBatch for Batch<E> {
             self.rows.extend(
                 item.coordinates().iter().map(|&coordinate| layout.row_of_coordinate(coordinate) as u32),
             );
+            let first = layout.coordinate_count();
+            self.rows.extend(item.multipliers().iter().map(|&multiplier| (first + multiplier) as u32));
             self.starts.push(self.rows.len());
         }
         self.blocks = E::blocks(&self.items);

@@ -24,6 +24,7 @@ use super::places::{Places, free_rows, position_of};
 use super::state::{CoordinateId, CoordinateMotion, Kinematics, NodeId, NodeMotion, State};
 use super::{CoordinateMass, Drive, ElementId, GROUND, System};
 use crate::elements::Element;
+use crate::elements::creep_force::CreepForce;
 use crate::elements::inertia::{Gravity, Inertia};
 use crate::joints::attached::{AttachedJoint, CarriedFrame};
 use crate::joints::blocks::Batches;
@@ -301,6 +302,10 @@ impl Builder {
         }
         let impulses =
             joint.contact().map_or_else(Vec::new, |contact| self.add_rolling(name, carried, contact));
+        if let (Some(contact), Some(law)) = (joint.rail_contact(), joint.creep()) {
+            self.add_element(CreepForce::new(carried, first_multiplier, contact.clone(), law.clone()));
+            self.last = None;
+        }
         self.joints.push(AttachedJoint {
             name: name.to_owned(),
             kind: kind.name,
@@ -536,6 +541,7 @@ impl Builder {
     }
 
     fn initial_state(&self, layout: &Layout, time: f64, held: Vec<f64>) -> State {
+        let sees_multipliers = self.batches.iter().any(|batch| batch.sees_multipliers());
         let coordinates = self
             .coordinates
             .iter()
@@ -552,6 +558,7 @@ impl Builder {
                 nodes: self.nodes.iter().map(|node| node.motion).collect(),
                 coordinates,
                 held,
+                multipliers: if sees_multipliers { vec![0.0; layout.multiplier_count] } else { Vec::new() },
             },
             multipliers: vec![0.0; layout.multiplier_count],
             violations: vec![0.0; layout.multiplier_count],

@@ -293,6 +293,10 @@ impl AnyBatch for Arc<Feedback> {
         0
     }
 
+    fn sees_multipliers(&self) -> bool {
+        false
+    }
+
     fn connect(&mut self, _: &Layout) {}
 
     fn locate(&mut self, _: &Pattern) {}

@@ -147,6 +147,11 @@ impl System {
         &self.feedback.graph
     }
 
+    /// Whether forces of elements depend on multipliers.
+    pub fn sees_multipliers(&self) -> bool {
+        self.batches.iter().any(|batch| batch.sees_multipliers())
+    }
+
     /// Whether forces depend on the motion through signals, or there are states.
     pub fn has_feedback(&self) -> bool {
         self.feedback.depends_on_motion() || self.layout.state_count() > 0

@@ -20,7 +20,7 @@ pub struct Blend<T> {
     pub acceleration: T,
     /// Of BᵀWB.
     pub augmented: f64,
-    /// Of B and Bᵀ.
+    /// Of B and Bᵀ, and of derivatives of elements' forces by multipliers.
     pub constraint: f64,
 }
 
@@ -71,6 +71,10 @@ impl Receiver<'_> {
             Self::Apart(out) => {
                 for (position, i, j) in place.runs.iter().flat_map(|run| run.entries()) {
                     let entry = i * local.size() + j;
+                    if j >= local.first_multiplier() {
+                        out.by_multiplier[position] += local.stiffness[entry];
+                        continue;
+                    }
                     out.stiffness[position] += local.stiffness[entry];
                     out.damping[position] += local.damping[entry];
                     out.mass[position] += local.mass[entry];
@@ -133,16 +137,19 @@ impl<T: Scalar> Sum<'_, T> {
 
     fn add_element(&mut self, place: Place<'_>, local: &Tangents) {
         let (size, blend) = (local.size(), self.blend);
-        for run in place.runs {
+        let Place { rows, runs } = place;
+        for run in runs {
             let first = usize::from(run.row) * size + usize::from(run.column);
+            let is_multiplier = usize::from(run.column) >= local.first_multiplier();
+            let place = if is_multiplier { blend.constraint } else { blend.place };
             for (k, value) in self.values[run.positions()].iter_mut().enumerate() {
                 let entry = first + k * size;
-                *value += T::from_real(blend.place * local.stiffness[entry])
+                *value += T::from_real(place * local.stiffness[entry])
                     + blend.rate * T::from_real(local.damping[entry])
                     + blend.acceleration * T::from_real(local.mass[entry]);
             }
         }
-        for (i, &row) in place.rows.iter().enumerate() {
+        for (i, &row) in rows.iter().enumerate() {
             // Locked rows are beyond all.
             if let Some(sum) = self.stiffness.get_mut(row as usize) {
                 *sum += local.stiffness[i * size + i];

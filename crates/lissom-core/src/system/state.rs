@@ -141,6 +141,17 @@ pub struct Kinematics {
     pub coordinates: Vec<CoordinateMotion>,
     /// Held values, constant within a step: inputs, and signals between two samples.
     pub held: Vec<f64>,
+    /// Multipliers as elements see them whose forces depend on them [N, N m]; empty where there are none of these.
+    pub multipliers: Vec<f64>,
+}
+
+impl Kinematics {
+    /// Lets elements see these multipliers, if any of them does.
+    pub fn show_multipliers(&mut self, multipliers: &[f64]) {
+        if !self.multipliers.is_empty() {
+            self.multipliers.copy_from_slice(multipliers);
+        }
+    }
 }
 
 /// The state between two steps.

@@ -84,7 +84,7 @@ impl Relation for Bent {
 
 /// Free play would leave most configurations without force; the others are another way to give `dissipation`.
 /// Wheels touch the plane whatever their size; those that are round or creep are looked at apart.
-const LEFT_OUT: [&str; 8] = [
+const LEFT_OUT: [&str; 22] = [
     "traction",
     "backlash",
     "restitution",
@@ -93,6 +93,20 @@ const LEFT_OUT: [&str; 8] = [
     "rim",
     "friction_coefficient",
     "creep",
+    "axle",
+    "cone_angle",
+    "cant",
+    "offset",
+    "wheel_profile",
+    "rail_profile",
+    "tread",
+    "shear_modulus",
+    "poisson_number",
+    "kalker",
+    "ellipse",
+    "velocity",
+    "wheel_spin",
+    "directions",
 ];
 
 /// A value for every parameter of a kind.
@@ -183,7 +197,10 @@ impl Configuration {
             coordinate.acceleration = random.number();
             coordinate_increments.push(change);
         }
-        let multipliers = state.multipliers.iter().map(|_| random.number()).collect();
+        // Wheels that creep are pressed to their rails: without that there is no force.
+        let pressed = if system.sees_multipliers() { -2.0 } else { 0.0 };
+        let multipliers: Vec<f64> = state.multipliers.iter().map(|_| pressed + random.number()).collect();
+        at.show_multipliers(&multipliers);
         let mut violations = vec![0.0; state.multipliers.len()];
         system.violations(&start, &mut violations);
         let changes = node_increments.iter().map(MotionChange::exponential).collect();
@@ -228,7 +245,10 @@ impl Configuration {
                 moved.at.coordinates[coordinate].value += change;
                 moved.coordinate_increments[coordinate] += change;
             }
-            Unknown::Multiplier(k) => moved.multipliers[k] += change,
+            Unknown::Multiplier(k) => {
+                moved.multipliers[k] += change;
+                moved.at.show_multipliers(&moved.multipliers);
+            }
         }
         moved
     }

@@ -43,7 +43,9 @@ fn check(name: &str, system: &System, state: &State, size: f64, random: &mut Ran
                 difference(|step| here.accelerated(system, column, step, 2).residual(system, 0.0));
             for row in 0..layout.size() {
                 let at = |values: &[f64]| pattern.position(row, column).map_or(0.0, |p| values[p]);
-                let place = at(&linearization.stiffness) + at(&linearization.constraint);
+                let forces =
+                    [&linearization.stiffness, &linearization.constraint, &linearization.by_multiplier];
+                let place: f64 = forces.map(|values| at(values)).iter().sum();
                 for (what, exact, found) in [
                     ("stiffness", place, by_place[row]),
                     ("damping", at(&linearization.damping), by_rate[row]),
@@ -88,7 +90,7 @@ fn check_sum(name: &str, apart: &Linearization, hand: impl Fn(&mut Receiver<'_>)
             + blend.rate * apart.damping[k]
             + blend.acceleration * apart.mass[k]
             + blend.augmented * apart.gram[k]
-            + blend.constraint * apart.constraint[k];
+            + blend.constraint * (apart.constraint[k] + apart.by_multiplier[k]);
         assert!((found - wanted).abs() < 1e-12 * (1.0 + wanted.abs()), "{name}: sum {found}, {wanted} apart");
     }
 }

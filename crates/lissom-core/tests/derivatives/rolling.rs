@@ -60,6 +60,71 @@ impl TimeFunction for Grip {
     }
 }
 
+/// Wheels on rails of all profiles that creep, with directions of both kinds: forces depend on the multiplier as well.
+#[test]
+fn wheels_that_creep_on_rails() {
+    let kind = joints::KINDS.iter().find(|kind| kind.name == "wheel_on_rail").expect("there");
+    for seed in 0..16_u64 {
+        let (is_given, is_small, is_below) = (seed % 2 == 1, seed % 4 >= 2, seed % 8 >= 4);
+        let mut random = Random::new(seed + 31);
+        let mut builder = Builder::new();
+        let plane = random.motion();
+        let base = builder.add_node("base", random.motion(), Freedoms::Full);
+        let height = if is_below { -0.9 } else { 0.9 };
+        let centre = plane.transform_point(&Vector3::new(0.1, height, 0.2));
+        let tip =
+            builder.add_node("tip", Motion::translation(centre) * random_turn(&mut random), Freedoms::Full);
+        let direction = |v: Vector3| Value::Vector(plane.rotation.apply(&v));
+        let placement = Placement {
+            nodes: [base, tip],
+            at: plane.position,
+            at_tip: None,
+            axis: Some(plane.rotation.apply(&Vector3::x())),
+            second_axis: Some(plane.rotation.apply(&Vector3::y())),
+        };
+        let mut parameters = Parameters::new()
+            .with("axle", direction(Vector3::new(if is_below { -1.0 } else { 1.0 }, 0.1, 0.2)))
+            .with("friction_coefficient", Value::Number(1.0))
+            .with("shear_modulus", Value::Number(4.0))
+            .with("kalker", Value::Vector(Vector3::new(0.5, 0.4, 0.2)))
+            .with("velocity", direction(Vector3::new(0.0, 0.0, 20.0)))
+            .with("wheel_spin", Value::Number(21.0))
+            .with("directions", Value::Text((if is_small { "small_angles" } else { "exact" }).to_owned()));
+        if is_given {
+            parameters.insert("wheel_profile", Value::Function(Arc::new(Parabola(-0.2, -0.3))));
+            parameters.insert("rail_profile", Value::Function(Arc::new(Parabola(0.2, -1.1))));
+            parameters.insert("tread", Value::Range([-1.0, 1.0]));
+        } else {
+            parameters.insert("cone_angle", Value::Number(0.2));
+            parameters.insert("head_radius", Value::Number(0.8));
+        }
+        builder.add_joint("joint", kind, &placement, &parameters).expect("valid");
+        let (system, state) = builder.build(0.0).expect("valid");
+        check("wheel_on_rail", &system, &state, 0.1, &mut random);
+    }
+}
+
+fn random_turn(random: &mut Random) -> Motion {
+    let turn = 0.3 * random.vector();
+    Motion::exponential(&lissom_motion::screw(&Vector3::zeros(), &turn))
+}
+
+/// a x + b x².
+#[derive(Debug)]
+struct Parabola(f64, f64);
+
+impl TimeFunction for Parabola {
+    fn value(&self, x: f64) -> f64 {
+        self.0 * x + self.1 * x * x
+    }
+    fn first_derivative(&self, x: f64) -> f64 {
+        self.0 + 2.0 * self.1 * x
+    }
+    fn second_derivative(&self, _: f64) -> f64 {
+        2.0 * self.1
+    }
+}
+
 #[test]
 fn round_and_creeping_wheels() {
     let kind = joints::KINDS.iter().find(|kind| kind.name == "rolling").expect("there");

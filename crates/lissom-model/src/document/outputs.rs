@@ -40,6 +40,8 @@ pub enum OutputKind {
     RelativeAcceleration,
     /// Place [m] and rotation vector [rad] of a joint's tip frame in its base frame.
     RelativeMotion,
+    /// Where a wheel touches its rail, and what acts there.
+    Contact,
     /// Elongation, rate and force of a spring [m, m/s, N or rad, rad/s, N m].
     Spring,
     /// Power that a spring, load, drive or friction puts into the model [W].
@@ -66,7 +68,7 @@ pub enum OutputKind {
 
 impl OutputKind {
     /// All of them, in the order of the manual.
-    pub const ALL: [Self; 23] = [
+    pub const ALL: [Self; 24] = [
         Self::Position,
         Self::Displacement,
         Self::Rotation,
@@ -83,6 +85,7 @@ impl OutputKind {
         Self::Relative,
         Self::RelativeAcceleration,
         Self::RelativeMotion,
+        Self::Contact,
         Self::Spring,
         Self::Power,
         Self::Work,
@@ -107,6 +110,7 @@ impl OutputKind {
             Self::Relative => "relative",
             Self::RelativeAcceleration => "relative_acceleration",
             Self::RelativeMotion => "relative_motion",
+            Self::Contact => "contact",
             Self::Spring => "spring",
             Self::Power => "power",
             Self::Work => "work",
@@ -137,6 +141,9 @@ impl OutputKind {
             Self::RelativeAcceleration => "Accelerations of a joint's relative coordinates.",
             Self::RelativeMotion => {
                 "Place and rotation vector of a joint's tip frame, in the axes of its base frame."
+            }
+            Self::Contact => {
+                "Place of contact of a wheel on a rail, its normal force, creep forces and creepages."
             }
             Self::Spring => "Elongation or rotation of a spring, its rate, and its force or moment.",
             Self::Power => {
@@ -182,7 +189,14 @@ impl OutputKind {
 
     /// Whether it belongs to a joint.
     pub(crate) fn is_of_joint(self) -> bool {
-        matches!(self, Self::Reaction | Self::Relative | Self::RelativeAcceleration | Self::RelativeMotion)
+        matches!(
+            self,
+            Self::Reaction
+                | Self::Relative
+                | Self::RelativeAcceleration
+                | Self::RelativeMotion
+                | Self::Contact
+        )
     }
 
     /// Whether it is a vector of a motion, which an observer may see otherwise.

@@ -114,6 +114,7 @@ fn of_output(
         | OutputKind::Reaction
         | OutputKind::RelativeAcceleration
         | OutputKind::RelativeMotion
+        | OutputKind::Contact
         | OutputKind::Spring
         | OutputKind::Power
         | OutputKind::Work

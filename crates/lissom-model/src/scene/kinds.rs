@@ -88,6 +88,14 @@ fn joint(kind: &str) -> Option<Drawn> {
         "rolling" => {
             Solids(|[_, t]| [Vec::new(), vec![t.ring(1.5, 0.2, 0.0, Dark), t.cylinder(0, 0.3, 0.6, Light)]])
         }
+        // A rail, and the wheel on it.
+        "wheel_on_rail" => Solids(|[b, t]| {
+            let rail = [
+                b.block([0.7, 0.5, 9.0], [0.0, -0.25, 0.0], Light),
+                b.block([0.25, 1.2, 9.0], [0.0, -1.1, 0.0], Light),
+            ];
+            [rail.to_vec(), vec![t.cylinder(0, 1.5, 0.5, Dark), t.cylinder(0, 0.3, 1.2, Light)]]
+        }),
         "prescribed_motion" => Solids(|[b, _]| base([b.arrow(Drive), b.turn(Drive)].concat())),
         "prescribed_rotation" => Solids(|[b, _]| base(b.turn(Drive))),
         "prescribed_displacement" => Solids(|[b, _]| base(b.arrow(Drive))),

@@ -87,10 +87,11 @@ fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Opti
             let second = second_axis.as_ref().map(|axis| axis.value);
             // Without an axis that matters, that of the first base axis or of the model.
             let first = axis.as_ref().map_or_else(Vector3::y, |axis| axis.value);
-            let on_tip = given("tip_axis").or_else(|| given("wheel_axis")).unwrap_or(first);
+            let on_tip =
+                given("tip_axis").or_else(|| given("wheel_axis")).or_else(|| given("axle")).unwrap_or(first);
             let at_tip = match component.kind.value.as_str() {
                 // The arm leads from the hinge to the tip's own place, and a wheel's centre lies there.
-                "swing_arm" | "rolling" => places.frame(places.node(&tip.value)?).position,
+                "swing_arm" | "rolling" | "wheel_on_rail" => places.frame(places.node(&tip.value)?).position,
                 _ => *at,
             };
             Some(vec![end(base, at, &first, second.as_ref())?, end(tip, &at_tip, &on_tip, second.as_ref())?])

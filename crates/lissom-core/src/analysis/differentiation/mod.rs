@@ -79,14 +79,15 @@ struct Lanes {
 
 impl Sensitivities {
     /// Of no number yet. None where the steps of `base` cannot be differentiated in this way: with velocities that are projected
-    /// after a step, steps of chosen size, feedback, wheels that roll.
+    /// after a step, steps of chosen size, feedback, wheels that roll or creep.
     pub fn new(base: &Simulation) -> Option<Self> {
         let settings = base.settings();
         let layout = base.system.layout();
         let is_known = settings.scheme.tableau.as_ref().is_none_or(Tableau::is_stiffly_accurate)
             && settings.control.is_none()
             && !base.system.has_feedback()
-            && layout.impulses().next().is_none();
+            && layout.impulses().next().is_none()
+            && !base.system.sees_multipliers();
         is_known.then(|| Self {
             numbers: Vec::new(),
             variations: Vec::new(),

@@ -59,6 +59,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "spherical": joints.Spherical,
         "swing_arm": joints.SwingArm,
         "universal": joints.Universal,
+        "wheel_on_rail": joints.WheelOnRail,
     },
     "springs": {
         "axial": springs.Axial,
@@ -102,6 +103,7 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "relative": outputs.Relative,
         "relative_acceleration": outputs.RelativeAcceleration,
         "relative_motion": outputs.RelativeMotion,
+        "contact": outputs.Contact,
         "spring": outputs.Spring,
         "power": outputs.Power,
         "work": outputs.Work,

@@ -842,3 +842,72 @@ class Universal(Joint):
     at_tip: Place | None = None
     axis_at_tip: Vector | None = None
     second_axis_at_tip: Vector | None = None
+
+
+@dataclass(kw_only=True, slots=True)
+class WheelOnRail(Joint):
+    """A wheel runs on a rail of the base, which is straight, without leaving it; it creeps where it is said how.
+
+    Args:
+        in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
+        base: the node it starts from: "ground", "body", "beam.end" …; a node.
+        tip: the node it leads to; a node.
+        at: location; default: the tip node's place [m]; a place, or nothing.
+        axis: direction at the start, global axes; three numbers, not all zero.
+        second_axis: second direction at the start, global axes; three numbers, not all zero.
+        axle: Axis of the wheel at the start, global axes; it goes through the tip's place. Default: `axis`; three numbers, not all zero, or nothing.
+        radius: Radius of the wheel at its nominal circle; default: so that it touches the rail at the start [m]; a number > 0, or nothing.
+        offset: Distance of the nominal circle from the tip's place along the wheel's axis, outwards positive; default: above the rail's point `at` at the start [m]; a number, or nothing.
+        cone_angle: Angle of the wheel's cone: its radius falls outwards by the tangent; default 0 [rad]; a number, or nothing.
+        wheel_profile: Instead of `cone_angle`: radius beyond the nominal one over the place `y` along the axis, outwards from the nominal circle; needs `tread` [m]; an expression of `y`, or a table of it written as a function of time, or nothing.
+        tread: Places `y` of the wheel at which it may touch: beyond them a warning tells; default half the radius to both sides [m]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
+        head_radius: Radius of the rail's head, a circle through the point `at` [m]; a number > 0, or nothing.
+        cant: Angle by which the head rises outwards at the point `at`; default `cone_angle` [rad]; a number, or nothing.
+        rail_profile: Instead of `head_radius`: height of the rail over the lateral place `y`, outwards from the point `at`, where it is 0 [m]; an expression of `y`, or a table of it written as a function of time, or nothing.
+        friction_coefficient: Limit of the creep force over the normal force. Without it the rail does not hold the wheel along and across; a number > 0, or nothing.
+        shear_modulus: Shear modulus of wheel and rail, of creep forces [N/m^2]; a number > 0, or nothing.
+        poisson_number: Poisson's number; default 0.28; a number ≥ 0, or nothing.
+        kalker: Kalker's coefficients of longitudinal, lateral and spin creep: C11, C22, C23; three numbers, or nothing.
+        ellipse: Elliptic integral E and ratio g of the half axes of the ellipse of contact, as tables give them; default: those of Hertz for the nominal curvatures; a list of numbers, or nothing.
+        velocity: Velocity of the base along the rail, for models in axes that run with a vehicle; default 0 [m/s]; three numbers, or nothing.
+        wheel_spin: Angular velocity of the wheel relative to the tip about `axle`, for tips that do not turn with it; default 0 [rad/s]; a number, or nothing.
+        directions: Directions of creep forces: in the tangent plane, or those of Simeon, Fuehrer and Rentrop 1991; default `exact`; `"exact"`, `"small_angles"`, or nothing.
+        friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
+        latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
+        release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
+        at_tip: location on the tip as it is placed, if elsewhere than `at`; needs [assembly] [m]; a place, or nothing.
+        axis_at_tip: direction of `axis` on the tip as it is placed, if another; needs `at_tip`; three numbers, not all zero, or nothing.
+        second_axis_at_tip: direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`; three numbers, not all zero, or nothing.
+    """
+
+    _form: ClassVar[str] = "wheel_on_rail"
+
+    in_: str | None = None
+    base: str
+    tip: str
+    at: Place | None = None
+    axis: Vector
+    second_axis: Vector
+    axle: Vector | None = None
+    radius: Number | None = None
+    offset: Number | None = None
+    cone_angle: Number | None = None
+    wheel_profile: Function | None = None
+    tread: Vector | None = None
+    head_radius: Number | None = None
+    cant: Number | None = None
+    rail_profile: Function | None = None
+    friction_coefficient: Number | None = None
+    shear_modulus: Number | None = None
+    poisson_number: Number | None = None
+    kalker: Vector | None = None
+    ellipse: Vector | None = None
+    velocity: Vector | None = None
+    wheel_spin: Number | None = None
+    directions: Literal["exact", "small_angles"] | None = None
+    friction: Table | None = None
+    latch: Table | None = None
+    release: Number | None = None
+    at_tip: Place | None = None
+    axis_at_tip: Vector | None = None
+    second_axis_at_tip: Vector | None = None

@@ -276,6 +276,19 @@ class RelativeMotion(Output):
 
 
 @dataclass(kw_only=True, slots=True)
+class Contact(Output):
+    """Place of contact of a wheel on a rail, its normal force, creep forces and creepages.
+
+    Args:
+        of: the joint; the name of an entry of `[joints]`.
+    """
+
+    _form: ClassVar[str] = "contact"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
 class Spring(Output):
     """Elongation or rotation of a spring, its rate, and its force or moment.
 

@@ -357,6 +357,53 @@ entry! {
     new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", second_axis: [f64; 3] = "second_axis")
 }
 
+entry! {
+    /// A wheel runs on a rail of the base, which is straight, without leaving it; it creeps where it is said how.
+    WheelOnRail => JointId, "wheel_on_rail";
+    ["kind" = "wheel_on_rail"]
+    /// With what must be given.
+    ///
+    /// - `base`: the node it starts from: "ground", "body", "beam.end" …
+    /// - `tip`: the node it leads to
+    /// - `axis`: direction at the start, global axes
+    /// - `second_axis`: second direction at the start, global axes
+    new(base: Node = "base", tip: Node = "tip", axis: [f64; 3] = "axis", second_axis: [f64; 3] = "second_axis")
+    /// Axis of the wheel at the start, global axes; it goes through the tip's place. Default: `axis`.
+    axle: [f64; 3] = "axle";
+    /// Radius of the wheel at its nominal circle; default: so that it touches the rail at the start \[m\].
+    radius: f64 = "radius";
+    /// Distance of the nominal circle from the tip's place along the wheel's axis, outwards positive; default: above the rail's point `at` at the start \[m\].
+    offset: f64 = "offset";
+    /// Angle of the wheel's cone: its radius falls outwards by the tangent; default 0 \[rad\].
+    cone_angle: f64 = "cone_angle";
+    /// Instead of `cone_angle`: radius beyond the nominal one over the place `y` along the axis, outwards from the nominal circle; needs `tread` \[m\].
+    wheel_profile: Function = "wheel_profile";
+    /// Places `y` of the wheel at which it may touch: beyond them a warning tells; default half the radius to both sides \[m\].
+    tread: [f64; 2] = "tread";
+    /// Radius of the rail's head, a circle through the point `at` \[m\].
+    head_radius: f64 = "head_radius";
+    /// Angle by which the head rises outwards at the point `at`; default `cone_angle` \[rad\].
+    cant: f64 = "cant";
+    /// Instead of `head_radius`: height of the rail over the lateral place `y`, outwards from the point `at`, where it is 0 \[m\].
+    rail_profile: Function = "rail_profile";
+    /// Limit of the creep force over the normal force. Without it the rail does not hold the wheel along and across.
+    friction_coefficient: f64 = "friction_coefficient";
+    /// Shear modulus of wheel and rail, of creep forces \[N/m^2\].
+    shear_modulus: f64 = "shear_modulus";
+    /// Poisson's number; default 0.28.
+    poisson_number: f64 = "poisson_number";
+    /// Kalker's coefficients of longitudinal, lateral and spin creep: C11, C22, C23.
+    kalker: [f64; 3] = "kalker";
+    /// Elliptic integral E and ratio g of the half axes of the ellipse of contact, as tables give them; default: those of Hertz for the nominal curvatures.
+    ellipse: Vec<f64> = "ellipse";
+    /// Velocity of the base along the rail, for models in axes that run with a vehicle; default 0 \[m/s\].
+    velocity: [f64; 3] = "velocity";
+    /// Angular velocity of the wheel relative to the tip about `axle`, for tips that do not turn with it; default 0 \[rad/s\].
+    wheel_spin: f64 = "wheel_spin";
+    /// Directions of creep forces: in the tangent plane, or those of Simeon, Fuehrer and Rentrop 1991; default `exact`.
+    directions: words::Directions = "directions";
+}
+
 nested! {
     /// Friction in a joint.
     Friction;
@@ -394,7 +441,7 @@ keys! {
 }
 
 keys! {
-    [Cam, Clamp, ConstantVelocity, Cylindrical, Distance, Equation, Gear, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Slider, Spherical, SwingArm, Universal]
+    [Cam, Clamp, ConstantVelocity, Cylindrical, Distance, Equation, Gear, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Slider, Spherical, SwingArm, Universal, WheelOnRail]
     /// Friction on its only coordinate.
     friction: Friction = "friction";
     /// A latch that engages where its only coordinate is first `at` a value, and holds it there.
@@ -404,7 +451,7 @@ keys! {
 }
 
 keys! {
-    [Clamp, ConstantVelocity, Cylindrical, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Spherical, SwingArm, Universal]
+    [Clamp, ConstantVelocity, Cylindrical, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, RigidLink, Rolling, Screw, Spherical, SwingArm, Universal, WheelOnRail]
     /// Location; default: the tip node's place \[m\].
     at: [f64; 3] = "at";
     /// Location on the tip as it is placed, if elsewhere than `at`; needs \[assembly\] \[m\].
@@ -412,7 +459,7 @@ keys! {
 }
 
 keys! {
-    [ConstantVelocity, Cylindrical, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, Rolling, Screw, SwingArm, Universal]
+    [ConstantVelocity, Cylindrical, Generic, Inline, ParallelAxes, PerpendicularAxes, Planar, PointInPlane, PointOnLine, PrescribedMotion, Prismatic, Revolute, Rolling, Screw, SwingArm, Universal, WheelOnRail]
     /// Direction of `axis` on the tip as it is placed, if another; needs `at_tip`.
     axis_at_tip: [f64; 3] = "axis_at_tip";
 }
@@ -438,7 +485,7 @@ keys! {
 }
 
 keys! {
-    [Generic, PerpendicularAxes, PrescribedMotion, Universal]
+    [Generic, PerpendicularAxes, PrescribedMotion, Universal, WheelOnRail]
     /// Direction of `second_axis` on the tip as it is placed; needs `axis_at_tip`.
     second_axis_at_tip: [f64; 3] = "second_axis_at_tip";
 }

@@ -171,6 +171,16 @@ entry! {
 }
 
 entry! {
+    /// Place of contact of a wheel on a rail, its normal force, creep forces and creepages.
+    Contact => OutputId, "contact";
+    ["kind" = "contact"]
+    /// With what must be given.
+    ///
+    /// - `of`: the joint
+    new(of: JointId = "of")
+}
+
+entry! {
     /// Elongation or rotation of a spring, its rate, and its force or moment.
     Spring => OutputId, "spring";
     ["kind" = "spring"]

@@ -27,6 +27,13 @@ words! {
 }
 
 words! {
+    /// One of `exact`, `small_angles`.
+    Directions;
+    Exact = "exact";
+    SmallAngles = "small_angles";
+}
+
+words! {
     /// One of `x`, `y`, `z`, `rx`, `ry`, `rz`.
     Locked;
     X = "x";

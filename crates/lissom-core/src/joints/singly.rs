@@ -1,0 +1,104 @@
+//! Joints whose equations are no formulas over the lanes of a vector register, such as those with a search inside: they
+//! are evaluated one by one.
+
+use std::any::Any;
+use std::ops::Range;
+
+use lissom_motion::WIDTH;
+
+use super::Equations;
+use super::attached::AttachedJoint;
+use super::blocks::{JointBatch, Results, StartBlock, Wanted};
+use super::derivatives::{Derivatives, LOCAL};
+use crate::system::{Chart, Kinematics, Point};
+
+/// Such joints of all kinds.
+pub(crate) struct Singly {
+    joints: Vec<AttachedJoint>,
+    indices: Vec<u32>,
+    starts: Vec<usize>,
+}
+
+impl Singly {
+    pub(super) fn new() -> Self {
+        Self { joints: Vec::new(), indices: Vec::new(), starts: vec![0] }
+    }
+
+    pub(super) fn push(&mut self, index: usize, joint: AttachedJoint) {
+        let last = self.starts[self.starts.len() - 1];
+        self.starts.push(last + LOCAL + joint.equations());
+        self.indices.push(index as u32);
+        self.joints.push(joint);
+    }
+}
+
+impl JointBatch for Singly {
+    fn indices(&self) -> &[u32] {
+        &self.indices
+    }
+
+    fn starts(&self) -> &[usize] {
+        &self.starts
+    }
+
+    fn block_items(&self, block: usize) -> Range<usize> {
+        block * WIDTH..self.joints.len().min((block + 1) * WIDTH)
+    }
+
+    fn begin(&self, _: &Kinematics, _: &mut Vec<StartBlock>) {}
+
+    fn evaluate(
+        &self,
+        wanted: Wanted,
+        point: &Point<'_>,
+        _: Option<&[StartBlock]>,
+        blocks: Range<usize>,
+        add: &mut dyn FnMut(usize, &Results),
+    ) {
+        let mut results = [[0.0; WIDTH]; LOCAL + super::MOST_EQUATIONS];
+        for block in blocks {
+            for (lane, item) in self.block_items(block).enumerate() {
+                let joint = &self.joints[item];
+                let configuration = joint.configuration(&point.increments);
+                let change = joint.joint().violation_change(&configuration.0, &configuration.1);
+                let mut mu = Equations::default();
+                for k in 0..joint.equations() {
+                    let multiplier = joint.first_multiplier + k;
+                    let violation = point.violations[multiplier] + change[k];
+                    let relative = point.augmentation.relative(joint.joint().equation_quantity(k));
+                    mu[k] = point.multipliers[multiplier] + point.augmentation.weight * relative * violation;
+                    results[LOCAL + k][lane] = violation;
+                }
+                if wanted == Wanted::All {
+                    let forces = joint.forces(&configuration, &mu);
+                    for (row, force) in results.iter_mut().zip(forces.iter()) {
+                        row[lane] = *force;
+                    }
+                }
+            }
+            add(block, &results);
+        }
+    }
+
+    fn linearize(
+        &self,
+        _: &[AttachedJoint],
+        point: &Point<'_>,
+        _: Option<&[StartBlock]>,
+        chart: Chart<'_>,
+        scratch: &mut Derivatives,
+        take: &mut dyn FnMut(usize, &mut Derivatives),
+    ) {
+        for (joint, &index) in self.joints.iter().zip(&self.indices) {
+            let configuration = joint.configuration(&point.increments);
+            joint.linearize_for(joint.joint(), &configuration, point, chart, scratch);
+            take(index as usize, scratch);
+        }
+    }
+
+    fn pack(&mut self, _: &[AttachedJoint]) {}
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+}
