@@ -194,12 +194,7 @@ impl Channel {
                 let Motion { rotation, position } = system.joints()[*index].relative_motion(at);
                 out.extend(position.iter().chain(rotation.logarithm().iter()));
             }
-            Source::Contact(index) => {
-                let joint = &system.joints()[*index];
-                let Some(contact) = joint.rail_contact(at, &multipliers(joint, state)) else { return };
-                out.extend([contact.on_wheel, contact.on_rail, contact.shift_angle, contact.normal_force]);
-                out.extend(contact.forces.iter().chain(&contact.creepages));
-            }
+            Source::Contact(index) => evaluate_contact(&system.joints()[*index], state, out),
             Source::Joint(index, axes) => {
                 let joint = &system.joints()[*index];
                 let mu = multipliers(joint, state);
@@ -608,6 +603,13 @@ fn relative(coordinates: &[CoordinateId], system: &System) -> (Vec<String>, Vec<
         units.extend(of_words);
     }
     (components, units)
+}
+
+/// Appends where a wheel touches its rail and what acts there.
+fn evaluate_contact(joint: &AttachedJoint, state: &State, out: &mut Vec<f64>) {
+    let Some(contact) = joint.rail_contact(&state.kinematics, &multipliers(joint, state)) else { return };
+    out.extend([contact.on_wheel, contact.on_rail, contact.shift_angle, contact.normal_force]);
+    out.extend(contact.forces.iter().chain(&contact.creepages));
 }
 
 /// A joint's own of the state's multipliers.

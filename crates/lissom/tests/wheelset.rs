@@ -1,7 +1,9 @@
 //! Wheels on rails: the wheelset of Simeon, Fuehrer and Rentrop 1991 with its published digits, all schemes, stability, and what
 //! is told where the model of one contact ends.
 
+use lissom::modes::{About, ModeReport, ModeRequest, modes};
 use lissom::{Model, Record, SessionError};
+use lissom_core::linear::ModeKind;
 
 const MODEL: &str = include_str!("../../../verification/wheelset/model.toml");
 
@@ -76,22 +78,26 @@ fn the_end_of_ten_seconds_has_the_published_digits() {
     assert!(warnings.is_empty(), "{warnings:?}");
     let found = values(&record, record.times.len() - 1);
     for (k, (found, wanted)) in found.into_iter().zip(PUBLISHED).enumerate() {
-        assert!((found / wanted - 1.0).abs() < 1e-5, "{k}: {found:e} {wanted:e}: {:e}", found / wanted - 1.0);
+        // Multipliers converge with a lower order.
+        let digits = if k < 15 { 1e-5 } else { 2e-5 };
+        assert!(
+            (found / wanted - 1.0).abs() < digits,
+            "{k}: {found:e} {wanted:e}: {:e}",
+            found / wanted - 1.0
+        );
     }
 }
 
-/// The published accelerations belong to multipliers of five digits, which leave 5e-4 N, or 5e-5 m/s²: here they are those
-/// that keep the constraints.
+/// From the equations of 1991 with the multipliers that keep their constraints; the published ones have five digits, and the published
+/// accelerations follow from these. Places of contact are the published ones.
 #[test]
 fn accelerations_and_normal_forces_at_the_start_are_those_of_the_equations() {
     let (record, _) = run(MODEL, &[("analysis.end", "1e-3")]);
-    for (component, wanted) in [
-        ("a1", -1.975_258_894_011_285),
-        ("a2", -1.089_829_710_281_127_6e-3),
-        ("a3", 7.885_508_382_614_259e-2),
-    ] {
+    for (component, wanted) in
+        [("a1", -1.975_257_157_911_888), ("a2", -1.066_580_003e-3), ("a3", 7.883_940_446_7e-2)]
+    {
         let found = record.column("acceleration", component).expect("there")[0];
-        assert!((found - wanted).abs() < 5e-5, "{component}: {found} {wanted}");
+        assert!((found - wanted).abs() < 1e-8, "{component}: {found} {wanted}");
     }
     let start = values(&record, 0);
     for (k, wanted) in [
@@ -99,11 +105,10 @@ fn accelerations_and_normal_forces_at_the_start_are_those_of_the_equations() {
         (12, -0.152_136_429_612_124_8),
         (13, 7.563_440_639_517_294e-6),
         (14, 0.149_063_571_473_381_9),
-        (15, -8.3593e-3),
-        (16, -7.4144e-3),
+        (15, -8.359_184_018_251_93e-3),
+        (16, -7.414_552_841_370_28e-3),
     ] {
-        let digits = if k < 15 { 1e-6 } else { 1e-5 };
-        assert!((start[k] / wanted - 1.0).abs() < digits, "{k}: {} {wanted}", start[k]);
+        assert!((start[k] / wanted - 1.0).abs() < 1e-7, "{k}: {} {wanted}", start[k]);
     }
 }
 
@@ -131,15 +136,14 @@ fn all_schemes_find_the_same_motion() {
 /// The same wheelset seen from the ground, with a body that turns with its wheels: nothing but the description differs.
 #[test]
 fn a_body_that_turns_and_goes_along_moves_as_one_in_axes_that_run_with_it() {
-    let set = [("analysis.end", "0.1"), ("analysis.step", "1e-4")];
+    let set = [("analysis.end", "0.1"), ("analysis.step", "1e-5")];
     let free = MODEL.replace("velocity = [0, 0, \"speed\"]\n", "").replace("wheel_spin = \"spin\"\n", "");
     let from = free.find("[loads.spin]").expect("there");
     let to = free.find("[joints.left]").expect("there");
     let free = free[..from].to_owned() + &free[to..];
     let free = free.replace(
         "[bodies.wheelset]\n",
-        "[bodies.wheelset]\nvelocity = [0, 0, \"speed\"]\nangular_velocity = [\"spin*cos(yaw)*cos(roll)\", \"spin*sin(roll)\", \
-         \"-spin*sin(yaw)*cos(roll)\"]\n",
+        "[bodies.wheelset]\nvelocity = [0, 0, \"speed\"]\nangular_velocity = [\"spin\", 0, 0]\n",
     );
     let free = free.replace("-2*stiffness*centre.z", "-2*stiffness*(centre.z - speed*t)");
     let (still, moving) = (run(MODEL, &set).0, run(&free, &set).0);
@@ -147,7 +151,7 @@ fn a_body_that_turns_and_goes_along_moves_as_one_in_axes_that_run_with_it() {
     let (still, moving) = (values(&still, last), values(&moving, last));
     for k in [0, 1, 3, 4, 5, 6, 8, 9, 12, 14, 15, 16] {
         assert!(
-            (moving[k] - still[k]).abs() < 1e-6 * (1e-3 + still[k].abs()),
+            (moving[k] - still[k]).abs() < 2e-5 * (1e-3 + still[k].abs()),
             "{k}: {} {}",
             moving[k],
             still[k]
@@ -194,7 +198,8 @@ fn what_the_model_does_not_know_is_told() {
         ("cone_angle = \"cone\"", "wheel_profile = \"-0.02*y\"", "must be given with `wheel_profile`"),
         ("friction_coefficient = 0.12", "", "need `friction_coefficient`"),
         ("velocity = [0, 0, \"speed\"]", "velocity = [1, 0, \"speed\"]", "must go along the rail"),
-        ("head_radius = 0.06", "rail_profile = \"0.1 - y^2\"", "leave one of them out"),
+        ("head_radius = 0.06", "rail_profile = \"0.1 - y^2\"", "must be 0 at y = 0"),
+        ("head_radius = 0.06", "head_radius = 0.06\nrail_profile = \"-y^2\"", "leave one of them out"),
     ] {
         let started = Model::from_text("wheelset.toml", &MODEL.replace(from, to)).session(&[]).map(|_| ());
         let Err(SessionError::Model(report)) = started else { panic!("{wanted}") };
@@ -217,5 +222,65 @@ fn profiles_may_be_expressions() {
         for (a, b) in one.iter().zip(other) {
             assert!((a - b).abs() < 1e-11, "{name}: {a} {b}");
         }
+    }
+}
+
+/// The run in the middle of the track.
+fn steady(set: &[(&str, &str)]) -> ModeReport {
+    let middle = ["x0", "y0", "z0", "yaw", "roll"].map(|name| format!("parameters.{name}"));
+    let middle = middle.iter().map(|path| (path.as_str(), "0"));
+    let all: Vec<_> = middle.chain(set.iter().copied()).collect();
+    let request = ModeRequest { count: None, about: Some(About::Time(0.0)), shift: None };
+    modes(&Model::from_text("wheelset.toml", MODEL), &given(&all), &request)
+        .unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// Wavelength of the hunting mode [m], that of lateral place and yaw together, and its damping ratio: the other oscillation is that
+/// along the track, which is hardly damped.
+fn hunting(speed: f64, report: &ModeReport) -> (f64, f64) {
+    let is_hunting = |mode: &&lissom_core::linear::Mode| {
+        matches!(mode.kind, ModeKind::Oscillation | ModeKind::Flutter) && mode.damping.abs() < 0.5
+    };
+    let mode =
+        report.modes.iter().filter(is_hunting).max_by(|a, b| a.damping.abs().total_cmp(&b.damping.abs()));
+    let mode = mode.expect("it hunts");
+    (speed / mode.frequency, mode.damping)
+}
+
+/// Klingel 1883: a slow free wheelset hunts with the wavelength 2π (r b/tan γ)^½, for small angles γ of the cone.
+#[test]
+fn a_slow_wheelset_hunts_with_klingels_wavelength() {
+    for (cone, tolerance) in [("1e-3", 5e-4), ("2e-3", 1e-3), ("1e-2", 4e-3)] {
+        let set = [("parameters.speed", "0.5"), ("parameters.stiffness", "1e-3"), ("parameters.cone", cone)];
+        let (found, _) = hunting(0.5, &steady(&set));
+        let angle: f64 = cone.parse().expect("a number");
+        let wanted = std::f64::consts::TAU * (0.1 * 0.1506 / angle.tan()).sqrt();
+        assert!((found / wanted - 1.0).abs() < tolerance, "{cone}: {found} {wanted}");
+    }
+}
+
+/// Hunting decays below the critical speed and grows above it, in modes as in motion.
+#[test]
+fn beyond_the_critical_speed_hunting_grows() {
+    let at = |speed: f64| hunting(speed, &steady(&[("parameters.speed", &speed.to_string())])).1;
+    assert!(at(15.0) > 0.05 && at(24.0) > 0.0 && at(26.0) < 0.0 && at(30.0) < -0.05);
+    for (speed, grows) in [("20", false), ("30", true)] {
+        let set = [
+            ("parameters.speed", speed),
+            ("parameters.x0", "1e-5"),
+            ("parameters.y0", "0"),
+            ("parameters.z0", "0"),
+            ("parameters.yaw", "0"),
+            ("parameters.roll", "0"),
+            ("analysis.end", "1"),
+            ("analysis.step", "1e-3"),
+        ];
+        // The radius that touches at the start: the wheelset does not stand quite in the middle.
+        let text = MODEL.replace("radius = \"radius\"\n", "");
+        let record = run(&text, &set).0;
+        let places = record.column("centre", "x").expect("there");
+        let largest = |rows: &[f64]| rows.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        let (first, last) = (largest(&places[..250]), largest(&places[750..]));
+        assert_eq!(last > first, grows, "{speed} m/s: {first} {last}");
     }
 }

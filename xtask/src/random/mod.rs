@@ -182,8 +182,8 @@ mod tests {
 
     /// Kinds that the generator does not make: generalised coordinates move no part, and the others need a beam or a wheel of
     /// their own.
-    const NOT_MADE: [&str; 4] =
-        ["generalized_coordinates", "slider", "coordinate_dynamics", "rolling_contact"];
+    const NOT_MADE: [&str; 5] =
+        ["generalized_coordinates", "slider", "coordinate_dynamics", "rolling_contact", "wheel_on_rail"];
 
     #[test]
     fn mechanisms_have_all_kinds_that_are_meant() {

@@ -306,7 +306,7 @@ impl AttachedJoint {
         let mut values = RailContactValues {
             on_wheel: place.along,
             on_rail: place.on_rail,
-            shift_angle: contact.wheel_point(&pose, place.along).shift.asin(),
+            shift_angle: contact.shift_angle(&pose, place.along),
             normal_force: -mu[0],
             ..RailContactValues::default()
         };

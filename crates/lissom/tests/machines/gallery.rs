@@ -157,6 +157,20 @@ fn a_coin_comes_back_after_one_turn() {
     close(reach, 2.0 * 0.2 * spin.abs() / 3.0, 1e-6, "across its circle");
 }
 
+/// Five-stage Radau IIA applied to the equations of Simeon, Fuehrer and Rentrop 1991.
+#[test]
+fn a_wheelset_hunts_as_its_published_equations_say() {
+    let record = run(model!("wheelset"), &[]);
+    for (output, component, wanted, tolerance) in [
+        ("centre", "x", 6.352_810_191_808_55e-3, 1e-6),
+        ("theta", "value", -1.237_512_572_701_34e-2, 2e-6),
+        ("phi", "value", 1.125_033_043_872_30e-3, 2e-7),
+        ("beta", "value", -1.834_646_352_315_05e-1, 5e-5),
+    ] {
+        close(last(&record, output, component), wanted, tolerance, output);
+    }
+}
+
 #[test]
 fn a_mass_on_a_shaking_table_swings_at_both_rates() {
     let record = run(model!("shaking-table"), &[]);

@@ -123,8 +123,8 @@ pub(crate) struct WheelPoint<T> {
     pub(crate) arm: Three<T>,
     /// Radius r [m], r' and r''.
     pub(crate) radius: [T; 3],
-    /// sin ψ.
-    pub(crate) shift: T,
+    /// d, in the base's axes.
+    spoke: Three<T>,
     /// P, outwards and up [m].
     point: [T; 2],
     /// n, likewise.
@@ -170,7 +170,7 @@ impl RailContact {
             axis,
             arm,
             radius: [radius, slope, bend],
-            shift,
+            spoke,
             point: [pose.position[0] + arm[0], (pose.position[1] + arm[1]).scaled(self.side)],
             normal: [normal[0], normal[1].scaled(self.side)],
         }
@@ -257,6 +257,16 @@ impl RailContact {
             RailProfile::Given(..) => point[0],
         };
         Place { along, on_rail }
+    }
+
+    /// Angle of the spoke at a place from the lowest one, along the rail [rad].
+    pub(crate) fn shift_angle(&self, pose: &Pose<f64>, along: f64) -> f64 {
+        let WheelPoint { axis: [first, second, third], spoke, .. } = self.wheel_point(pose, along);
+        let up = second * self.side;
+        let down =
+            [up * first, up * second - self.side, up * third].map(|value| value / (1.0 - up * up).sqrt());
+        let forward = [-third, 0.0, first].map(|value| value / first.hypot(third));
+        dot(spoke, forward).atan2(dot(spoke, down))
     }
 
     /// Gap [m], of surfaces that are apart positive.
