@@ -87,7 +87,9 @@ pub enum ModesError {
     Unsteady(f64),
     /// The rotation is steady at the azimuth of the start alone.
     #[error(
-        "the rotation is not steady: a part of a turn after the start the twists of nodes change by {0:.1e} of their squares, as          under gravity across the axis or other loads at rest in space; leave them out (`--unset gravity`), or let gravity act          along the axis"
+        "the rotation is not steady: a part of a turn after the start the twists of nodes change by {0:.1e} of their squares, as \
+         under gravity across the axis or other loads at rest in space; leave them out (`--unset gravity`), or let gravity act \
+         along the axis"
     )]
     SteadyHereAlone(f64),
     /// Coefficients change as the model turns.
