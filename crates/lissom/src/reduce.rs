@@ -154,6 +154,13 @@ pub fn reduce(
         warnings
             .push("whether a mode was missed among those with the interfaces held is not known".to_owned());
     }
+    if found.matrices.geometric.is_none() && inner > 0 {
+        warnings.push(
+            "there are joints or relations within: what is of second order in the deformation is not found, and the superelement \
+             will not know the stiffness that loads give and take"
+                .to_owned(),
+        );
+    }
     let matrices = found.matrices.check(&found.places)?;
     let labels: Vec<String> = chosen.interfaces.iter().map(|name| label(name)).collect();
     let unknowns = [found.unknowns, matrices.mass.nrows()];
@@ -185,6 +192,9 @@ fn keep(found: &mut Reduction, modes: usize) {
         *matrix = matrix.view((0, 0), (size, size)).into_owned();
     }
     matrices.preload.truncate(size);
+    if let Some(geometric) = &mut matrices.geometric {
+        geometric.keep(size);
+    }
 }
 
 /// Mass in translations along an axis.
@@ -505,6 +515,16 @@ fn files(
             full_matrix(&format!("preload of {name}: {comment}"), [size, 1], |i, _| matrices.preload[i]);
         files.push((file, column));
     }
+    if let Some(geometric) = &matrices.geometric {
+        let file = format!("{name}-geometric.mtx");
+        let _ = writeln!(text, "geometric = {}", quoted(&file));
+        let stacked = geometric.stacked();
+        let column =
+            full_matrix(&format!("geometric of {name}: {comment}"), [stacked.nrows(), size], |i, j| {
+                stacked[(i, j)]
+            });
+        files.push((file, column));
+    }
     files.push((format!("{name}.toml"), text));
     files
 }
@@ -526,6 +546,12 @@ fn archive(
     }
     if !matrices.preload.is_empty() {
         arrays.push(("preload.npy", npy::numbers(&[size], &matrices.preload)));
+    }
+    if let Some(geometric) = &matrices.geometric {
+        // By rows.
+        let stacked = geometric.stacked();
+        let by_rows = stacked.transpose();
+        arrays.push(("geometric.npy", npy::numbers(&[stacked.nrows(), size], by_rows.as_slice())));
     }
     let flat: Vec<f64> = places.iter().flat_map(|place| place.iter().copied()).collect();
     arrays.push(("interfaces.npy", npy::texts(labels)));

@@ -200,9 +200,10 @@ pub enum Warning {
     },
     /// A superelement turns nearly as fast as it swings.
     #[error(
-        "from t = {time:.6e} s on the superelement of `{interface}` turns at up to {largest:.2} times a quarter of its first natural \
-         frequency with that interface held: centrifugal forces change its stiffness by more than a sixteenth, and linear matrices \
-         do not know that; cut it into several superelements, or model it by beams"
+        "from t = {time:.6e} s on the superelement of `{interface}` turns at up to {largest:.2} times the rate that its matrices \
+         are good for, which is a quarter of its first natural frequency with that interface held, or all of it with `geometric` \
+         matrices: centrifugal forces change its stiffness by more than they know; make them by `lissom reduce`, cut it into several \
+         superelements, or model it by beams"
     )]
     TurnsFast {
         /// When it was first seen [s].
@@ -215,8 +216,8 @@ pub enum Warning {
     /// Loads change the stiffness of a superelement, which its matrices do not know.
     #[error(
         "from t = {time:.6e} s on axial forces and rotation give or take an estimated share of up to {:.2} % of the stiffness against \
-         what the superelement of `{interface}` bends, which its matrices do not know: it bends by about that much wrongly; cut \
-         it into several superelements, or model it by beams", 0.5 * largest
+         what the superelement of `{interface}` bends, which its matrices do not know: it bends by up to that much wrongly; make its \
+         matrices by `lissom reduce`, which finds them to second order, or model it by beams", 0.5 * largest
     )]
     LoadStiffness {
         /// When it was first seen [s].

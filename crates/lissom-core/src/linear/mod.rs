@@ -13,6 +13,7 @@ mod arnoldi;
 mod buckling;
 mod energy_shares;
 mod free;
+mod geometric;
 mod krylov;
 mod lanczos;
 mod mode;

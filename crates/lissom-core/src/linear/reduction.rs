@@ -110,7 +110,8 @@ impl Assembly<'_> {
     /// # Errors
     /// If the assembly with its interfaces held is a mechanism, not elastic, or not in equilibrium; if something else holds it.
     pub fn reduce(&self, modes: usize) -> Result<Reduction, ReductionError> {
-        let model = self.locked.map(|system| LinearModel::of(system, self.state, self.solver)).transpose()?;
+        let mut model =
+            self.locked.map(|system| LinearModel::of(system, self.state, self.solver)).transpose()?;
         let multipliers = model.as_ref().map_or_else(
             || vec![0.0; self.free.layout().multiplier_rows().len()],
             |model| model.multipliers().to_vec(),
@@ -123,8 +124,8 @@ impl Assembly<'_> {
         whole.check_rigid(self)?;
         let mut columns = self.boundary_columns();
         let (mut frequencies, mut is_counted) = (Vec::new(), true);
-        if let (Some(mut model), Some(locked)) = (model, self.locked) {
-            self.add_static_shapes(&whole, &model, locked, &mut columns)?;
+        if let (Some(model), Some(locked)) = (model.as_mut(), self.locked) {
+            self.add_static_shapes(&whole, model, locked, &mut columns)?;
             model.parts.damping.fill(0.0);
             if !is_symmetric(locked, &model.representative, &model.parts) {
                 return Err(ReductionError::NotConservative);
@@ -146,7 +147,10 @@ impl Assembly<'_> {
                 }
             }
         }
-        let matrices = self.projected(&whole, &columns, length);
+        let mut matrices = self.projected(&whole, &columns, length);
+        if whole.residual.iter().all(|force| force.is_finite()) {
+            matrices.geometric = self.second_order(&columns, &matrices, model.as_ref())?.map(Box::new);
+        }
         let places = self.interfaces.iter().map(|&node| self.state.kinematics.nodes[node].frame.position);
         Ok(Reduction {
             matrices,
@@ -158,7 +162,7 @@ impl Assembly<'_> {
     }
 
     /// Rows of unknowns in the free assembly and in the one with locked interfaces.
-    fn inner_rows(&self, locked: &System) -> Vec<(usize, usize)> {
+    pub(super) fn inner_rows(&self, locked: &System) -> Vec<(usize, usize)> {
         let (free, inner) = (self.free.layout(), locked.layout());
         let of_nodes = (0..free.node_count()).flat_map(|node| {
             let rows = free.rows_of_node(node).iter().zip(inner.rows_of_node(node));
@@ -269,6 +273,7 @@ impl Assembly<'_> {
             stiffness: symmetric(through(stiffness)),
             damping: if is_damped { Damping::Matrix(symmetric(through(damping))) } else { Damping::None },
             preload,
+            geometric: None,
         }
     }
 

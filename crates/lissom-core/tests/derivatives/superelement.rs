@@ -2,7 +2,8 @@
 
 use lissom_core::elements::inertia::Gravity;
 use lissom_core::elements::superelement::{
-    Damping, InterfacePlace, ReducedMatrices, Superelement, SuperelementDescription, add_superelement,
+    Damping, GeometricMatrices, InterfacePlace, ReducedMatrices, Superelement, SuperelementDescription,
+    add_superelement,
 };
 use lissom_core::system::{Builder, Freedoms, State, System};
 use lissom_motion::{Motion, Vector3};
@@ -17,7 +18,27 @@ fn positive(size: usize, random: &mut Random) -> DMatrix<f64> {
     &root * root.transpose() + DMatrix::identity(size, size)
 }
 
-fn system(interfaces: usize, modes: usize, frame: usize, random: &mut Random) -> (System, State) {
+/// Second-order matrices that are symmetric where they must be, and nothing else.
+fn second_order(interfaces: usize, size: usize, random: &mut Random) -> GeometricMatrices {
+    // Small, so that third derivatives do not spoil differences.
+    let mut any = || DMatrix::from_fn(size, size, |_, _| 0.2 * random.number());
+    let mut symmetric = || {
+        let own = any();
+        &own + own.transpose()
+    };
+    let moment = [0, 1, 2].map(|_| symmetric());
+    let inertia = [0, 1, 2, 3, 4, 5].map(|_| symmetric());
+    let shortening = (1..interfaces).map(|_| symmetric()).collect();
+    let momentum = [0, 1, 2].map(|_| any());
+    let slope = DMatrix::from_fn(6, size, |_, _| random.number());
+    GeometricMatrices { moment, slope, inertia, momentum, shortening }
+}
+
+fn system_with(
+    (interfaces, modes, frame): (usize, usize, usize),
+    is_geometric: bool,
+    random: &mut Random,
+) -> (System, State) {
     let mut builder = Builder::new();
     builder.set_gravity(random.vector());
     let part = random.motion();
@@ -33,6 +54,7 @@ fn system(interfaces: usize, modes: usize, frame: usize, random: &mut Random) ->
         stiffness: positive(size, random),
         damping: Damping::Matrix(positive(size, random)),
         preload: (0..size).map(|_| random.number()).collect(),
+        geometric: is_geometric.then(|| Box::new(second_order(interfaces, size, random))),
     };
     let coordinates = (0..modes).map(|k| builder.add_state(&format!("mode {k}"), 0.1, 1.0)).collect();
     let gravity = Gravity::constant(random.vector());
@@ -42,19 +64,27 @@ fn system(interfaces: usize, modes: usize, frame: usize, random: &mut Random) ->
 
 #[test]
 fn derivatives_of_superelements() {
-    for (interfaces, modes, frame) in [(1, 0, 0), (2, 2, 0), (3, 1, 1)] {
-        let mut random = Random::new(interfaces as u64);
-        let (system, state) = system(interfaces, modes, frame, &mut random);
-        check("superelement", &system, &state, 0.2, &mut random);
+    for (interfaces, modes, frame) in [(1, 0, 0), (2, 2, 0), (3, 1, 1), (1, 2, 0)] {
+        for is_geometric in [false, true] {
+            let mut random = Random::new(interfaces as u64);
+            let (system, state) = system_with((interfaces, modes, frame), is_geometric, &mut random);
+            check("superelement", &system, &state, 0.2, &mut random);
+        }
     }
 }
 
 /// The elastic forces are the gradient of the energy: without motion and damping all of the residual is.
 #[test]
 fn forces_at_rest_are_the_gradient_of_the_energy() {
-    let mut random = Random::new(5);
-    let (system, state) = system(3, 2, 2, &mut random);
-    let mut here = Configuration::random(&system, &state, 0.3, &mut random);
+    for is_geometric in [false, true] {
+        let mut random = Random::new(5);
+        let (system, state) = system_with((3, 2, 2), is_geometric, &mut random);
+        is_the_gradient(&system, &state, &mut random);
+    }
+}
+
+fn is_the_gradient(system: &System, state: &State, random: &mut Random) {
+    let mut here = Configuration::random(system, state, 0.3, random);
     for node in &mut here.at.nodes {
         node.twist.fill(0.0);
         node.acceleration.fill(0.0);
@@ -62,10 +92,10 @@ fn forces_at_rest_are_the_gradient_of_the_energy() {
     for coordinate in &mut here.at.coordinates {
         (coordinate.rate, coordinate.acceleration) = (0.0, 0.0);
     }
-    let forces = here.residual(&system, 0.0);
+    let forces = here.residual(system, 0.0);
     for (row, force) in forces.iter().enumerate() {
         let slope = crate::configuration::difference(|step| {
-            vec![system.energy(&here.displaced(&system, row, step, false).at).total()]
+            vec![system.energy(&here.displaced(system, row, step, false).at).total()]
         })[0];
         assert!((force - slope).abs() < 1e-8 * (1.0 + force.abs()), "row {row}: {force}, slope {slope}");
     }
@@ -74,6 +104,12 @@ fn forces_at_rest_are_the_gradient_of_the_energy() {
 /// Power of the inertial forces is the change of the kinetic energy, and they sum up to the change of momentum.
 #[test]
 fn inertial_forces_change_energy_and_momentum() {
+    for is_geometric in [false, true] {
+        inertial_forces_change_both(is_geometric);
+    }
+}
+
+fn inertial_forces_change_both(is_geometric: bool) {
     let mut random = Random::new(6);
     let mut builder = Builder::new();
     let places = [Vector3::zeros(), Vector3::new(1.0, 0.2, -0.1)];
@@ -89,6 +125,7 @@ fn inertial_forces_change_energy_and_momentum() {
         stiffness: DMatrix::zeros(12, 12),
         damping: Damping::None,
         preload: Vec::new(),
+        geometric: is_geometric.then(|| Box::new(second_order(2, 12, &mut random))),
     };
     let gravity = Gravity::constant(Vector3::zeros());
     builder.add_element(Superelement::new((nodes, Vec::new()), (1, &places), matrices, gravity));
@@ -136,7 +173,7 @@ fn inertial_forces_change_energy_and_momentum() {
 #[test]
 fn superelements_do_not_see_rigid_motion() {
     let mut random = Random::new(8);
-    let (system, state) = system(3, 2, 1, &mut random);
+    let (system, state) = system_with((3, 2, 1), true, &mut random);
     let here = Configuration::random(&system, &state, 0.2, &mut random);
     // Weight is not invariant.
     let still = |here: &Configuration| {
@@ -177,7 +214,10 @@ fn two_halves() -> ([Vector3; 2], ReducedMatrices) {
     relative[(2, 4)] = 2.0;
     let springs = DMatrix::from_diagonal(&DVector::from_vec(vec![1e4, 2e4, 3e4, 1e3, 2e3, 3e3]));
     let stiffness = relative.transpose() * springs * &relative;
-    (places, ReducedMatrices { mass, stiffness, damping: Damping::None, preload: Vec::new() })
+    (
+        places,
+        ReducedMatrices { mass, stiffness, damping: Damping::None, preload: Vec::new(), geometric: None },
+    )
 }
 
 /// Seen from a frame that moves on steadily, nothing is different: also for modes that carry momentum.
@@ -289,7 +329,8 @@ fn a_single_interface_is_a_rigid_body() {
     let places = [Vector3::zeros()];
     let mass = DMatrix::from_diagonal(&DVector::from_vec(vec![2.0, 2.0, 2.0, 0.1, 0.2, 0.3]));
     let stiffness = DMatrix::zeros(6, 6);
-    let matrices = ReducedMatrices { mass, stiffness, damping: Damping::None, preload: Vec::new() };
+    let matrices =
+        ReducedMatrices { mass, stiffness, damping: Damping::None, preload: Vec::new(), geometric: None };
     let mut builder = Builder::new();
     let description = SuperelementDescription {
         name: "part",

@@ -54,7 +54,7 @@ pub(super) fn superelement() -> Vec<Key> {
             "matrices",
             Shape::Text,
             "",
-            "NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`) and `preload`, where these are not given",
+            "NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`), `preload` and `geometric`, where these are not given",
         ),
         optional(
             "mass",
@@ -76,6 +76,12 @@ pub(super) fn superelement() -> Vec<Key> {
             Shape::Text,
             "",
             "Matrix Market file of one column: forces of the undeformed part, which turn with it",
+        ),
+        optional(
+            "geometric",
+            Shape::Text,
+            "",
+            "Matrix Market file of `lissom reduce`: what is of second order in the deformation, as the stiffness that loads give and take",
         ),
         optional(
             "floating",

@@ -1,6 +1,6 @@
 //! Superelements of a model file: parts that are given by reduced matrices over their interfaces and modes.
 
-use lissom_core::elements::superelement::{Damping, ReducedMatrices};
+use lissom_core::elements::superelement::{Damping, GeometricMatrices, ReducedMatrices};
 use lissom_motion::Vector3;
 use nalgebra::DMatrix;
 
@@ -21,6 +21,7 @@ pub(super) fn superelements(context: &Context<'_>) -> Vec<Superelement> {
         let (position, axes, interfaces) = (position(reader), axes(reader), interfaces(reader));
         let (mass, stiffness) = (needed(reader, "mass"), needed(reader, "stiffness"));
         let preload = matrix(reader, "preload")?.map_or_else(Vec::new, |column| column.as_slice().to_vec());
+        let stacked = matrix(reader, "geometric")?;
         let damping = damping(reader);
         let (interfaces, stiffness, mass) = (interfaces?, stiffness?, mass?);
         let floating = match reader.text("floating") {
@@ -29,7 +30,22 @@ pub(super) fn superelements(context: &Context<'_>) -> Vec<Superelement> {
         };
         let places: Vec<Vector3> = interfaces.iter().map(|interface| interface.place).collect();
         let (damping, ratio) = damping?;
-        let checked = ReducedMatrices { mass, stiffness, damping, preload }.check(&places);
+        if let Some(node) = reader.node("floating").filter(|_| stacked.is_some() && floating > 0) {
+            let message =
+                format!("{} has `geometric` matrices, which hold for the first interface", reader.what);
+            return context.fail(
+                node.span,
+                message,
+                "let the first interface carry the floating frame: name it first",
+            );
+        }
+        let size = mass.nrows();
+        let geometric = stacked
+            .map(|stacked| GeometricMatrices::from_stacked(&stacked, places.len(), size).map(Box::new))
+            .transpose();
+        let checked = geometric.and_then(|geometric| {
+            ReducedMatrices { mass, stiffness, damping, preload, geometric }.check(&places)
+        });
         let damped = checked.and_then(|mut matrices| {
             if let Some(ratio) = ratio {
                 matrices.damping = Damping::Matrix(matrices.modal_damping(ratio)?);

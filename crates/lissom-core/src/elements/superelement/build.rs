@@ -4,7 +4,7 @@ use lissom_motion::{Motion, Vector3};
 use nalgebra::DMatrix;
 
 use super::matrices::{Damping, rigid_motion};
-use super::{LARGEST_SPIN, ReducedMatrices, Superelement};
+use super::{LARGEST_SPIN, LARGEST_SPIN_KNOWN, ReducedMatrices, Superelement};
 use crate::joints::Quantity;
 use crate::registry::ParameterError;
 use crate::system::{Builder, CoordinateId, Freedoms, NodeId};
@@ -77,9 +77,11 @@ pub fn add_superelement(
         stiffness: scaled(&matrices.stiffness),
         damping,
         preload,
+        geometric: matrices.geometric.as_ref().map(|own| Box::new(own.scaled(factor))),
     };
+    let most = if matrices.geometric.is_some() { LARGEST_SPIN_KNOWN } else { LARGEST_SPIN };
     let gravity = builder.gravity().clone();
-    let spin = matrices.first_frequency_held(*floating).map(|rate| LARGEST_SPIN * rate);
+    let spin = matrices.first_frequency_held(*floating).map(|rate| most * rate);
     let element =
         Superelement::new((nodes.clone(), coordinates.clone()), (*floating, &places), scaled, gravity);
     builder.add_element(element.believed_up_to(spin));

@@ -13,7 +13,7 @@ use crate::elements::{Tangents, add_block};
 
 /// A map of the unknowns, interface by interface.
 #[derive(Default)]
-struct Map {
+pub(super) struct Map {
     own: Vec<Matrix6>,
     frame: Vec<Matrix6>,
     /// Whether modal coordinates are mapped to themselves, or to nothing.
@@ -21,21 +21,21 @@ struct Map {
 }
 
 impl Map {
-    fn begin(&mut self, keeps_modes: bool) {
+    pub(super) fn begin(&mut self, keeps_modes: bool) {
         self.own.clear();
         self.frame.clear();
         self.keeps_modes = keeps_modes;
     }
 
-    fn push(&mut self, own: &Matrix6, frame: &Matrix6) {
+    pub(super) fn push(&mut self, own: &Matrix6, frame: &Matrix6) {
         self.own.push(*own);
         self.frame.push(*frame);
     }
 
     /// The matrix times this map.
-    fn after(&self, matrix: &DMatrix<f64>, frame: usize, out: &mut DMatrix<f64>) {
-        let size = matrix.nrows();
-        make_room(out, size, size);
+    pub(super) fn after(&self, matrix: &DMatrix<f64>, frame: usize, out: &mut DMatrix<f64>) {
+        let size = matrix.ncols();
+        make_room(out, matrix.nrows(), size);
         for (i, (own, to_frame)) in self.own.iter().zip(&self.frame).enumerate() {
             let columns = matrix.columns(6 * i, 6);
             out.columns_mut(6 * i, 6).gemm(1.0, &columns, own, 1.0);
@@ -48,7 +48,7 @@ impl Map {
     }
 
     /// Adds this map's transpose times the matrix.
-    fn add_before(&self, matrix: &DMatrix<f64>, frame: usize, out: &mut [f64]) {
+    pub(super) fn add_before(&self, matrix: &DMatrix<f64>, frame: usize, out: &mut [f64]) {
         let size = matrix.nrows();
         for (i, (own, to_frame)) in self.own.iter().zip(&self.frame).enumerate() {
             let rows = matrix.rows(6 * i, 6);

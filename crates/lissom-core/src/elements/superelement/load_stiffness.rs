@@ -46,7 +46,7 @@ pub(super) struct LoadStiffness {
 }
 
 /// Displacements under unit forces with one interface held; mechanisms do not move.
-fn flexibility(stiffness: &DMatrix<f64>, frame: usize) -> DMatrix<f64> {
+pub(crate) fn flexibility(stiffness: &DMatrix<f64>, frame: usize) -> DMatrix<f64> {
     let size = stiffness.nrows();
     let is_held = |k: usize| k / 6 == frame;
     let factor = |k: usize| {

@@ -4,6 +4,7 @@
 use lissom_motion::{Matrix3, Vector3, axial, skew};
 use nalgebra::{DMatrix, Matrix3xX, SymmetricEigen};
 
+use super::geometric::GeometricMatrices;
 use crate::registry::ParameterError;
 
 /// Entries differ from their mirror images by no more than this part of their rows' diagonals.
@@ -40,6 +41,8 @@ pub struct ReducedMatrices {
     pub damping: Damping,
     /// Forces in the undeformed part [N, N m], which turn with it; empty for none.
     pub preload: Vec<f64>,
+    /// What is of second order in the deformation; none where it is not known.
+    pub geometric: Option<Box<GeometricMatrices>>,
 }
 
 /// What a mass matrix says of rigid motions.
@@ -55,7 +58,7 @@ pub(super) struct RigidMotion {
 }
 
 /// Column `k` of the rigid motions, translations and then rotations about the origin of the places.
-fn rigid_column(places: &[Vector3], size: usize, k: usize) -> Vec<f64> {
+pub(super) fn rigid_column(places: &[Vector3], size: usize, k: usize) -> Vec<f64> {
     let mut column = vec![0.0; size];
     let axis = Vector3::ith(k % 3, 1.0);
     for (i, place) in places.iter().enumerate() {
@@ -230,7 +233,11 @@ impl ReducedMatrices {
             }
             other => other.clone(),
         };
-        Ok(Self { mass, stiffness, damping, preload: self.preload })
+        let geometric = match self.geometric {
+            None => None,
+            Some(matrices) => Some(Box::new(matrices.check(&mass, places)?)),
+        };
+        Ok(Self { mass, stiffness, damping, preload: self.preload, geometric })
     }
 
     /// The first natural frequency with an interface held [rad/s]; none where nothing swings then.

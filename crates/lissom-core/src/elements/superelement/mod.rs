@@ -12,7 +12,8 @@
 //!
 //! Interfaces are nodes and modal coordinates are coordinates: there is no further constraint. With matrices that know the
 //! rigid motions the inertia of a rigid motion is exact. K acts on the relative motion alone, so that nothing changes when
-//! the element moves rigidly. What is left out is of the square of the rate of rotation over the frequencies of the modes.
+//! the element moves rigidly. What is left out is of the square of the rate of rotation over the frequencies of the modes; where
+//! second-order matrices are given, `second_order` adds it.
 //!
 //! Without the second term of the kinetic energy a part that moves fast and turns would be bent by that: η counts in turning
 //! axes, and displacements of modal coordinates do not turn with them.
@@ -26,10 +27,13 @@
 
 mod build;
 mod centre;
+mod geometric;
 mod linearize;
 mod load_stiffness;
 mod matrices;
+mod relative;
 mod room;
+mod second_order;
 mod step_stages;
 
 use std::cell::RefCell;
@@ -39,11 +43,15 @@ use nalgebra::{DMatrix, DVector, Matrix3xX};
 
 pub use self::build::{InterfacePlace, SuperelementDescription, add_superelement};
 use self::centre::{Centre, Derivatives};
+pub use self::geometric::GeometricMatrices;
+pub(crate) use self::geometric::PAIRS;
 use self::linearize::Maps;
+pub(crate) use self::load_stiffness::flexibility;
 use self::load_stiffness::{LARGEST_SHARE, LoadStiffness};
 pub use self::matrices::{Damping, ReducedMatrices};
 use self::matrices::{RigidMotion, rigid_motion};
 use self::room::{Room, product};
+use self::second_order::{Deformed, SecondOrder};
 use super::inertia::Gravity;
 use super::step_stages::{STAGES, StepStages};
 use super::{Element, Energy, LinearLimit, LinearRange, Tangents};
@@ -58,6 +66,8 @@ pub const LARGEST_DISPLACEMENT: f64 = 0.3;
 /// Rate of rotation from which on the stiffness by centrifugal forces is missed, over the first natural frequency with the
 /// floating interface held: its square is the part of the stiffness.
 pub const LARGEST_SPIN: f64 = 0.25;
+/// The same with matrices that know it, to first order in the square.
+pub const LARGEST_SPIN_KNOWN: f64 = 1.0;
 
 /// A reduced part.
 #[derive(Clone, Debug)]
@@ -84,6 +94,8 @@ pub struct Superelement {
     largest_spin: Option<f64>,
     /// What estimates how loads change the stiffness; none where the matrices know that.
     load_stiffness: Option<LoadStiffness>,
+    /// What is of second order in the deformation, where the matrices know it.
+    second_order: Option<Box<SecondOrder>>,
 }
 
 /// Room of this thread, so that nothing is allocated once it is large enough.
@@ -94,6 +106,7 @@ struct Rooms {
     centre: Centre,
     maps: Maps,
     derivatives: Derivatives,
+    second: Deformed,
 }
 
 thread_local! {
@@ -111,7 +124,7 @@ impl Superelement {
     ) -> Self {
         let places: Vec<Vector3> = places.iter().map(|place| place - places[frame]).collect();
         let RigidMotion { total, moment, carried, .. } = rigid_motion(&matrices.mass, &places);
-        let ReducedMatrices { mass, stiffness, damping, preload } = matrices;
+        let ReducedMatrices { mass, stiffness, damping, preload, geometric } = matrices;
         let damping = match damping {
             Damping::None => None,
             Damping::Matrix(matrix) => Some(matrix),
@@ -121,7 +134,7 @@ impl Superelement {
         // What is left of the mass without that of the centre sees no translation.
         let mass = mass - carried.tr_mul(&carried) / total;
         let preload = if preload.is_empty() { DVector::zeros(size) } else { DVector::from_vec(preload) };
-        Self {
+        let mut element = Self {
             nodes,
             coordinates,
             frame,
@@ -136,13 +149,16 @@ impl Superelement {
             gravity,
             largest_spin: None,
             load_stiffness: None,
-        }
+            second_order: None,
+        };
+        element.second_order = geometric.map(|matrices| Box::new(SecondOrder::of(&element, &matrices)));
+        element
     }
 
     /// With a rate of rotation from which on a warning is told [rad/s], and with one of loads that change the stiffness.
     #[must_use]
     pub fn believed_up_to(self, spin: Option<f64>) -> Self {
-        let load_stiffness = Some(LoadStiffness::of(&self));
+        let load_stiffness = self.second_order.is_none().then(|| LoadStiffness::of(&self));
         Self { largest_spin: spin, load_stiffness, ..self }
     }
 
@@ -231,19 +247,27 @@ impl Element for Superelement {
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
-        ROOMS.with_borrow_mut(|Rooms { own: room, centre, .. }| {
+        ROOMS.with_borrow_mut(|Rooms { own: room, centre, second, .. }| {
             room.enter(self, at);
             centre.enter(self, at);
             self.stress(room);
             self.momenta(room);
             self.add_conjugate(room, &room.stress, out);
             self.add_inertia(room, centre, out);
+            if let Some(law) = &self.second_order {
+                second.add_forces(self, law, at, out);
+            }
         });
     }
 
     fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
-        ROOMS.with_borrow_mut(|Rooms { own, stages, centre, .. }| {
+        ROOMS.with_borrow_mut(|Rooms { own, stages, centre, second, .. }| {
             self.add_stage_forces(step, (own, stages, centre), out);
+            if let Some(law) = &self.second_order {
+                for (at, out) in step.stages.iter().zip(out) {
+                    second.add_forces(self, law, at, out);
+                }
+            }
         });
     }
 
@@ -252,7 +276,7 @@ impl Element for Superelement {
     }
 
     fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
-        ROOMS.with_borrow_mut(|Rooms { own, stages: [other, _], centre, maps, derivatives }| {
+        ROOMS.with_borrow_mut(|Rooms { own, stages: [other, _], centre, maps, derivatives, second }| {
             other.enter(self, stressed);
             self.stress(other);
             own.enter(self, at);
@@ -261,20 +285,26 @@ impl Element for Superelement {
             maps.add_tangents(self, own, out);
             centre.enter(self, at);
             centre.add_tangents(self, derivatives, out);
+            if let Some(law) = &self.second_order {
+                second.add_tangents(self, law, at, out);
+            }
         });
     }
 
     fn mass(&self, at: &Kinematics, out: &mut Vec<f64>) {
-        ROOMS.with_borrow_mut(|Rooms { own, centre, maps, .. }| {
+        ROOMS.with_borrow_mut(|Rooms { own, centre, maps, second, .. }| {
             own.enter(self, at);
             maps.mass(self, own, out);
             centre.enter(self, at);
             centre.add_mass(self.total, out);
+            if let Some(law) = &self.second_order {
+                second.add_mass(self, law, at, out);
+            }
         });
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
-        ROOMS.with_borrow_mut(|Rooms { own: room, centre, .. }| {
+        ROOMS.with_borrow_mut(|Rooms { own: room, centre, second, .. }| {
             room.enter(self, at);
             centre.enter(self, at);
             self.momenta(room);
@@ -288,7 +318,12 @@ impl Element for Superelement {
             let node = &at.nodes[self.nodes[self.frame]].frame;
             let place = node.position + node.rotation.apply(&centre.place());
             let potential = -self.total * self.gravity.acceleration.dot(&place);
-            Energy { kinetic, strain, potential }
+            let more = self.second_order.as_ref().map(|law| second.energy(self, law, at)).unwrap_or_default();
+            Energy {
+                kinetic: kinetic + more.kinetic,
+                strain: strain + more.strain,
+                potential: potential + more.potential,
+            }
         })
     }
 

@@ -107,13 +107,14 @@ class Superelement(Entry):
     Args:
         in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
         interfaces: [{ name = "root" }, { name = "tip", at = [1, 0, 0] }]: what joints hold it by, in the order of the matrices; a list of `{ name, at }`.
-        matrices: NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`) and `preload`, where these are not given; a text, or nothing.
+        matrices: NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`), `preload` and `geometric`, where these are not given; a text, or nothing.
         mass: Matrix Market file: six rows per interface, displacement and rotation in the axes of the part, then one per mode; a text, or nothing.
         stiffness: Matrix Market file over the same rows; a text, or nothing.
         damping: Matrix Market file over the same rows; a text, or nothing.
         modal_damping: instead: ratio to critical damping of every mode of the free part; a number ≥ 0, or nothing.
         stiffness_damping: instead: times the stiffness [s]; a number ≥ 0, or nothing.
         preload: Matrix Market file of one column: forces of the undeformed part, which turn with it; a text, or nothing.
+        geometric: Matrix Market file of `lissom reduce`: what is of second order in the deformation, as the stiffness that loads give and take; a text, or nothing.
         floating: the interface that carries the floating frame, default the first; a text, or nothing.
         position: place of the origin of the part [m]; a place, or nothing.
         rotation: rotation vector of its axes [rad]; three numbers, or nothing.
@@ -131,6 +132,7 @@ class Superelement(Entry):
     modal_damping: Number | None = None
     stiffness_damping: Number | None = None
     preload: str | None = None
+    geometric: str | None = None
     floating: str | None = None
     position: Place | None = None
     rotation: Vector | None = None

@@ -90,7 +90,7 @@ entry! {
     ///
     /// - `interfaces`: \[{ name = "root" }, { name = "tip", at = \[1, 0, 0\] }\]: what joints hold it by, in the order of the matrices
     new(interfaces: Vec<(String, [f64; 3])> = "interfaces")
-    /// NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`) and `preload`, where these are not given.
+    /// NPZ archive with the arrays `mass` (or `M`), `stiffness` (`K`), `damping` (`D`), `preload` and `geometric`, where these are not given.
     matrices: String = "matrices";
     /// Matrix Market file: six rows per interface, displacement and rotation in the axes of the part, then one per mode.
     mass: String = "mass";
@@ -104,6 +104,8 @@ entry! {
     stiffness_damping: f64 = "stiffness_damping";
     /// Matrix Market file of one column: forces of the undeformed part, which turn with it.
     preload: String = "preload";
+    /// Matrix Market file of `lissom reduce`: what is of second order in the deformation, as the stiffness that loads give and take.
+    geometric: String = "geometric";
     /// The interface that carries the floating frame, default the first.
     floating: String = "floating";
     /// Place of the origin of the part \[m\].

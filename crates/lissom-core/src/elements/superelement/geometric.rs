@@ -1,0 +1,231 @@
+//! What matrices of mass and stiffness leave out to second order in the deformation, in the way of the standard data of flexible bodies
+//! [Wallrapp 1994]: how first moment, inertia and angular momentum of a part depend on its deformation, the shortening of what bends
+//! included, and how much nearer interfaces come.
+//!
+//! Legend: y are the displacements, from the floating frame at the first interface and in its axes: places and rotation vectors of the
+//! interfaces, then modal coordinates; x₁ + x₂ place of a point to first and to second order in y.
+//!
+//! ```text
+//! ∫ρ x₂ = s,   s_k = ½ y·S_k y            J = J₀ + α·y + ½ y·A y                 (inertia about the floating frame)
+//! ∫ρ x × ẋ = (M-terms)·ẏ + c,   c_i = y·B_i ẏ                 h_k = ½ y·D_k y    (interface k comes nearer to the floating frame)
+//! ```
+
+use lissom_motion::{Matrix3, Vector3, skew};
+use nalgebra::{DMatrix, DVector};
+
+use super::Superelement;
+use super::matrices::rigid_column;
+use crate::registry::ParameterError;
+
+/// Entries of inertias in the order in which they are kept.
+pub(crate) const PAIRS: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
+/// Matrices before those of the interfaces.
+const BLOCKS: usize = 12;
+/// Part by which matrices may be asymmetric, and inertias may change otherwise in rigid turns.
+const UNEQUAL: f64 = 1e-3;
+
+/// Second-order matrices of a part over the rows of its mass matrix; rows and columns of the first interface are zero,
+/// but for those of α, where it is displaced against the frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GeometricMatrices {
+    /// S along x, y, z.
+    pub moment: [DMatrix<f64>; 3],
+    /// α, of all rows: a row each of xx, yy, zz, xy, xz, yz.
+    pub slope: DMatrix<f64>,
+    /// A, in the same order.
+    pub inertia: [DMatrix<f64>; 6],
+    /// B about x, y, z.
+    pub momentum: [DMatrix<f64>; 3],
+    /// D of each interface but the first; zero where it is not known.
+    pub shortening: Vec<DMatrix<f64>>,
+}
+
+fn problem<T>(words: impl Into<String>) -> Result<T, ParameterError> {
+    Err(ParameterError::new("geometric", words.into()))
+}
+
+impl GeometricMatrices {
+    /// From one matrix with all of them below each other: S, A, B, D, and α last.
+    ///
+    /// # Errors
+    /// If it has another size than `size` columns and as many rows as `interfaces` need.
+    pub fn from_stacked(
+        stacked: &DMatrix<f64>,
+        interfaces: usize,
+        size: usize,
+    ) -> Result<Self, ParameterError> {
+        let blocks = BLOCKS + interfaces.saturating_sub(1);
+        let wanted = blocks * size + PAIRS.len();
+        if stacked.shape() != (wanted, size) {
+            let (rows, columns) = stacked.shape();
+            return problem(format!(
+                "has {rows} rows and {columns} columns: a mass of {size} rows and {interfaces} interfaces need {wanted} and {size}"
+            ));
+        }
+        let block = |k: usize| stacked.rows(k * size, size).into_owned();
+        Ok(Self {
+            moment: [0, 1, 2].map(block),
+            inertia: [3, 4, 5, 6, 7, 8].map(block),
+            momentum: [9, 10, 11].map(block),
+            shortening: (BLOCKS..blocks).map(block).collect(),
+            slope: stacked.rows(blocks * size, PAIRS.len()).into_owned(),
+        })
+    }
+
+    /// All of them below each other.
+    pub fn stacked(&self) -> DMatrix<f64> {
+        let size = self.slope.ncols();
+        let blocks: Vec<&DMatrix<f64>> = self.blocks().collect();
+        let mut stacked = DMatrix::zeros(blocks.len() * size + PAIRS.len(), size);
+        for (k, block) in blocks.iter().enumerate() {
+            stacked.rows_mut(k * size, size).copy_from(block);
+        }
+        stacked.rows_mut(blocks.len() * size, PAIRS.len()).copy_from(&self.slope);
+        stacked
+    }
+
+    fn blocks(&self) -> impl Iterator<Item = &DMatrix<f64>> {
+        self.moment.iter().chain(&self.inertia).chain(&self.momentum).chain(&self.shortening)
+    }
+
+    fn blocks_mut(&mut self) -> impl Iterator<Item = &mut DMatrix<f64>> {
+        let first = self.moment.iter_mut().chain(&mut self.inertia);
+        first.chain(&mut self.momentum).chain(&mut self.shortening)
+    }
+
+    /// Leaves out rows and columns from `size` on.
+    pub fn keep(&mut self, size: usize) {
+        for matrix in self.blocks_mut() {
+            *matrix = matrix.view((0, 0), (size, size)).into_owned();
+        }
+        self.slope = self.slope.columns(0, size).into_owned();
+    }
+
+    /// With unknowns that are measured otherwise, each by its factor.
+    #[must_use]
+    pub fn scaled(&self, factor: impl Fn(usize) -> f64) -> Self {
+        let mut own = self.clone();
+        for matrix in own.blocks_mut() {
+            let size = matrix.nrows();
+            *matrix = DMatrix::from_fn(size, size, |i, j| factor(i) * factor(j) * matrix[(i, j)]);
+        }
+        for (k, mut column) in own.slope.column_iter_mut().enumerate() {
+            column *= factor(k);
+        }
+        own
+    }
+
+    /// The same, symmetric to the last bit, if they can be those of the part whose mass is `mass`, with interfaces at `places` [m].
+    ///
+    /// # Errors
+    /// If they cannot.
+    pub fn check(mut self, mass: &DMatrix<f64>, places: &[Vector3]) -> Result<Self, ParameterError> {
+        let size = mass.nrows();
+        if self.blocks().any(|block| block.shape() != (size, size)) || self.slope.ncols() != size {
+            return problem(format!("is not over the {size} rows of the mass"));
+        }
+        if self.blocks().chain([&self.slope]).any(|block| block.iter().any(|value| !value.is_finite())) {
+            return problem("holds what is not a finite number");
+        }
+        if self.blocks().any(|block| block.rows(0, 6).amax() > 0.0 || block.columns(0, 6).amax() > 0.0) {
+            return problem(
+                "has entries of the first interface, which carries the floating frame and is not displaced against it",
+            );
+        }
+        for matrix in self.moment.iter_mut().chain(&mut self.inertia).chain(&mut self.shortening) {
+            let symmetric = 0.5 * (&*matrix + matrix.transpose());
+            if (&symmetric - &*matrix).amax() > UNEQUAL * matrix.amax() {
+                return problem("has a block that is not symmetric");
+            }
+            *matrix = symmetric;
+        }
+        self.check_turned(mass, places)?;
+        Ok(self)
+    }
+
+    /// A part that is turned as a whole has its inertia turned.
+    fn check_turned(&self, mass: &DMatrix<f64>, places: &[Vector3]) -> Result<(), ParameterError> {
+        if places.len() < 2 {
+            return Ok(());
+        }
+        let size = mass.nrows();
+        let places: Vec<Vector3> = places.iter().map(|place| place - places[0]).collect();
+        let turn = |k: usize| DVector::from_vec(rigid_column(&places, size, 3 + k));
+        let turns = [0, 1, 2].map(turn);
+        let whole = Matrix3::from_fn(|i, j| turns[i].dot(&(mass * &turns[j])));
+        for (k, turned) in turns.iter().enumerate() {
+            let about = skew(&Vector3::ith(k, 1.0));
+            let expected = about * whole + whole * about.transpose();
+            for (row, [i, j]) in PAIRS.into_iter().enumerate() {
+                let found = self.slope.row(row).transpose().dot(turned);
+                if (found - expected[(i, j)]).abs() > UNEQUAL * whole.amax() {
+                    return problem(format!(
+                        "does not fit the mass: turned about its first interface the part would have another inertia ({found:.3e} \
+                         instead of {:.3e} kg m² per radian); look at the order of rows and at the units",
+                        expected[(i, j)]
+                    ));
+                }
+            }
+        }
+        Ok(())
+    }
+}
+
+/// What the first-order energies of an element have of α, A and B.
+pub(super) struct FirstOrder {
+    pub(super) slope: [DVector<f64>; 6],
+    pub(super) inertia: [DMatrix<f64>; 6],
+    pub(super) momentum: [DMatrix<f64>; 3],
+}
+
+/// Kinetic energy ½ η·M' η + ½ m |ẋ_c|² of an element that turns steadily: η = R ω + Ξ(ω) y with the places of the interfaces turned,
+/// x_c = c + G y / m.
+pub(super) fn first_order(of: &Superelement) -> FirstOrder {
+    let size = of.size();
+    let rotation = [0, 1, 2].map(|k| DVector::from_vec(rigid_column(&of.places, size, 3 + k)));
+    let displaced = [0, 1, 2].map(|k| {
+        let mut matrix = DMatrix::zeros(size, size);
+        let turn = skew(&Vector3::ith(k, 1.0));
+        for i in 0..of.nodes.len() {
+            matrix.fixed_view_mut::<3, 3>(6 * i, 6 * i).copy_from(&turn);
+        }
+        matrix
+    });
+    let loaded = [0, 1, 2].map(|k| &of.mass * &displaced[k]);
+    let momenta = [0, 1, 2].map(|k| &of.mass * &rotation[k]);
+    let row = |k: usize| of.carried.row(k).transpose();
+    let centre = of.moment / of.total;
+    let along: DVector<f64> = of.carried.tr_mul(&centre);
+    let gram = of.carried.tr_mul(&of.carried) / of.total;
+    let slope = |k: usize| {
+        let [i, j] = PAIRS[k];
+        let own = displaced[i].tr_mul(&momenta[j]) + displaced[j].tr_mul(&momenta[i]);
+        let same = if i == j { 2.0 } else { 0.0 };
+        own + same * &along - centre[i] * row(j) - centre[j] * row(i)
+    };
+    let inertia = |k: usize| {
+        let [i, j] = PAIRS[k];
+        let own = displaced[i].tr_mul(&loaded[j]) + displaced[j].tr_mul(&loaded[i]);
+        let same = if i == j { 2.0 } else { 0.0 };
+        let across = row(i) * row(j).transpose() + row(j) * row(i).transpose();
+        own + same * &gram - across / of.total
+    };
+    let momentum = |k: usize| {
+        let mut own = loaded[k].transpose();
+        let turn = skew(&Vector3::ith(k, 1.0));
+        own -= of.carried.tr_mul(&(turn * &of.carried)) / of.total;
+        // Rotations of interfaces: E z = κ̇ + ½ κ × κ̇ to second order.
+        for i in 0..of.nodes.len() {
+            let first = 6 * i + 3;
+            let angular = Vector3::from_fn(|c, _| momenta[k][first + c]);
+            let mut block = own.fixed_view_mut::<3, 3>(first, first);
+            block -= 0.5 * skew(&angular);
+        }
+        own
+    };
+    FirstOrder {
+        slope: [0, 1, 2, 3, 4, 5].map(slope),
+        inertia: [0, 1, 2, 3, 4, 5].map(inertia),
+        momentum: [0, 1, 2].map(momentum),
+    }
+}

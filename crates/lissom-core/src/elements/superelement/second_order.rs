@@ -1,0 +1,592 @@
+//! What a superelement does to second order in its deformation: centrifugal and Coriolis forces on what displaces its parts, and the
+//! stiffness that rotation, acceleration and axial forces give and take.
+//!
+//! Legend: y = (r - X, κ, q) relative to the floating frame (see `relative`), v and ω its velocity and rate of rotation, γ = R_fᵀ g,
+//! d_k direction from the floating frame to interface k. Coefficients: s_k = ½ y·S_k y, J_ij = α_ij·y + ½ y·A_ij y, c_i ẏ = y·B_i ẏ,
+//! h_k = ½ y·D_k y (see [`GeometricMatrices`]), less what the first-order energies of the element have of them.
+//!
+//! ```text
+//! L = v·(ω × s + ṡ) + γ·s + ½ ω·J ω + ω·c ẏ - h·(K y + ½ K h),      h = Σ h_k d_k on the interfaces
+//!
+//! force on f      s̈ + ω̇ × s + 2 ω × ṡ + ω × (ω × s)
+//! moment on f     s × a + l̇ + ω × l,      l = J ω + c ẏ,      a = v̇ + ω × v - γ
+//! dual to y       Σ a_k S_k y + Σ ω̇_i B_iᵀ y + ω_i (B_iᵀ - B_i) ẏ - ½ Σ ω_i ω_j (α_ij + A_ij y)
+//!                 + Σ g_k D_k y + K h,      g_k = d_k·(K y + K h)
+//! ```
+//!
+//! The equations are those of Poincaré for L. The elastic energy is ½ (y + h)·K (y + h): the square keeps it positive, and an interface
+//! that is displaced across comes nearer by h_k without force.
+
+use lissom_motion::{Matrix3, Matrix6, Vector3, rotation_part, screw, skew, translation_part};
+use nalgebra::{DMatrix, DVector, Matrix3xX};
+
+use super::geometric::{GeometricMatrices, PAIRS, first_order};
+use super::linearize::Map;
+use super::relative::Relative;
+use super::{Superelement, add};
+use crate::elements::{Energy, Tangents};
+use crate::system::Kinematics;
+
+/// How much nearer an interface comes.
+#[derive(Clone, Debug)]
+struct Shortening {
+    interface: usize,
+    /// d.
+    direction: Vector3,
+    /// D.
+    matrix: DMatrix<f64>,
+    /// K d.
+    pulled: DVector<f64>,
+}
+
+/// The coefficients.
+#[derive(Clone, Debug)]
+pub(super) struct SecondOrder {
+    /// S.
+    moment: [DMatrix<f64>; 3],
+    /// α of each pair, and A.
+    slope: [DVector<f64>; 6],
+    inertia: [DMatrix<f64>; 6],
+    /// B.
+    momentum: [DMatrix<f64>; 3],
+    shortening: Vec<Shortening>,
+}
+
+impl SecondOrder {
+    /// Of an element whose matrices are scaled as `matrices` are.
+    pub(super) fn of(element: &Superelement, matrices: &GeometricMatrices) -> Self {
+        let known = first_order(element);
+        let slope = |k: usize| matrices.slope.row(k).transpose() - &known.slope[k];
+        let inertia = |k: usize| &matrices.inertia[k] - &known.inertia[k];
+        let momentum = |k: usize| &matrices.momentum[k] - &known.momentum[k];
+        let others = (0..element.nodes.len()).filter(|&i| i != element.frame);
+        let shortening = others.zip(&matrices.shortening).filter_map(|(interface, matrix)| {
+            let length = element.places[interface].norm();
+            if length <= 0.0 || matrix.amax() <= 0.0 {
+                return None;
+            }
+            let direction = element.places[interface] / length;
+            let pulled = element.stiffness.columns(6 * interface, 3) * direction;
+            Some(Shortening { interface, direction, matrix: matrix.clone(), pulled })
+        });
+        Self {
+            moment: matrices.moment.clone(),
+            slope: [0, 1, 2, 3, 4, 5].map(slope),
+            inertia: [0, 1, 2, 3, 4, 5].map(inertia),
+            momentum: [0, 1, 2].map(momentum),
+            shortening: shortening.collect(),
+        }
+    }
+}
+
+/// Room for one element at one instant.
+#[derive(Default)]
+pub(super) struct Deformed {
+    relatives: Vec<Option<Relative>>,
+    /// y, ẏ, ÿ.
+    place: DVector<f64>,
+    rate: DVector<f64>,
+    second: DVector<f64>,
+    /// S y, S ẏ.
+    moment: [DVector<f64>; 3],
+    moment_rate: [DVector<f64>; 3],
+    /// α + A y.
+    inertia: [DVector<f64>; 6],
+    /// Bᵀ y, Bᵀ ẏ, B ẏ.
+    momentum: [DVector<f64>; 3],
+    momentum_rate: [DVector<f64>; 3],
+    conjugate: [DVector<f64>; 3],
+    /// D y.
+    shortening: Vec<DVector<f64>>,
+    /// h, g.
+    shorter: Vec<f64>,
+    pull: Vec<f64>,
+    /// Force dual to y.
+    force: DVector<f64>,
+    room: DVector<f64>,
+    velocity: Vector3,
+    spin: Vector3,
+    spin_rate: Vector3,
+    gravity: Vector3,
+    /// a.
+    against: Vector3,
+    /// Maps of the unknowns to y, and of places to ẏ, of places and of twists to ÿ.
+    gradient: Map,
+    rate_by_place: Map,
+    second_by_place: Map,
+    second_by_twist: Map,
+    product: DMatrix<f64>,
+    rows: DMatrix<f64>,
+}
+
+/// out = A x.
+fn times(matrix: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
+    resize(out, matrix.nrows());
+    out.gemv(1.0, matrix, x, 0.0);
+}
+
+/// out = Aᵀ x.
+fn transposed_times(matrix: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
+    resize(out, matrix.ncols());
+    out.gemv_tr(1.0, matrix, x, 0.0);
+}
+
+fn resize(vector: &mut DVector<f64>, size: usize) {
+    if vector.len() != size {
+        *vector = DVector::zeros(size);
+    }
+}
+
+/// The pair of i and j.
+fn pair(i: usize, j: usize) -> usize {
+    PAIRS.iter().position(|own| *own == [i.min(j), i.max(j)]).unwrap_or_default()
+}
+
+impl Deformed {
+    /// Takes in the motion `at`.
+    fn enter(&mut self, of: &Superelement, law: &SecondOrder, at: &Kinematics) {
+        let (size, nodes) = (of.size(), of.nodes.len());
+        for vector in [&mut self.place, &mut self.rate, &mut self.second, &mut self.force, &mut self.room] {
+            resize(vector, size);
+            vector.fill(0.0);
+        }
+        let base = &at.nodes[of.nodes[of.frame]];
+        self.velocity = translation_part(&base.twist);
+        self.spin = rotation_part(&base.twist);
+        self.spin_rate = rotation_part(&base.acceleration);
+        self.gravity = base.frame.rotation.apply_inverse(&of.gravity.at(at.time));
+        let own = translation_part(&base.acceleration);
+        self.against = own + self.spin.cross(&self.velocity) - self.gravity;
+        self.relatives.clear();
+        for i in 0..nodes {
+            let relative = Relative::of(of, i, at);
+            if let Some(seen) = &relative {
+                let (rate, second) = (seen.rate(), seen.second());
+                let shift = seen.arm - of.places[i];
+                for k in 0..3 {
+                    self.place[6 * i + k] = shift[k];
+                    self.place[6 * i + 3 + k] = seen.axis[k];
+                }
+                for k in 0..6 {
+                    self.rate[6 * i + k] = rate[k];
+                    self.second[6 * i + k] = second[k];
+                }
+            }
+            self.relatives.push(relative);
+        }
+        for (k, &coordinate) in of.coordinates.iter().enumerate() {
+            let (row, motion) = (6 * nodes + k, &at.coordinates[coordinate]);
+            self.place[row] = motion.value;
+            self.rate[row] = motion.rate;
+            self.second[row] = motion.acceleration;
+        }
+        self.fill(of, law);
+    }
+
+    fn fill(&mut self, of: &Superelement, law: &SecondOrder) {
+        for k in 0..3 {
+            times(&law.moment[k], &self.place, &mut self.moment[k]);
+            times(&law.moment[k], &self.rate, &mut self.moment_rate[k]);
+            transposed_times(&law.momentum[k], &self.place, &mut self.momentum[k]);
+            transposed_times(&law.momentum[k], &self.rate, &mut self.momentum_rate[k]);
+            times(&law.momentum[k], &self.rate, &mut self.conjugate[k]);
+        }
+        for k in 0..6 {
+            times(&law.inertia[k], &self.place, &mut self.inertia[k]);
+            self.inertia[k] += &law.slope[k];
+        }
+        self.shortening.resize_with(law.shortening.len(), DVector::default);
+        self.shorter.clear();
+        self.pull.clear();
+        times(&of.stiffness, &self.place, &mut self.room);
+        for (own, product) in law.shortening.iter().zip(&mut self.shortening) {
+            times(&own.matrix, &self.place, product);
+            let shorter = 0.5 * product.dot(&self.place);
+            self.shorter.push(shorter);
+            self.room.axpy(shorter, &own.pulled, 1.0);
+        }
+        for own in &law.shortening {
+            let first = 6 * own.interface;
+            self.pull.push((0..3).map(|k| own.direction[k] * self.room[first + k]).sum());
+        }
+    }
+
+    /// s, ṡ.
+    fn first_moment(&self) -> [Vector3; 2] {
+        [
+            Vector3::from_fn(|k, _| 0.5 * self.moment[k].dot(&self.place)),
+            Vector3::from_fn(|k, _| self.moment[k].dot(&self.rate)),
+        ]
+    }
+
+    /// J, J̇.
+    fn inertia(&self, law: &SecondOrder) -> [Matrix3; 2] {
+        let of = |i: usize, j: usize| {
+            let k = pair(i, j);
+            0.5 * (self.inertia[k].dot(&self.place) + law.slope[k].dot(&self.place))
+        };
+        let rate = |i: usize, j: usize| self.inertia[pair(i, j)].dot(&self.rate);
+        [Matrix3::from_fn(of), Matrix3::from_fn(rate)]
+    }
+
+    /// l.
+    fn turning(&self, inertia: &Matrix3) -> Vector3 {
+        inertia * self.spin + Vector3::from_fn(|k, _| self.momentum[k].dot(&self.rate))
+    }
+
+    /// Leaves the force dual to y in `force`.
+    fn fill_force(&mut self, law: &SecondOrder) {
+        let force = &mut self.force;
+        force.fill(0.0);
+        for k in 0..3 {
+            force.axpy(self.against[k], &self.moment[k], 1.0);
+            force.axpy(self.spin_rate[k], &self.momentum[k], 1.0);
+            force.axpy(self.spin[k], &self.momentum_rate[k], 1.0);
+            force.axpy(-self.spin[k], &self.conjugate[k], 1.0);
+        }
+        for (k, [i, j]) in PAIRS.into_iter().enumerate() {
+            let both = if i == j { 0.5 } else { 1.0 };
+            force.axpy(-both * self.spin[i] * self.spin[j], &self.inertia[k], 1.0);
+        }
+        for (k, own) in law.shortening.iter().enumerate() {
+            force.axpy(self.pull[k], &self.shortening[k], 1.0);
+            force.axpy(self.shorter[k], &own.pulled, 1.0);
+        }
+    }
+
+    /// Adds the forces at the motion `at`.
+    pub(super) fn add_forces(
+        &mut self,
+        of: &Superelement,
+        law: &SecondOrder,
+        at: &Kinematics,
+        out: &mut [f64],
+    ) {
+        self.enter(of, law, at);
+        self.fill_force(law);
+        let [s, rate] = self.first_moment();
+        let second =
+            Vector3::from_fn(|k, _| self.moment_rate[k].dot(&self.rate) + self.moment[k].dot(&self.second));
+        let (w, dw) = (self.spin, self.spin_rate);
+        let force = second + dw.cross(&s) + 2.0 * w.cross(&rate) + w.cross(&w.cross(&s));
+        let [inertia, inertia_rate] = self.inertia(law);
+        let turning = self.turning(&inertia);
+        let of_rates =
+            Vector3::from_fn(|k, _| self.conjugate[k].dot(&self.rate) + self.momentum[k].dot(&self.second));
+        let turning_rate = inertia_rate * w + inertia * dw + of_rates;
+        let moment = s.cross(&self.against) + turning_rate + w.cross(&turning);
+        add(out, 6 * of.frame, &force);
+        add(out, 6 * of.frame + 3, &moment);
+        self.add_dual(of, out);
+    }
+
+    /// Adds Yᵀ times the force dual to y.
+    fn add_dual(&self, of: &Superelement, out: &mut [f64]) {
+        for (i, seen) in self.relatives.iter().enumerate() {
+            let Some(seen) = seen else { continue };
+            let part = |first: usize| Vector3::from_fn(|k, _| self.force[6 * i + first + k]);
+            let own = seen.gradient().tr_mul(&screw(&part(0), &part(3)));
+            let on_frame = -seen.to_own.tr_mul(&own);
+            for k in 0..6 {
+                out[6 * i + k] += own[k];
+                out[6 * of.frame + k] += on_frame[k];
+            }
+        }
+        for row in 6 * of.nodes.len()..of.size() {
+            out[row] += self.force[row];
+        }
+    }
+
+    /// Energies at the motion `at`.
+    pub(super) fn energy(&mut self, of: &Superelement, law: &SecondOrder, at: &Kinematics) -> Energy {
+        self.enter(of, law, at);
+        let [s, rate] = self.first_moment();
+        let [inertia, _] = self.inertia(law);
+        let turning = self.turning(&inertia);
+        let kinetic = self.velocity.dot(&(self.spin.cross(&s) + rate)) + self.spin.dot(&turning)
+            - 0.5 * self.spin.dot(&(inertia * self.spin));
+        // h·(K y + ½ K h), of h·(K y + K h).
+        let mut strain = 0.0;
+        for (k, own) in law.shortening.iter().enumerate() {
+            strain += self.shorter[k] * self.pull[k];
+            for (l, other) in law.shortening.iter().enumerate() {
+                let first = 6 * other.interface;
+                let along: f64 = (0..3).map(|c| other.direction[c] * own.pulled[first + c]).sum();
+                strain -= 0.5 * self.shorter[k] * self.shorter[l] * along;
+            }
+        }
+        Energy { kinetic, strain, potential: -self.gravity.dot(&s) }
+    }
+
+    fn fill_maps(&mut self, nodes: usize) {
+        self.gradient.begin(true);
+        for map in [&mut self.rate_by_place, &mut self.second_by_place, &mut self.second_by_twist] {
+            map.begin(false);
+        }
+        for i in 0..nodes {
+            let Some(seen) = &self.relatives[i] else {
+                let none = Matrix6::zeros();
+                for map in [
+                    &mut self.gradient,
+                    &mut self.rate_by_place,
+                    &mut self.second_by_place,
+                    &mut self.second_by_twist,
+                ] {
+                    map.push(&none, &none);
+                }
+                continue;
+            };
+            let own = seen.gradient();
+            let slopes = seen.slopes();
+            self.gradient.push(&own, &(-own * seen.to_own));
+            self.rate_by_place.push(&slopes.rate_by_place, &(-slopes.rate_by_place * seen.to_own));
+            self.second_by_place.push(&slopes.second_by_place, &(-slopes.second_by_place * seen.to_own));
+            self.second_by_twist.push(&slopes.second_by_twist, &(slopes.second_by_carried * seen.to_own));
+        }
+    }
+
+    /// Adds the mass matrix.
+    pub(super) fn add_mass(
+        &mut self,
+        of: &Superelement,
+        law: &SecondOrder,
+        at: &Kinematics,
+        out: &mut [f64],
+    ) {
+        self.enter(of, law, at);
+        self.fill_maps(of.nodes.len());
+        self.add_mass_entered(of, law, out);
+    }
+
+    fn add_mass_entered(&mut self, of: &Superelement, law: &SecondOrder, out: &mut [f64]) {
+        let (size, frame) = (of.size(), 6 * of.frame);
+        let [s, _] = self.first_moment();
+        let [inertia, _] = self.inertia(law);
+        let lever = skew(&s);
+        // Force and moment on f by ÿ, through Y; the mirror image on y.
+        let rows = frame_rows(size, |row, own| {
+            own.copy_from(if row < 3 { &self.moment[row] } else { &self.momentum[row - 3] });
+        });
+        self.gradient.after(&rows, of.frame, &mut self.product);
+        for row in 0..6 {
+            for column in 0..size {
+                out[(frame + row) * size + column] += self.product[(row, column)];
+                out[column * size + frame + row] += self.product[(row, column)];
+            }
+        }
+        for i in 0..3 {
+            for j in 0..3 {
+                out[(frame + i) * size + frame + 3 + j] -= lever[(i, j)];
+                out[(frame + 3 + i) * size + frame + j] += lever[(i, j)];
+                out[(frame + 3 + i) * size + frame + 3 + j] += inertia[(i, j)];
+            }
+        }
+    }
+
+    /// Adds the derivatives of the forces at the motion `at`.
+    pub(super) fn add_tangents(
+        &mut self,
+        of: &Superelement,
+        law: &SecondOrder,
+        at: &Kinematics,
+        out: &mut Tangents,
+    ) {
+        self.enter(of, law, at);
+        self.fill_maps(of.nodes.len());
+        self.fill_force(law);
+        self.add_mass_entered(of, law, &mut out.mass);
+        self.add_on_shape(of, law, out);
+        self.add_on_frame(of, law, out);
+        for (i, seen) in self.relatives.iter().enumerate() {
+            let Some(seen) = seen else { continue };
+            let part = |first: usize| Vector3::from_fn(|k, _| self.force[6 * i + first + k]);
+            seen.add_geometric((of, i), (&part(0), &part(3)), &mut out.stiffness);
+        }
+    }
+
+    /// Adds the derivatives of the force dual to y by places and twists.
+    fn add_on_shape(&mut self, of: &Superelement, law: &SecondOrder, out: &mut Tangents) {
+        let (size, frame) = (of.size(), of.frame);
+        let (mut by_place, by_rate) = (self.shape_by_place(of, law), self.shape_by_rate(law));
+        // By a, as it depends on the floating frame's place and twist; by ω.
+        let moment = DMatrix::from_fn(size, 3, |row, k| self.moment[k][row]);
+        let by_spin = DMatrix::from_fn(size, 3, |row, i| {
+            let centrifugal: f64 = (0..3).map(|j| self.spin[j] * self.inertia[pair(i, j)][row]).sum();
+            self.momentum_rate[i][row] - self.conjugate[i][row] - centrifugal
+        });
+        let turned = -(&moment * skew(&self.gravity));
+        let by_velocity = &moment * skew(&self.spin);
+        let by_spin = by_spin - &moment * skew(&self.velocity);
+        self.gradient.after(&by_place, frame, &mut self.product);
+        self.rate_by_place.after(&by_rate, frame, &mut self.rows);
+        self.product += &self.rows;
+        {
+            let mut view = self.product.columns_mut(6 * frame + 3, 3);
+            view += &turned;
+        }
+        self.gradient.add_before(&self.product, frame, &mut out.stiffness);
+        self.gradient.after(&by_rate, frame, &mut by_place);
+        for (first, columns) in [(0, &by_velocity), (3, &by_spin)] {
+            let mut view = by_place.columns_mut(6 * frame + first, 3);
+            view += columns;
+        }
+        self.gradient.add_before(&by_place, frame, &mut out.damping);
+    }
+
+    /// Derivative of the force dual to y by y.
+    fn shape_by_place(&self, of: &Superelement, law: &SecondOrder) -> DMatrix<f64> {
+        let size = of.size();
+        let mut matrix = DMatrix::zeros(size, size);
+        let mut add = |factor: f64, own: &DMatrix<f64>| {
+            if factor != 0.0 {
+                matrix.zip_apply(own, |sum, value| *sum += factor * value);
+            }
+        };
+        for k in 0..3 {
+            add(self.against[k], &law.moment[k]);
+            if self.spin_rate[k] != 0.0 {
+                add(self.spin_rate[k], &law.momentum[k].transpose());
+            }
+        }
+        for (k, [i, j]) in PAIRS.into_iter().enumerate() {
+            let both = if i == j { 0.5 } else { 1.0 };
+            add(-both * self.spin[i] * self.spin[j], &law.inertia[k]);
+        }
+        for (k, own) in law.shortening.iter().enumerate() {
+            add(self.pull[k], &own.matrix);
+        }
+        for (k, own) in law.shortening.iter().enumerate() {
+            matrix.ger(1.0, &self.shortening[k], &own.pulled, 1.0);
+            matrix.ger(1.0, &own.pulled, &self.shortening[k], 1.0);
+            for (l, other) in law.shortening.iter().enumerate() {
+                let first = 6 * own.interface;
+                let along: f64 = (0..3).map(|c| own.direction[c] * other.pulled[first + c]).sum();
+                matrix.ger(along, &self.shortening[k], &self.shortening[l], 1.0);
+            }
+        }
+        matrix
+    }
+
+    /// Derivative of the force dual to y by ẏ.
+    fn shape_by_rate(&self, law: &SecondOrder) -> DMatrix<f64> {
+        let size = self.place.len();
+        let mut matrix = DMatrix::zeros(size, size);
+        for (momentum, spin) in law.momentum.iter().zip(self.spin.iter()).filter(|(_, spin)| **spin != 0.0) {
+            for i in 0..size {
+                for j in 0..size {
+                    matrix[(i, j)] += spin * (momentum[(j, i)] - momentum[(i, j)]);
+                }
+            }
+        }
+        matrix
+    }
+
+    /// Adds the derivatives of force and moment on the floating frame by places and twists.
+    fn add_on_frame(&mut self, of: &Superelement, law: &SecondOrder, out: &mut Tangents) {
+        let (size, frame) = (of.size(), 6 * of.frame);
+        let (w, dw) = (self.spin, self.spin_rate);
+        let (turn, turn_rate) = (skew(&w), skew(&dw));
+        let [s, rate] = self.first_moment();
+        let [inertia, inertia_rate] = self.inertia(law);
+        let turning = self.turning(&inertia);
+        let three = |of: &dyn Fn(usize, &mut DVector<f64>)| {
+            let mut matrix = Matrix3xX::zeros(size);
+            let mut own = DVector::zeros(size);
+            for k in 0..3 {
+                own.fill(0.0);
+                of(k, &mut own);
+                matrix.row_mut(k).tr_copy_from(&own);
+            }
+            matrix
+        };
+        let spun = |factors: &Vector3, i: usize, own: &mut DVector<f64>| {
+            for j in 0..3 {
+                own.axpy(factors[j], &self.inertia[pair(i, j)], 1.0);
+            }
+        };
+        let moment = three(&|k, own| own.copy_from(&self.moment[k]));
+        let moment_rate = three(&|k, own| own.copy_from(&self.moment_rate[k]));
+        let moment_second = three(&|k, own| own.gemv(1.0, &law.moment[k], &self.second, 0.0));
+        let turning_by_place = three(&|i, own| {
+            spun(&w, i, own);
+            *own += &self.conjugate[i];
+        });
+        let momentum = three(&|k, own| own.copy_from(&self.momentum[k]));
+        // l̇ by y and by ẏ.
+        let turning_rate_by_place = three(&|i, own| {
+            own.gemv(1.0, &law.momentum[i], &self.second, 0.0);
+            spun(&dw, i, own);
+            for j in 0..3 {
+                own.gemv(w[j], &law.inertia[pair(i, j)], &self.rate, 1.0);
+            }
+        });
+        let turning_rate_by_rate = three(&|i, own| {
+            spun(&w, i, own);
+            *own += &self.conjugate[i];
+            *own += &self.momentum_rate[i];
+        });
+        let centrifugal = turn_rate + turn * turn;
+        let force_by_place = moment_second + centrifugal * &moment + 2.0 * turn * &moment_rate;
+        let force_by_rate = 2.0 * moment_rate + 2.0 * turn * &moment;
+        let moment_by_place = turning_rate_by_place + turn * turning_by_place - skew(&self.against) * &moment;
+        let moment_by_rate = turning_rate_by_rate + turn * &momentum;
+        let stacked =
+            |above: &Matrix3xX<f64>, below: &Matrix3xX<f64>| {
+                DMatrix::from_fn(6, size, |row, column| {
+                    if row < 3 { above[(row, column)] } else { below[(row - 3, column)] }
+                })
+            };
+        let by_place = stacked(&force_by_place, &moment_by_place);
+        let by_rate = stacked(&force_by_rate, &moment_by_rate);
+        let by_second = stacked(&moment, &momentum);
+        let lever = skew(&s);
+        let mut sum = DMatrix::zeros(6, size);
+        for (map, matrix) in [
+            (&self.gradient, &by_place),
+            (&self.rate_by_place, &by_rate),
+            (&self.second_by_place, &by_second),
+        ] {
+            map.after(matrix, of.frame, &mut self.rows);
+            sum += &self.rows;
+        }
+        add_three(&mut sum, (3, frame + 3), &-(lever * skew(&self.gravity)));
+        add_to(&mut out.stiffness, (frame, size), &sum);
+        sum.fill(0.0);
+        for (map, matrix) in [(&self.gradient, &by_rate), (&self.second_by_twist, &by_second)] {
+            map.after(matrix, of.frame, &mut self.rows);
+            sum += &self.rows;
+        }
+        let force_by_spin = -2.0 * skew(&rate) - skew(&w.cross(&s)) - turn * lever;
+        let moment_by_spin = inertia_rate - skew(&turning) + turn * inertia - lever * skew(&self.velocity);
+        add_three(&mut sum, (0, frame + 3), &force_by_spin);
+        add_three(&mut sum, (3, frame), &(lever * turn));
+        add_three(&mut sum, (3, frame + 3), &moment_by_spin);
+        add_to(&mut out.damping, (frame, size), &sum);
+    }
+}
+
+/// Six rows over y.
+fn frame_rows(size: usize, fill: impl Fn(usize, &mut DVector<f64>)) -> DMatrix<f64> {
+    let mut rows = DMatrix::zeros(6, size);
+    let mut own = DVector::zeros(size);
+    for row in 0..6 {
+        own.fill(0.0);
+        fill(row, &mut own);
+        rows.row_mut(row).tr_copy_from(&own);
+    }
+    rows
+}
+
+fn add_three(matrix: &mut DMatrix<f64>, at: (usize, usize), block: &Matrix3) {
+    let mut view = matrix.fixed_view_mut::<3, 3>(at.0, at.1);
+    view += block;
+}
+
+/// Adds rows to a local matrix from the row `first` on.
+fn add_to(out: &mut [f64], (first, size): (usize, usize), rows: &DMatrix<f64>) {
+    for row in 0..rows.nrows() {
+        for column in 0..size {
+            out[(first + row) * size + column] += rows[(row, column)];
+        }
+    }
+}
