@@ -103,7 +103,9 @@ impl Judge<'_> {
             .enumerate()
             .map(|(k, size)| (size, k))
             .collect();
-        named.sort_by(|a, b| b.0.total_cmp(&a.0));
+        // Constraints that miss as much as each other are named in the model's order, not by their last digits.
+        let rank = |size: f64| (20.0 * size / worst).round();
+        named.sort_by(|a, b| rank(b.0).total_cmp(&rank(a.0)));
         let mut words: Vec<String> = Vec::new();
         for &(_, k) in named.iter().filter(|(size, _)| *size > 0.1 * worst).take(MOST_NAMED) {
             let (joint, equation) = layout.constraint_name(k);
