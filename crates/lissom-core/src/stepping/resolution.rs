@@ -18,10 +18,10 @@ use super::error_estimate::SMALLEST_REFERENCE;
 use crate::analysis::{Simulation, warn};
 use crate::judge::Warning;
 
-/// Steps from one pair that is looked at to the next: with the two estimates of sixteen steps a chain of ten rigid bodies took
+/// Steps or parts from one pair that is looked at to the next: with the two estimates of sixteen steps a chain of ten rigid bodies took
 /// four per cent more instructions.
 const STRIDE: u32 = 64;
-/// Steps before the first pair.
+/// Steps or parts before the first pair.
 const FIRST: u32 = 4;
 /// Errors of two steps in a row that differ by more than this factor belong to an instant, not to the motion.
 const SPIKE: f64 = 4.0;
@@ -67,8 +67,10 @@ pub(crate) struct Resolution {
     has_first: bool,
     /// Planned steps since the last pair; parts of them by their share.
     steps: f64,
-    /// Steps until the next pair.
+    /// Steps and parts until the next pair.
     wait: u32,
+    /// Share of the planned size of the last one.
+    share: f64,
     pairs: f64,
 }
 
@@ -83,17 +85,17 @@ impl Resolution {
         }
     }
 
-    /// Counts a step, or a part of one, by its share of the planned size. Whether its error is to be estimated; parts are
-    /// not looked at.
+    /// Counts a step, or a part of one, by its share of the planned size. Whether its error is to be estimated. Two in a row
+    /// of one size are a pair: a motion may take each planned step in parts.
     fn is_due(&mut self, share: f64) -> bool {
         if self.missed.is_empty() {
             return false;
         }
         self.steps += share;
         self.wait = self.wait.saturating_sub(1);
-        let is_whole = share == 1.0;
-        self.has_first &= is_whole;
-        is_whole && self.wait == 0
+        self.has_first &= share == self.share;
+        self.share = share;
+        self.wait == 0
     }
 
     /// Takes note of the errors of a step: filtered and not, by coordinate row. Whether a pair is complete.
@@ -113,7 +115,8 @@ impl Resolution {
         let weight = if weight.is_nan() { 0.0 } else { weight };
         let (steps, is_first) = (self.steps, self.pairs == 0.0);
         for ((missed, first), second) in self.missed.iter_mut().zip(&self.first).zip(errors) {
-            let error = 0.5 * weight * (first[0].abs() + second[0].abs());
+            // Per planned step.
+            let error = 0.5 * weight * (first[0].abs() + second[0].abs()) / self.share;
             missed.sum += 0.5 * steps * (error + if is_first { error } else { missed.last });
             missed.last = error;
             missed.errors += first[1].abs() + second[1].abs();
@@ -235,7 +238,7 @@ mod tests {
                 for _ in 0..if in_parts { parts } else { 1 } {
                     let share = if in_parts { f64::from(parts).recip() } else { 1.0 };
                     if resolution.is_due(share) {
-                        resolution.note(std::iter::once([1.0; 2]));
+                        resolution.note(std::iter::once([share; 2]));
                     }
                 }
             }

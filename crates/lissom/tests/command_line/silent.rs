@@ -125,11 +125,17 @@ fn beams_that_turn_too_far_within_an_element_fail() {
 
 #[test]
 fn energy_from_nowhere_is_told_or_fails() {
-    warned(
-        "mass-ratio-energy",
-        "energy-surplus",
-        &["more energy than anything put in", "relative_tolerance"],
-    );
+    // The motion is chaos: how much energy the steps make, and so whether the run fails, depends on the last digits.
+    let folder = Folder::new("mass-ratio-energy");
+    let told = run("mass-ratio-energy", &folder);
+    assert!(told.code == 3 || told.code == 0, "{}", told.errors);
+    for word in ["more energy than anything put in", "relative_tolerance"] {
+        assert!(told.errors.contains(word), "{word}: {}", told.errors);
+    }
+    if told.code == 0 {
+        let warnings = &summary(&folder.path().join("out"))["warnings"];
+        assert!(warnings.to_string().contains("energy-surplus: "), "{warnings}");
+    }
     warned("energy-spike-generalized-alpha", "energy-surplus", &["more energy than anything put in"]);
 }
 
@@ -147,12 +153,25 @@ fn steps_too_long_for_the_rotation_are_divided() {
     let facts = right("radau-many-turns-per-step");
     let (start, end) = (facts["energy"]["start"]["total"].as_f64(), facts["energy"]["end"]["total"].as_f64());
     assert!((end.unwrap() / start.unwrap() - 1.0).abs() < 1e-9, "{facts}");
-    let facts = right("pendulum-too-large-step");
-    let energy = &facts["energy"];
-    assert!(
-        energy["largest_change"].as_f64().unwrap() < 0.1 * energy["turned_over"].as_f64().unwrap(),
-        "{energy}"
-    );
+    // What is left of the steps does not resolve the pendulum, which swings once in 2.4 s.
+    warned("pendulum-too-large-step", "unresolved-motion", &["rotation 3 of node `b`", "relative_tolerance"]);
+}
+
+#[test]
+fn steps_that_are_all_divided_are_judged_too() {
+    let folder = Folder::new("divided");
+    let top = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/top.toml");
+    for scheme in ["generalized-alpha", "hht", "radau-iia", "energy-decaying"] {
+        for step in ["0.011", "0.02", "0.04"] {
+            let [scheme, step] = [format!("analysis.scheme={scheme}"), format!("analysis.step={step}")];
+            let told = lissom(&["run", top, "--no-plots", "--set", &scheme, "--set", &step], folder.path());
+            assert!(
+                told.errors.contains("the steps are too long for the motion"),
+                "{scheme} {step}: {}",
+                told.errors
+            );
+        }
+    }
 }
 
 #[test]
