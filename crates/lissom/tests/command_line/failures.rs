@@ -68,7 +68,7 @@ fn every_failure_names_part_time_cause_and_remedy() {
 }
 
 /// Errors for which there is no model here, with the reason.
-const WITHOUT_MODEL: [(&str, &str); 10] = [
+const WITHOUT_MODEL: [(&str, &str); 11] = [
     ("StepError::NoTime", "a session is asked for it, no model can"),
     ("StepError::Interrupted", "Ctrl-C: tests of the command line"),
     ("StepError::NotFinite", "a load or signal behind it is named instead; this is what is left"),
@@ -79,6 +79,7 @@ const WITHOUT_MODEL: [(&str, &str); 10] = [
     ("StepError::LoopIsSingular", "no model found: contradictions are told before"),
     ("StepError::Velocities", "wraps an error of the start"),
     ("InitialError::ZeroPivot", "the reader refuses parts without mass"),
+    ("InitialError::NormalForces", "no model found, with friction coefficients up to 100 and 0.3 rad of yaw"),
     ("InitialError::Signal", "wraps an error of signals"),
     ("InitialError::NotFinite", "the reader refuses functions that are not finite at the start"),
     ("AssemblyError::UpsideDown", "tests/assembly.rs"),

@@ -132,7 +132,7 @@ pub const KIND: JointKind = JointKind {
             "velocity",
             ParameterType::GlobalVector,
             "m/s",
-            "Velocity of the base along the rail, for models in axes that run with a vehicle; default 0.",
+            "Velocity of the base along the rail in global axes, for models in axes that run with a vehicle; default 0.",
         ),
         Parameter::optional(
             "wheel_spin",

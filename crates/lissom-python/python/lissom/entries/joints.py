@@ -869,7 +869,7 @@ class WheelOnRail(Joint):
         poisson_number: Poisson's number; default 0.28; a number ≥ 0, or nothing.
         kalker: Kalker's coefficients of longitudinal, lateral and spin creep: C11, C22, C23; three numbers, or nothing.
         ellipse: Elliptic integral E and ratio g of the half axes of the ellipse of contact, as tables give them; default: those of Hertz for the nominal curvatures; a list of numbers, or nothing.
-        velocity: Velocity of the base along the rail, for models in axes that run with a vehicle; default 0 [m/s]; three numbers, or nothing.
+        velocity: Velocity of the base along the rail in global axes, for models in axes that run with a vehicle; default 0 [m/s]; three numbers, or nothing.
         wheel_spin: Angular velocity of the wheel relative to the tip about `axle`, for tips that do not turn with it; default 0 [rad/s]; a number, or nothing.
         directions: Directions of creep forces: in the tangent plane, or those of Simeon, Fuehrer and Rentrop 1991; default `exact`; `"exact"`, `"small_angles"`, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.

@@ -396,7 +396,7 @@ entry! {
     kalker: [f64; 3] = "kalker";
     /// Elliptic integral E and ratio g of the half axes of the ellipse of contact, as tables give them; default: those of Hertz for the nominal curvatures.
     ellipse: Vec<f64> = "ellipse";
-    /// Velocity of the base along the rail, for models in axes that run with a vehicle; default 0 \[m/s\].
+    /// Velocity of the base along the rail in global axes, for models in axes that run with a vehicle; default 0 \[m/s\].
     velocity: [f64; 3] = "velocity";
     /// Angular velocity of the wheel relative to the tip about `axle`, for tips that do not turn with it; default 0 \[rad/s\].
     wheel_spin: f64 = "wheel_spin";
