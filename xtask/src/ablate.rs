@@ -1,11 +1,13 @@
 //! `cargo xtask ablate`: leaves out one mechanism of the search for a step's solution at a time, over all scenes, examples,
 //! verification models and random mechanisms, and prints what that costs. A mechanism without which nothing fails and nothing becomes
-//! dearer is to go. Knows no mechanics.
+//! dearer is to go. With `--numbers` it halves and doubles instead each number that these and the choice of steps go by. Knows
+//! no mechanics.
 
 use std::collections::BTreeSet;
 use std::ops::ControlFlow;
 
 use lissom::core::mechanisms::MECHANISMS;
+use lissom::core::numbers::{NUMBERS, Number, Numbers};
 use lissom::{Override, Session};
 
 use crate::AblateArguments;
@@ -35,6 +37,9 @@ pub(crate) fn ablate(arguments: &AblateArguments) -> Result<bool, VerifyError> {
     subjects.extend(subjects::examples()?);
     subjects.extend(subjects::cases()?);
     subjects.extend(subjects::hard_random(arguments.random));
+    if arguments.numbers {
+        subjects.extend(subjects::chosen_random(arguments.random));
+    }
     if !arguments.names.is_empty() {
         subjects.retain(|subject| arguments.names.iter().any(|name| subject.name.contains(name.as_str())));
     }
@@ -47,25 +52,37 @@ pub(crate) fn ablate(arguments: &AblateArguments) -> Result<bool, VerifyError> {
         subjects.iter().zip(&whole).filter(|(_, run)| run.failure.is_some()).map(|(s, _)| &*s.name).collect();
     println!("{} models; failing with everything: {failing:?}\n", subjects.len());
     println!(
-        "| without | fail | are saved | time | most | iterations | tangents | given up | error × |\n\
-         |---|---|---|---|---|---|---|---|---|"
+        "| {} | fail | are saved | time | counted | most | iterations | tangents | given up | error × |\n\
+         |---|---|---|---|---|---|---|---|---|---|",
+        if arguments.numbers { "changed" } else { "without" }
     );
     print_row("nothing", &subjects, (&whole, &whole, &fine));
-    for (_, word, _) in MECHANISMS {
-        let without = ("analysis.without".to_owned(), format!("[\"{word}\"]"));
+    for (title, change) in changes(arguments.numbers) {
         let runs: Vec<Finished> = subjects
             .iter()
-            .map(|subject| run(subject, std::slice::from_ref(&without), arguments.repeat))
+            .map(|subject| run(subject, std::slice::from_ref(&change), arguments.repeat))
             .collect();
-        print_row(word, &subjects, (&runs, &whole, &fine));
+        print_row(&title, &subjects, (&runs, &whole, &fine));
     }
     Ok(true)
+}
+
+/// What is changed in turn, with the title of its row.
+fn changes(of_numbers: bool) -> Vec<(String, Override)> {
+    let change = |key: &str, word: &str| (format!("analysis.{key}"), format!("[\"{word}\"]"));
+    if of_numbers {
+        let halved_and_doubled = NUMBERS.iter().flat_map(|(_, word, ..)| {
+            [(format!("½ {word}"), change("halved", word)), (format!("2 {word}"), change("doubled", word))]
+        });
+        return halved_and_doubled.collect();
+    }
+    MECHANISMS.iter().map(|(_, word, _)| ((*word).to_owned(), change("without", word))).collect()
 }
 
 /// One line of the table: `runs` without a mechanism beside those with all, and fine ones.
 fn print_row(word: &str, subjects: &[Subject], (runs, whole, fine): (&[Finished], &[Finished], &[Finished])) {
     let (mut fails, mut saved) = (Vec::new(), Vec::new());
-    let mut times = Vec::new();
+    let (mut times, mut counts) = (Vec::new(), Vec::new());
     let mut most = (0.0, "");
     let mut sums = [[0.0; 3]; 2];
     let mut worst = (0.0, "");
@@ -75,8 +92,9 @@ fn print_row(word: &str, subjects: &[Subject], (runs, whole, fine): (&[Finished]
             (None, Some(_)) => saved.push(&*subject.name),
             (Some(_), Some(_)) => {}
             (None, None) => {
-                let ratio = run.seconds.max(1e-6) / whole.seconds.max(1e-6);
-                times.push(ratio.ln());
+                times.push((run.seconds.max(1e-6) / whole.seconds.max(1e-6)).ln());
+                let ratio = counted(run) / counted(whole);
+                counts.push(ratio.ln());
                 if ratio > most.0 {
                     most = (ratio, &subject.name);
                 }
@@ -96,10 +114,11 @@ fn print_row(word: &str, subjects: &[Subject], (runs, whole, fine): (&[Finished]
     }
     let count = times.len() as f64;
     println!(
-        "| {word} | {} | {} | {:.3} | {:.2} ({}) | {:.3} | {:.2} | {} ({}) | {:.1e} ({}) |",
+        "| {word} | {} | {} | {:.3} | {:.3} | {:.2} ({}) | {:.3} | {:.2} | {} ({}) | {:.1e} ({}) |",
         list(&fails),
         list(&saved),
         (times.iter().sum::<f64>() / count).exp(),
+        (counts.iter().sum::<f64>() / count).exp(),
         most.0,
         most.1,
         sums[0][0] / sums[1][0],
@@ -109,6 +128,11 @@ fn print_row(word: &str, subjects: &[Subject], (runs, whole, fine): (&[Finished]
         worst.0,
         worst.1,
     );
+}
+
+/// Iterations, and those that tangents cost.
+fn counted(run: &Finished) -> f64 {
+    run.iterations + run.tangents * Numbers::default().of(Number::TangentCost)
 }
 
 fn list(names: &[&str]) -> String {

@@ -156,6 +156,9 @@ struct AblateArguments {
     /// Random mechanisms to run beside
     #[arg(long, default_value_t = 0)]
     random: u64,
+    /// Instead of leaving out mechanisms halve and double each number they go by
+    #[arg(long)]
+    numbers: bool,
 }
 
 /// What is verified.

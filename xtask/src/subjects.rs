@@ -99,11 +99,24 @@ pub(crate) fn random(count: u64) -> Vec<Subject> {
 
 /// So many random mechanisms with steps that resolve little, by schemes in turn.
 pub(crate) fn hard_random(count: u64) -> Vec<Subject> {
+    random_with(count, ("step", HARD_STEP))
+}
+
+/// So many random mechanisms with steps that are chosen, by schemes in turn.
+pub(crate) fn chosen_random(count: u64) -> Vec<Subject> {
+    let mut all = random_with(count, ("relative_tolerance", "1e-5"));
+    for subject in &mut all {
+        subject.name.push_str(", chosen steps");
+    }
+    all
+}
+
+fn random_with(count: u64, (key, value): (&str, &str)) -> Vec<Subject> {
     let schemes = ["generalized-alpha", "radau-iia", "energy-decaying"];
     let mut all = random(count);
     for (subject, scheme) in all.iter_mut().zip(schemes.iter().cycle()) {
         subject.overrides.push(("analysis.scheme".to_owned(), format!("\"{scheme}\"")));
-        subject.overrides.push(("analysis.step".to_owned(), HARD_STEP.to_owned()));
+        subject.overrides.push((format!("analysis.{key}"), value.to_owned()));
         subject.overrides.push(("analysis.output_every".to_owned(), "1".to_owned()));
     }
     all

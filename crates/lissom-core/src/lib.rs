@@ -15,6 +15,7 @@ pub mod linear;
 pub mod mechanisms;
 pub mod newton;
 mod node_motion;
+pub mod numbers;
 pub mod registry;
 pub mod scaling;
 pub mod schemes;

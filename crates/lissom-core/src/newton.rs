@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::interrupt;
 use crate::mechanisms::{Mechanism, Without};
+use crate::numbers::{MOST_HALVINGS, Number, Numbers};
 
 /// What Newton's method sees of a problem.
 pub trait Equations {
@@ -50,11 +51,13 @@ pub struct Limits {
     pub max_iterations: usize,
     /// What is left out, for studies.
     pub without: Without,
+    /// The numbers to go by.
+    pub numbers: Numbers,
 }
 
 impl Default for Limits {
     fn default() -> Self {
-        Self { tolerance: 1e-8, max_iterations: 25, without: Without::default() }
+        Self { tolerance: 1e-8, max_iterations: 25, without: Without::default(), numbers: Numbers::default() }
     }
 }
 
@@ -65,6 +68,8 @@ pub struct Memory {
     pub has_tangent: bool,
     /// Worst contraction of the last solution with this tangent in which it was seen.
     contraction: Option<f64>,
+    /// Solutions since then.
+    unseen: u32,
     /// Size of correction at which iterations have stalled for round-off [-].
     round_off: f64,
     /// What the tangent has cost.
@@ -75,17 +80,17 @@ impl Memory {
     /// Forgets the tangent, and what was learned with it.
     fn forget_tangent(&mut self) {
         self.has_tangent = false;
-        self.contraction = None;
+        (self.contraction, self.unseen) = (None, 0);
     }
 
     /// Takes note of a solution, and gives the tangent up if it has become too dear.
-    fn keep_account(&mut self, outcome: &Outcome, without: Without) {
-        if !without.has(Mechanism::Account) {
+    fn keep_account(&mut self, outcome: &Outcome, limits: &Limits) {
+        if !limits.without.has(Mechanism::Account) {
             return;
         }
         if outcome.factorizations > 0 {
-            self.account = Account { spent: TANGENT_COST, ..Account::default() };
-        } else if self.account.is_too_dear(outcome.iterations as f64) {
+            self.account = Account { spent: limits.numbers.of(Number::TangentCost), ..Account::default() };
+        } else if self.account.is_too_dear(outcome.iterations as f64, limits.numbers.of(Number::Novelty)) {
             self.forget_tangent();
         }
     }
@@ -102,10 +107,10 @@ struct Account {
 }
 
 impl Account {
-    fn is_too_dear(&mut self, iterations: f64) -> bool {
+    fn is_too_dear(&mut self, iterations: f64, novelty: f64) -> bool {
         self.spent += iterations;
         self.solutions += 1.0;
-        let weight = (1.0 / self.solutions).max(NOVELTY);
+        let weight = (1.0 / self.solutions).max(novelty);
         self.recent += weight * (iterations - self.recent);
         self.recent * self.solutions > self.spent
     }
@@ -145,32 +150,8 @@ pub enum Failure {
     Interrupted,
 }
 
-/// What a new tangent costs, in iterations.
-const TANGENT_COST: f64 = 25.0;
-/// A tangent is renewed within a solution when it would still need more iterations than this.
-const PATIENCE: f64 = 8.0;
-/// Weight of the last solution in what solutions cost lately.
-const NOVELTY: f64 = 0.05;
-/// Where a solution is believed in without having seen its contraction, the error is to be this part of what is
-/// allowed: many such solutions in a row all err to the same side.
-const UNSEEN: f64 = 0.02;
-/// A contraction that has not been seen for a solution is trusted this much less.
-const DISTRUST: f64 = 3.0;
-/// The best contraction that is remembered: a last correction that happens to vanish says nothing about the
-/// next solution.
-const BEST_REMEMBERED: f64 = 1e-3;
-/// A better contraction than this is not believed of a tangent made for another solution: the largest part of
-/// a correction may vanish at once and hide a small part that shrinks slowly.
-const CREDIBLE: f64 = 0.05;
-/// A correction is halved at most this often.
-const MOST_HALVINGS: usize = 12;
-/// Corrections that shrink by less than this are round-off, once they are small.
-const STALLED: f64 = 0.5;
 /// Corrections below this are round-off: some hundred roundings of numbers of the size of one [-].
 const ROUND_OFF: f64 = 1e-13;
-/// A stalled correction below this fraction of the reference is good enough to go on.
-const STALLED_FRACTION: f64 = 1e-6;
-
 /// Where the solution is wanted exactly, stalled corrections above this are slow convergence [-].
 const EXACT_STALLED: f64 = 1e-11;
 /// Where the solution is wanted exactly, so many new tangents are made for corrections that stall.
@@ -201,7 +182,7 @@ pub fn solve<E: Equations>(
         if !memory.has_tangent {
             equations.renew_tangent().map_err(Failure::Factor)?;
             memory.has_tangent = true;
-            memory.contraction = None;
+            (memory.contraction, memory.unseen) = (None, 0);
             outcome.factorizations += 1;
             fresh = true;
             age = 0;
@@ -213,7 +194,7 @@ pub fn solve<E: Equations>(
         age += 1;
         match judge(&correction, previous, fresh, limits, memory) {
             Verdict::Converged => {
-                memory.keep_account(&outcome, limits.without);
+                memory.keep_account(&outcome, limits);
                 return Ok(outcome);
             }
             Verdict::Stalled if stalls > 0 && correction.size > ROUND_OFF => {
@@ -231,7 +212,7 @@ pub fn solve<E: Equations>(
                     memory.round_off = 0.0;
                 }
                 outcome.stagnated = true;
-                memory.keep_account(&outcome, limits.without);
+                memory.keep_account(&outcome, limits);
                 return Ok(outcome);
             }
             // Seen through the same tangent the next correction must be smaller (natural monotonicity
@@ -293,34 +274,35 @@ fn judge(
     if !(size.is_finite() && reference.is_finite()) {
         return if fresh && previous.is_some() { Verdict::BackOff } else { Verdict::Restart };
     }
+    let least = limits.numbers.of(Number::Contraction);
     let goal = (limits.tolerance * reference).max(memory.round_off);
     let Some(previous) = previous else {
-        // The first correction is judged by the contraction of earlier solutions, which is trusted less
-        // each time it is not seen again.
+        // The first correction is judged by the contraction of earlier solutions: after n solutions in which it was not
+        // seen it may be n + 1 times as slow.
         if size == 0.0 {
             return Verdict::Converged;
         }
         if let Some(contraction) = memory.contraction
             && limits.without.has(Mechanism::SingleCorrection)
-            && remaining(contraction) * size <= UNSEEN * goal
+            && remaining(contraction.max(least) * f64::from(memory.unseen + 1)) * size
+                <= limits.numbers.of(Number::Unseen) * goal
         {
-            memory.contraction = Some(DISTRUST * contraction);
+            memory.unseen += 1;
             return Verdict::Converged;
         }
         // It will be seen anew.
-        memory.contraction = None;
+        (memory.contraction, memory.unseen) = (None, 0);
         return Verdict::Go;
     };
     let contraction = size / previous;
     memory.contraction = Some(memory.contraction.map_or(contraction, |known| known.max(contraction)));
-    let credible = if fresh { contraction } else { contraction.max(CREDIBLE) };
+    let credible = if fresh { contraction } else { contraction.max(least) };
     if remaining(credible) * size <= goal {
-        memory.contraction = memory.contraction.map(|worst| worst.max(BEST_REMEMBERED));
         return Verdict::Converged;
     }
     // Stiff members and large places have more of it.
-    let near_round_off = size <= 10.0 * ROUND_OFF || size <= STALLED_FRACTION * reference;
-    if contraction > STALLED && near_round_off && fresh {
+    let near_round_off = size <= 10.0 * ROUND_OFF || size <= limits.numbers.of(Number::Small) * reference;
+    if contraction > limits.numbers.of(Number::Stalled) && near_round_off && fresh {
         if size <= ROUND_OFF {
             memory.round_off = memory.round_off.max(size);
         }
@@ -331,7 +313,7 @@ fn judge(
         return if fresh { Verdict::BackOff } else { Verdict::Restart };
     }
     let needed = if contraction < 1.0 { (goal / size).ln() / contraction.ln() } else { f64::INFINITY };
-    if needed > PATIENCE { Verdict::Renew } else { Verdict::Go }
+    if needed > limits.numbers.of(Number::TangentCost) { Verdict::Renew } else { Verdict::Go }
 }
 
 /// Sum of the corrections still to come, relative to the last one: a geometric series.

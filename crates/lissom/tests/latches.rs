@@ -112,7 +112,8 @@ fn discs_go_on_together_with_their_momentum_and_part_again() {
                 let pull = if time > 0.6 { 2.0 * 4.0 / 5.0 } else { 0.0 };
                 assert!((torque[row] + pull).abs() < 1e-3, "{set:?} t = {time}: {} {pull}", torque[row]);
             } else {
-                assert!(torque[row].abs() < 1e-9, "{set:?} t = {time}: {}", torque[row]);
+                // Nothing but what Newton's iteration leaves of the largest torque, 1.6 N m.
+                assert!(torque[row].abs() < 1e-6, "{set:?} t = {time}: {}", torque[row]);
             }
             if time < 0.59 {
                 // The momentum is what it was, before and after.

@@ -14,16 +14,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::corrections::{Processor, processor, product};
+use crate::numbers::{Number, Numbers};
 
 /// Most secants in use.
 const MOST: usize = 5;
-/// Secants that are less independent of newer ones are left out.
-const DEPENDENT: f64 = 3e-4;
-/// A secant is used for corrections up to so many times as large: beyond, its round-off would tell.
-const REACH: f64 = 10.0;
-/// A secant is kept if |P| is below this part of |Δ|: where a tangent is worse it is to be renewed, and corrections that
-/// are round-off have nothing to tell.
-const CREDIBLE: f64 = 0.7;
 
 /// The last corrections, of all stages.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -92,20 +86,20 @@ impl Anderson {
     }
 
     /// Improves the corrections of all stages.
-    pub(crate) fn improve(&mut self, corrections: &mut [Vec<f64>]) {
-        self.processor.0.dispatch(Improve { secants: self, corrections });
+    pub(crate) fn improve(&mut self, corrections: &mut [Vec<f64>], numbers: &Numbers) {
+        self.processor.0.dispatch(Improve { secants: self, corrections, numbers });
     }
 
     #[inline(always)]
-    fn run(&mut self, corrections: &mut [Vec<f64>]) {
+    fn run(&mut self, corrections: &mut [Vec<f64>], numbers: &Numbers) {
         let rows = corrections[0].len();
         self.weigh(corrections);
         if self.goes_on {
-            self.note(corrections);
+            self.note(corrections, numbers.of(Number::SecantCredible));
         }
         self.goes_on = true;
         std::mem::swap(&mut self.last_weighted, &mut self.weighted);
-        self.take(&self.shares());
+        self.take(&self.shares(numbers));
         for (corrections, taken) in corrections.iter_mut().zip(self.taken.chunks(rows)) {
             for (value, taken) in corrections.iter_mut().zip(taken) {
                 *value -= taken;
@@ -146,7 +140,7 @@ impl Anderson {
 
     /// Takes note of the secant from the last correction to this one.
     #[inline(always)]
-    fn note(&mut self, corrections: &[Vec<f64>]) {
+    fn note(&mut self, corrections: &[Vec<f64>], credible: f64) {
         let slot = self.next;
         let change = &mut self.changes[slot];
         for ((change, value), last) in change.iter_mut().zip(&self.weighted).zip(&self.last_weighted) {
@@ -172,7 +166,7 @@ impl Anderson {
             self.products[slot][other] = product;
             self.products[other][slot] = product;
         }
-        if departure < CREDIBLE * CREDIBLE * self.products[slot][slot] {
+        if departure < credible * credible * self.products[slot][slot] {
             self.next = (slot + 1) % self.most;
             self.known = (self.known + 1).min(self.most);
         } else if self.known == self.most {
@@ -183,7 +177,7 @@ impl Anderson {
 
     /// γ by slot: least squares through a factorisation L D Lᵀ of the products, newest first.
     #[inline(always)]
-    fn shares(&self) -> [f64; MOST] {
+    fn shares(&self, numbers: &Numbers) -> [f64; MOST] {
         let mut shares = [0.0; MOST];
         // L D, 1/D, and L⁻¹ of the right-hand side.
         let mut lower = [[0.0; MOST]; MOST];
@@ -191,7 +185,8 @@ impl Anderson {
         let mut forward = [0.0; MOST];
         let mut slots = [0; MOST];
         let mut used = 0;
-        let smallest = product(&self.last_weighted, &self.last_weighted) / (REACH * REACH);
+        let (reach, independent) = (numbers.of(Number::SecantReach), numbers.of(Number::SecantIndependence));
+        let smallest = product(&self.last_weighted, &self.last_weighted) / (reach * reach);
         for back in 1..=self.known {
             let slot = (self.next + self.most - back) % self.most;
             let own = self.products[slot][slot];
@@ -209,7 +204,7 @@ impl Anderson {
                 pivot -= sum * sum * inverse[k];
                 value -= sum * inverse[k] * forward[k];
             }
-            if pivot > DEPENDENT * own {
+            if pivot > independent * own {
                 lower[used] = row;
                 inverse[used] = 1.0 / pivot;
                 forward[used] = value;
@@ -228,6 +223,7 @@ impl Anderson {
 struct Improve<'a> {
     secants: &'a mut Anderson,
     corrections: &'a mut [Vec<f64>],
+    numbers: &'a Numbers,
 }
 
 impl pulp::WithSimd for Improve<'_> {
@@ -235,7 +231,7 @@ impl pulp::WithSimd for Improve<'_> {
 
     #[inline(always)]
     fn with_simd<V: pulp::Simd>(self, _: V) {
-        self.secants.run(self.corrections);
+        self.secants.run(self.corrections, self.numbers);
     }
 }
 
@@ -268,7 +264,7 @@ mod tests {
                     correction.push(1.0);
                     let mut stages = [correction];
                     if improves {
-                        secants.improve(&mut stages);
+                        secants.improve(&mut stages, &Numbers::default());
                     }
                     for (x, correction) in x.iter_mut().zip(&stages[0]) {
                         *x -= correction;
@@ -295,7 +291,7 @@ mod tests {
         let mut secants = Anderson::new(1, 2, &[1.0, 1.0]);
         for (first, second) in [(1.0, 2.0), (0.0, 0.0), (3.0, 1.0)] {
             let mut stages = [vec![first, second]];
-            secants.improve(&mut stages);
+            secants.improve(&mut stages, &Numbers::default());
             assert_eq!(stages[0], [first, second]);
         }
     }

@@ -213,7 +213,7 @@ impl Simulation {
         let equilibrated = settings.scaling.equilibrates();
         let mut work =
             Workspace::new(&system, &state, &settings.scheme, &representative, settings.solver, equilibrated);
-        work.without = settings.limits.without;
+        (work.without, work.numbers) = (settings.limits.without, settings.limits.numbers);
         work.threads = Threads::new(&system, settings.threads);
         work.factorization.set_threads(settings.threads);
         let singular = SingularPositions::new(&system, &state.kinematics, representative.length);

@@ -13,19 +13,10 @@ use crate::joints::derivatives::IncrementTangent;
 use crate::joints::{Quantity, attached};
 use crate::mechanisms::Mechanism;
 use crate::newton::{Correction, Equations, Failure};
+use crate::numbers::Number;
 use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
 use crate::schemes::{Increments, Scheme, Tableau};
 use crate::system::{Chart, Kinematics, LOCKED, Point, Receiver, State, StepPoint, System};
-
-/// Corrections of rotations larger than this are cut short [rad].
-const LARGEST_ROTATION: f64 = 1.0;
-
-/// Iterates whose last correction is larger than this are far from equilibrium [-].
-pub(crate) const FAR: f64 = 1e-3;
-
-/// Departures from going straight on below this are not resolved for their own sake where states are measured beside
-/// places [-].
-const LEAST_DEPARTURE: f64 = 1e-5;
 
 /// Roundings that add up in a force.
 const ROUNDINGS: f64 = 16.0;
@@ -208,7 +199,8 @@ impl StepEquations<'_> {
 
     /// Whether the iterate is far from equilibrium.
     pub(super) fn is_far(&self) -> bool {
-        self.work.correction > FAR && self.work.without.has(Mechanism::StartStresses)
+        self.work.correction > self.work.numbers.of(Number::Far)
+            && self.work.without.has(Mechanism::StartStresses)
     }
 
     /// Tangent operators of the nodes' increments since the start of the step, straight motion included.
@@ -234,9 +226,10 @@ impl StepEquations<'_> {
         if !places.size.is_finite() {
             return places;
         }
-        if places.size > LARGEST_ROTATION {
+        let largest = self.work.numbers.of(Number::LargestCorrection);
+        if places.size > largest {
             self.work.anderson.interrupt();
-            let cut = LARGEST_ROTATION / places.size;
+            let cut = largest / places.size;
             self.work.residuals.iter_mut().flatten().for_each(|value| *value *= cut);
         }
         let corrections = std::mem::take(&mut self.work.residuals);
@@ -302,14 +295,15 @@ impl StepEquations<'_> {
         if layout.state_count() == 0 {
             return places;
         }
-        let reference = places.reference.max(LEAST_DEPARTURE);
+        let least = self.work.numbers.of(Number::LeastDeparture);
+        let reference = places.reference.max(least);
         let mut size = places.size;
         for (row, coordinate, magnitude) in layout.states() {
             let magnitude = magnitude.max(self.start.kinematics.coordinates[coordinate].value.abs());
             let of = |stages: &[Vec<f64>]| {
                 stages.iter().fold(0.0_f64, |most, values| most.max(values[row].abs())) / magnitude
             };
-            let departure = of(&self.work.increments).max(LEAST_DEPARTURE);
+            let departure = of(&self.work.increments).max(least);
             size = size.max(of(&self.work.residuals) / departure * reference);
         }
         Correction { size, reference }
@@ -378,6 +372,7 @@ impl StepEquations<'_> {
         });
         let mut worst = (0, -1.0);
         // States are measured apart, as in `with_states`.
+        let least = self.work.numbers.of(Number::LeastDeparture);
         let states: Vec<(usize, f64)> = layout
             .states()
             .map(|(row, coordinate, magnitude)| {
@@ -385,7 +380,7 @@ impl StepEquations<'_> {
                 let of = |stages: &[Vec<f64>]| {
                     stages.iter().fold(0.0_f64, |most, values| most.max(values[row].abs())) / magnitude
                 };
-                (row, of(&self.work.residuals) / of(&self.work.increments).max(LEAST_DEPARTURE))
+                (row, of(&self.work.residuals) / of(&self.work.increments).max(least))
             })
             .collect();
         let is_state = |row: usize| states.iter().any(|(state, _)| *state == row);
@@ -432,7 +427,7 @@ impl Equations for StepEquations<'_> {
             }
         }
         if work.without.has(Mechanism::Secants) {
-            work.anderson.improve(&mut work.residuals);
+            work.anderson.improve(&mut work.residuals, &work.numbers);
         }
         self.watch.begin(Phase::Rest);
         let correction = self.add_corrections();

@@ -14,16 +14,11 @@
 use serde::{Deserialize, Serialize};
 
 use super::corrections::{Processor, SIDE_BY_SIDE, sum};
+use crate::numbers::{Number, Numbers};
 
 /// Steps that are looked back at most, K.
 const MOST: usize = 8;
-/// What a step counts for after another one, φ: coefficients change as the motion does, and what has depended on round-off
-/// is soon forgotten.
-const FADING: f64 = 0.5;
-/// A prediction that would have left more than this part of what was missed is not to be trusted with the next step: where
-/// motion has just jumped, or constraints lose their rank, it leads to other branches.
-const CREDIBLE: f64 = 0.5;
-/// What depends on later steps but for this part is left out.
+/// What depends on later steps but for this part is round-off.
 const DEPENDENT: f64 = 1e-13;
 
 type Block = [f64; SIDE_BY_SIDE];
@@ -139,7 +134,12 @@ impl Predictor {
     }
 
     /// Takes note of what was found, and so of what the scheme's guess, given by stage, has missed.
-    pub(crate) fn learn<'a>(&mut self, found: &[Vec<f64>], guessed: impl Fn(usize) -> &'a [f64]) {
+    pub(crate) fn learn<'a>(
+        &mut self,
+        found: &[Vec<f64>],
+        guessed: impl Fn(usize) -> &'a [f64],
+        numbers: &Numbers,
+    ) {
         let mut products = [0.0; MOST + 1];
         let mut first = 0;
         for (stage, found) in found.iter().enumerate() {
@@ -150,7 +150,7 @@ impl Predictor {
             }
             first += found.len().div_ceil(SIDE_BY_SIDE);
         }
-        self.processor.0.dispatch(Learn { memory: self, products });
+        self.processor.0.dispatch(Learn { memory: self, products, numbers });
     }
 
     /// |d - Σ c_j d_j|² of a step that has missed d, by the products of d with what was missed before, and with itself.
@@ -254,6 +254,7 @@ impl pulp::WithSimd for Note<'_> {
 struct Learn<'a> {
     memory: &'a mut Predictor,
     products: [f64; MOST + 1],
+    numbers: &'a Numbers,
 }
 
 impl pulp::WithSimd for Learn<'_> {
@@ -261,17 +262,19 @@ impl pulp::WithSimd for Learn<'_> {
 
     #[inline(always)]
     fn with_simd<V: pulp::Simd>(self, _: V) {
-        let Learn { memory, products } = self;
+        let Learn { memory, products, numbers } = self;
+        let (fading, credible) =
+            (numbers.of(Number::PredictionFading), numbers.of(Number::PredictionCredible));
         memory.lengths = [1.0, memory.lengths[0]];
         // The oldest was looked back at for the last time.
         let toward: [f64; MOST] = std::array::from_fn(|ago| products[memory.place(ago)]);
         for i in 0..MOST {
-            memory.vector[i] = FADING * memory.vector[i] + toward[i];
+            memory.vector[i] = fading * memory.vector[i] + toward[i];
             for j in 0..MOST {
-                memory.matrix[i][j] = FADING * memory.matrix[i][j] + memory.products[i][j];
+                memory.matrix[i][j] = fading * memory.matrix[i][j] + memory.products[i][j];
             }
         }
-        let is_credible = memory.left(&toward, products[MOST]) <= CREDIBLE * CREDIBLE * products[MOST];
+        let is_credible = memory.left(&toward, products[MOST]) <= credible * credible * products[MOST];
         let before = memory.products;
         memory.products[0][0] = products[MOST];
         for i in 1..MOST {
@@ -321,7 +324,7 @@ mod tests {
     fn guessed(of: impl Fn(usize) -> f64, steps: usize) -> f64 {
         let mut guess = Predictor::new(1, &[1.0]);
         for step in 0..steps {
-            guess.learn(&[vec![of(step)]], |_| &[0.0]);
+            guess.learn(&[vec![of(step)]], |_| &[0.0], &Numbers::default());
         }
         let mut value = [vec![0.0]];
         guess.improve(&mut value);
@@ -347,7 +350,7 @@ mod tests {
                 };
                 let mut guess = Predictor::new(stages, &vec![1.0; count]);
                 for step in 0..6 {
-                    guess.learn(&values(step), |_| &[0.0; 19][..count]);
+                    guess.learn(&values(step), |_| &[0.0; 19][..count], &Numbers::default());
                 }
                 let mut next = vec![vec![0.0; count]; stages];
                 guess.improve(&mut next);
@@ -366,7 +369,7 @@ mod tests {
         let of = |step: f64| vec![(0.9 * step).cos() + (2.2 * step).sin(), (0.9 * step + 0.3).cos()];
         let mut guess = Predictor::new(1, &[1.0, 3.0]);
         for step in 0..40 {
-            guess.learn(&[of(f64::from(step))], |_| &[0.0, 0.0]);
+            guess.learn(&[of(f64::from(step))], |_| &[0.0, 0.0], &Numbers::default());
         }
         let mut next = [vec![0.0, 0.0]];
         guess.improve(&mut next);
@@ -383,7 +386,7 @@ mod tests {
         let (mut time, mut size) = (0.0, 1.0);
         for next in [1.0, 1.0, 0.5, 0.3, 1.5, 1.0] {
             let found = miss(time, size);
-            guess.learn(&[vec![found; 9], vec![8.0 * found; 9]], |_| &[0.0; 9]);
+            guess.learn(&[vec![found; 9], vec![8.0 * found; 9]], |_| &[0.0; 9], &Numbers::default());
             let missed: Vec<f64> = guess.last_missed(1, 2).take(9).collect();
             assert!(missed.iter().all(|value| (value - 8.0 * found).abs() < 1e-12 * found), "{missed:?}");
             time += size;
@@ -412,7 +415,7 @@ mod tests {
         assert_eq!(guessed(|_| 1.0, 0), 0.0);
         let mut guess = Predictor::new(1, &[1.0]);
         for _ in 0..5 {
-            guess.learn(&[vec![1.0]], |_| &[0.0]);
+            guess.learn(&[vec![1.0]], |_| &[0.0], &Numbers::default());
         }
         guess.forget();
         let mut value = [vec![0.0]];

@@ -13,6 +13,7 @@ use crate::joints::Quantity;
 use crate::joints::blocks::JointStarts;
 use crate::joints::derivatives::IncrementTangent;
 use crate::mechanisms::Without;
+use crate::numbers::Numbers;
 use crate::scaling::{Representative, Scaled, StageMotion, UnitStart};
 use crate::schemes::{Increments, Scheme};
 use crate::system::{Layout, Scratch, State, System, Threads};
@@ -91,6 +92,8 @@ pub(crate) struct Workspace {
     pub(crate) anderson: Anderson,
     /// Mechanisms that are left out.
     pub(crate) without: Without,
+    /// Numbers to go by.
+    pub(crate) numbers: Numbers,
 }
 
 impl Workspace {
@@ -151,6 +154,7 @@ impl Workspace {
             threads: None,
             report: None,
             without: Without::default(),
+            numbers: Numbers::default(),
         }
     }
 
@@ -160,8 +164,8 @@ impl Workspace {
             self.unit.predict(&stage.prediction, predicted);
         }
         let [of_increments, of_multipliers] = &mut self.predictors;
-        of_increments.learn(&self.increments, |stage| &self.predicted[stage]);
-        of_multipliers.learn(&self.multipliers, |_| multipliers);
+        of_increments.learn(&self.increments, |stage| &self.predicted[stage], &self.numbers);
+        of_multipliers.learn(&self.multipliers, |_| multipliers, &self.numbers);
         self.is_miss_known = true;
     }
 

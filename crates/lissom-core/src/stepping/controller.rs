@@ -8,16 +8,10 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numbers::{Number, Numbers};
+
 /// Order of the estimate in the step size.
 const ORDER: f64 = 3.0;
-/// A step is chosen this much smaller than the estimate allows, so that few are rejected.
-const SAFETY: f64 = 0.8;
-/// A step changes by these factors at most.
-const LARGEST_CHANGE: f64 = 5.0;
-const SMALLEST_CHANGE: f64 = 0.2;
-/// The step size is kept where the factor lies between these: what was learned of it goes on to serve. At the lower one the
-/// estimate is at 0.83 of the tolerance.
-const KEPT: std::ops::Range<f64> = 0.85..1.2;
 
 /// What the user asks of step-size control.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,21 +55,25 @@ impl Controller {
     }
 
     /// A step of `taken` [s] had an estimated error of `error` times the tolerance, and is accepted.
-    pub(crate) fn accept(&mut self, taken: f64, error: f64, max_step: f64) {
-        let largest = if self.has_failed { 1.0 } else { LARGEST_CHANGE };
-        let factor = (SAFETY * error.powf(-1.0 / ORDER)).clamp(SMALLEST_CHANGE, largest);
+    pub(crate) fn accept(&mut self, taken: f64, error: f64, max_step: f64, numbers: &Numbers) {
+        let largest = if self.has_failed { 1.0 } else { numbers.of(Number::Growth) };
+        let factor = (numbers.of(Number::Safety) * error.powf(-1.0 / ORDER)).min(largest);
         self.has_failed = false;
-        let wanted = taken * if KEPT.contains(&factor) { 1.0 } else { factor };
+        let kept = numbers.of(Number::Kept);
+        let wanted = taken * if (1.0 / kept..kept).contains(&factor) { 1.0 } else { factor };
         // A step cut short to end where it must says that at least its size is possible.
         self.size = if taken < self.size { wanted.max(self.size.min(taken * factor)) } else { wanted };
         self.size = self.size.min(max_step);
     }
 
     /// A step of `taken` [s] had an estimated error of `error` times the tolerance, above 1, and is rejected.
-    pub(crate) fn reject(&mut self, taken: f64, error: f64) {
-        let factor = if error.is_finite() { SAFETY * error.powf(-1.0 / ORDER) } else { 0.0 };
-        self.size = taken * factor.clamp(SMALLEST_CHANGE, SAFETY);
-        self.has_failed = true;
+    pub(crate) fn reject(&mut self, taken: f64, error: f64, numbers: &Numbers) {
+        if error.is_finite() {
+            self.size = taken * numbers.of(Number::Safety) * error.powf(-1.0 / ORDER);
+            self.has_failed = true;
+        } else {
+            self.fail(taken);
+        }
     }
 
     /// A step of `taken` [s] has no solution.
@@ -97,10 +95,10 @@ mod tests {
             let size = controller.propose(end - time);
             let error = (size / of(time)).powi(3);
             if error > 1.0 {
-                controller.reject(size, error);
+                controller.reject(size, error, &Numbers::default());
                 rejected += 1;
             } else {
-                controller.accept(size, error, 10.0);
+                controller.accept(size, error, 10.0, &Numbers::default());
                 time += size;
                 taken.push(size);
             }

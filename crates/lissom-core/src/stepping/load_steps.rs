@@ -6,17 +6,15 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::numbers::{MOST_HALVINGS, Number, Numbers};
+
 /// Iterations that a step of the right length takes: few tangents serve several steps.
 const EASY: f64 = 15.0;
 /// Least and largest change from step to step.
 const CHANGE: (f64, f64) = (0.3, 2.0);
-/// Part of the step that the tolerance would allow.
-const SAFETY: f64 = 0.8;
 /// Where a step of half the length leaves more than this part unexplained of what the whole left, its length is not the
 /// cause.
 const SAME: f64 = 0.7;
-/// Steps are halved so often at most.
-const MOST_HALVINGS: u32 = 12;
 
 /// The length of the next load step.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -72,10 +70,17 @@ impl LoadControl {
     }
 
     /// A step of that length was taken, in so many iterations.
-    pub(super) fn accept(&mut self, size: f64, iterations: usize, missing: f64, tolerance: f64) {
+    pub(super) fn accept(
+        &mut self,
+        size: f64,
+        iterations: usize,
+        (missing, tolerance): (f64, f64),
+        numbers: &Numbers,
+    ) {
         let ease = EASY / iterations.max(1) as f64;
         // The part that is missing grows with the square of the length.
-        let error = if missing > 0.0 { SAFETY * (tolerance / missing).sqrt() } else { CHANGE.1 };
+        let error =
+            if missing > 0.0 { numbers.of(Number::Safety) * (tolerance / missing).sqrt() } else { CHANGE.1 };
         let error = if missing > tolerance { 1.0 } else { error };
         self.size = (size * ease.min(error).clamp(CHANGE.0, CHANGE.1)).max(self.least);
     }
@@ -91,7 +96,7 @@ mod tests {
         let (mut at, mut sizes) = (0.0, Vec::new());
         while at < 1.0 - 1e-12 {
             let size = control.propose(1.0 - at, 0.25);
-            control.accept(size, 2, 0.0, 0.01);
+            control.accept(size, 2, (0.0, 0.01), &Numbers::default());
             at += size;
             sizes.push(size);
         }

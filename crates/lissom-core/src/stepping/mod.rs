@@ -32,9 +32,10 @@ pub use snapshot::{Snapshot, SnapshotError};
 pub(crate) use watch::{Watch, Watched};
 
 use crate::analysis::{Phase, Simulation, StepError, StepReport, Stopwatch, Unwatched, cause};
-use crate::judge::Ledger;
+use crate::judge::{LARGEST_TURN, Ledger};
 use crate::mechanisms::Mechanism;
 use crate::newton::{Memory, Outcome};
+use crate::numbers::Number;
 use crate::scaling::ScaleBy;
 use crate::system::State;
 use error_estimate::{SMALLEST_ERROR, SMALLEST_REFERENCE, driven, excursion, inertial_part};
@@ -43,13 +44,6 @@ use load_steps::Attempts;
 
 /// Attempts at a step that are given up before the step is.
 const MOST_REJECTED: usize = 60;
-/// What a single step may err, over the tolerance to the power at which errors at the end are in proportion to it: with 1
-/// they are about the tolerance, with a half nine in ten stay below it.
-const SHARE_OF_STEP: f64 = 0.5;
-/// Part of the tolerance that a step may err whose estimate is of a lower order than its scheme: there are few of them.
-const SHARE_OF_FIRST: f64 = 0.1;
-/// A node may turn by so much in a step of controlled size: what it turns further cannot be told from less [rad].
-const LARGEST_TURN: f64 = 1.0;
 /// Where parts of a planned step as short as this have no solution either, a smaller step hardly helps [-].
 const SHORT_PART: f64 = 1e-3;
 /// Times closer than this part of the largest step are the same [-].
@@ -141,7 +135,7 @@ impl Simulation {
                         self.parts.restart();
                         return Ok(());
                     }
-                    if self.parts.accept() {
+                    if self.parts.accept(&self.settings.limits.numbers) {
                         return Ok(());
                     }
                 }
@@ -204,7 +198,8 @@ impl Simulation {
                 Ok(outcome) => {
                     let missing = self.next_ledger.missing_work(&self.ledger);
                     if !choice.refuses(size, missing, control.relative_tolerance, &mut attempts) {
-                        choice.accept(size, outcome.iterations, missing, control.relative_tolerance);
+                        let missed = (missing, control.relative_tolerance);
+                        choice.accept(size, outcome.iterations, missed, &self.settings.limits.numbers);
                         note(report, &outcome);
                         break;
                     }
@@ -278,7 +273,7 @@ impl Simulation {
                             }
                         }
                     } else {
-                        controller.reject(size, error);
+                        controller.reject(size, error, &self.settings.limits.numbers);
                         None
                     }
                 }
@@ -308,7 +303,8 @@ impl Simulation {
             }
         };
         let taken = self.scaled.step_size();
-        controller.accept(taken, report.error.unwrap_or(1.0), control.max_step);
+        let error = report.error.unwrap_or(1.0);
+        controller.accept(taken, error, control.max_step, &self.settings.limits.numbers);
         self.accept_step();
         if self.scaled.step_size() == rest {
             (self.state.kinematics.time, self.state.time_remainder) = (limit, 0.0);
@@ -357,11 +353,12 @@ impl Simulation {
         Ok(())
     }
 
-    /// The largest step in which no node turns too far [s].
+    /// The largest step in which no node turns too far to be believed, with a margin [s].
     fn turning_limit(&self) -> f64 {
         let nodes = &self.state.kinematics.nodes;
         let fastest = nodes.iter().fold(0.0_f64, |most, node| most.max(node.twist.fixed_rows::<3>(3).norm()));
-        if fastest > 0.0 { LARGEST_TURN / fastest } else { f64::INFINITY }
+        let most = self.settings.limits.numbers.of(Number::Safety) * LARGEST_TURN;
+        if fastest > 0.0 { most / fastest } else { f64::INFINITY }
     }
 
     fn excursion_of(&self, state: &State) -> f64 {
@@ -436,10 +433,12 @@ impl Simulation {
         let largest = work.filtered.iter().zip(&work.sizes).fold(0.0_f64, |most, (error, size)| {
             if (error * size).abs() <= most { most } else { (error * size).abs() }
         });
+        let numbers = &self.settings.limits.numbers;
+        let share = numbers.of(Number::ShareOfStep);
         let (allowed, power) = match order {
-            Order::Third if is_third_order => (SHARE_OF_FIRST * tolerance, 1.0),
-            Order::Third => (SHARE_OF_STEP * tolerance.powf(3.0 / 2.0), 1.0),
-            Order::Fourth => (SHARE_OF_STEP * tolerance.powf(4.0 / 3.0), 3.0 / 4.0),
+            Order::Third if is_third_order => (numbers.of(Number::ShareOfFirst) * tolerance, 1.0),
+            Order::Third => (share * tolerance.powf(3.0 / 2.0), 1.0),
+            Order::Fourth => (share * tolerance.powf(4.0 / 3.0), 3.0 / 4.0),
         };
         let places = largest / (reference * allowed).max(SMALLEST_ERROR);
         let states = self.error_of_states() / allowed;

@@ -2,10 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-/// Smallest parts a planned step may be cut into: twelve halvings.
-pub(crate) const PARTS: u32 = 1 << 12;
-/// After so many parts in a row the next one is twice as long.
-const PARTS_TO_GROW: u32 = 3;
+use crate::numbers::{MOST_HALVINGS, Number, Numbers};
+
+/// Smallest parts a planned step may be cut into.
+pub(crate) const PARTS: u32 = 1 << MOST_HALVINGS;
 
 /// The place within a planned step. Places are whole multiples of the current part's size, so that the end of the
 /// planned step is met exactly.
@@ -36,7 +36,7 @@ impl Parts {
     }
 
     /// A part was taken. Whether the end of the planned step is reached.
-    pub(crate) fn accept(&mut self) -> bool {
+    pub(crate) fn accept(&mut self, numbers: &Numbers) -> bool {
         self.done += self.size;
         let is_complete = self.done >= PARTS;
         if is_complete {
@@ -44,7 +44,10 @@ impl Parts {
         }
         self.taken += 1;
         // A doubled part must end where whole doubled parts end.
-        if self.taken >= PARTS_TO_GROW && self.size < PARTS && self.done.is_multiple_of(2 * self.size) {
+        if f64::from(self.taken) >= numbers.of(Number::PartsToGrow)
+            && self.size < PARTS
+            && self.done.is_multiple_of(2 * self.size)
+        {
             self.size *= 2;
             self.taken = 0;
         }
@@ -80,7 +83,7 @@ mod tests {
             }
             sizes.push(size);
             time += size;
-            if parts.accept() {
+            if parts.accept(&Numbers::default()) {
                 planned += 1;
                 assert_eq!(time, f64::from(planned));
             }

@@ -1,6 +1,7 @@
 //! What a model file wants computed, and how.
 
 use lissom_core::mechanisms::Without;
+use lissom_core::numbers::Numbers;
 use lissom_core::registry::{Parameter, Parameters};
 
 use super::decode::of_kind;
@@ -143,6 +144,8 @@ pub struct Analysis {
     pub max_iterations: usize,
     /// What is left out of the search for a step's solution, for studies.
     pub without: Without,
+    /// The numbers that the search and the choice of steps go by, changed for studies.
+    pub numbers: Numbers,
     /// Steps from one record to the next.
     pub output_every: usize,
     /// Frames of the motion file per second of simulated time; none for a number that suits the run [1/s].
@@ -232,6 +235,7 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
         tolerance: tolerance?.value,
         max_iterations: count("max_iterations", 40),
         without: without(&reader),
+        numbers: numbers(&reader),
         output_every: if is_run { count("output_every", 1) } else { 1 },
         frames_per_second: if is_run {
             reader.number("frames_per_second").map(|rate| rate.value)
@@ -254,6 +258,12 @@ pub(super) fn analysis(context: &Context<'_>, registry: &Registry) -> Option<Ana
 fn without(reader: &Reader<'_, '_>) -> Without {
     let words = reader.choices("without").unwrap_or_default();
     Without::of_words(words.iter().map(String::as_str)).unwrap_or_default()
+}
+
+fn numbers(reader: &Reader<'_, '_>) -> Numbers {
+    let [halved, doubled] = ["halved", "doubled"].map(|key| reader.choices(key).unwrap_or_default());
+    let halved = Numbers::default().times(halved.iter().map(String::as_str), 0.5);
+    halved.and_then(|halved| halved.times(doubled.iter().map(String::as_str), 2.0)).unwrap_or_default()
 }
 
 fn path(reader: &Reader<'_, '_>) -> Option<AnalysisKind> {

@@ -1,6 +1,7 @@
 //! The keys of `[analysis]`, by kind of analysis.
 
 use lissom_core::mechanisms::WORDS;
+use lissom_core::numbers;
 
 use super::tables::Variant;
 use crate::keys::{Key, Shape, choice, of_parameter, optional, required};
@@ -46,6 +47,13 @@ pub(super) fn analyses(registry: &Registry) -> Vec<Variant> {
                 "",
                 "mechanisms left out of the search for a step's solution, for studies; default none",
             ),
+            optional(
+                "halved",
+                Shape::Choices(&numbers::WORDS),
+                "",
+                "numbers of the search and of the choice of steps to be halved, for studies; default none",
+            ),
+            optional("doubled", Shape::Choices(&numbers::WORDS), "", "the same to be doubled; default none"),
             optional(
                 "output_every",
                 Shape::Count(1, 1_000_000_000),

@@ -77,6 +77,7 @@ pub(super) fn settings(analysis: &Analysis, from_equilibrium: bool) -> Result<(S
             tolerance: analysis.tolerance,
             max_iterations: analysis.max_iterations,
             without: analysis.without,
+            numbers: analysis.numbers,
         },
         solver,
         threads: 1,

@@ -15,6 +15,7 @@ use super::{PathSettings, Solution, Tangent};
 use crate::equilibration::Equilibration;
 use crate::joints::attached::Increments;
 use crate::newton::{Correction, Equations, Failure};
+use crate::numbers::{Number, Numbers};
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
 use crate::system::{
@@ -25,8 +26,6 @@ use crate::system::{
 const LARGEST_CORRECTION: f64 = 0.5;
 /// Iterations for the softest direction: at a bifurcation that is known to 1e-10 the first one finds it.
 const INVERSE_ITERATIONS: usize = 4;
-/// Iterates whose last correction is larger are far from equilibrium, and their stresses no guide [-].
-const FAR: f64 = 1e-3;
 
 /// The equation for the load factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -531,7 +530,8 @@ impl Equations for PathEquations<'_> {
     }
 
     fn renew_tangent(&mut self) -> Result<(), FactorError> {
-        let is_far = self.work.correction > FAR;
+        // The stresses of an iterate far from equilibrium are no guide.
+        let is_far = self.work.correction > Numbers::default().of(Number::Far);
         self.factor(is_far)
     }
 

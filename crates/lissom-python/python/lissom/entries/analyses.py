@@ -31,6 +31,8 @@ class Dynamics(Analysis):
         tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
         without: mechanisms left out of the search for a step's solution, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        halved: numbers of the search and of the choice of steps to be halved, for studies; default none; a list of `"tangent-cost"`, `"novelty"`, `"unseen"`, `"contraction"`, `"stalled"`, `"small"`, `"secant-independence"`, `"secant-reach"`, `"secant-credible"`, `"prediction-fading"`, `"prediction-credible"`, `"far"`, `"largest-correction"`, `"least-departure"`, `"safety"`, `"growth"`, `"kept"`, `"share-of-step"`, `"share-of-first"`, `"parts-to-grow"`, or nothing.
+        doubled: the same to be doubled; default none; a list of `"tangent-cost"`, `"novelty"`, `"unseen"`, `"contraction"`, `"stalled"`, `"small"`, `"secant-independence"`, `"secant-reach"`, `"secant-credible"`, `"prediction-fading"`, `"prediction-credible"`, `"far"`, `"largest-correction"`, `"least-departure"`, `"safety"`, `"growth"`, `"kept"`, `"share-of-step"`, `"share-of-first"`, `"parts-to-grow"`, or nothing.
         output_every: steps from record to record, default 1; a whole number from 1 to 1000000000, or nothing.
         frames_per_second: of the motion that `lissom view` shows, per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
         scheme: time integration scheme; `"generalized-alpha"`, `"hht"`, `"radau-iia"`, `"energy-decaying"`, or nothing.
@@ -55,6 +57,8 @@ class Dynamics(Analysis):
     tolerance: Number | None = None
     max_iterations: Count | None = None
     without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
+    halved: list[Literal["tangent-cost", "novelty", "unseen", "contraction", "stalled", "small", "secant-independence", "secant-reach", "secant-credible", "prediction-fading", "prediction-credible", "far", "largest-correction", "least-departure", "safety", "growth", "kept", "share-of-step", "share-of-first", "parts-to-grow"]] | None = None
+    doubled: list[Literal["tangent-cost", "novelty", "unseen", "contraction", "stalled", "small", "secant-independence", "secant-reach", "secant-credible", "prediction-fading", "prediction-credible", "far", "largest-correction", "least-departure", "safety", "growth", "kept", "share-of-step", "share-of-first", "parts-to-grow"]] | None = None
     output_every: Count | None = None
     frames_per_second: Number | None = None
     scheme: Literal["generalized-alpha", "hht", "radau-iia", "energy-decaying"] | None = None
@@ -82,6 +86,8 @@ class Statics(Analysis):
         tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
         without: mechanisms left out of the search for a step's solution, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        halved: numbers of the search and of the choice of steps to be halved, for studies; default none; a list of `"tangent-cost"`, `"novelty"`, `"unseen"`, `"contraction"`, `"stalled"`, `"small"`, `"secant-independence"`, `"secant-reach"`, `"secant-credible"`, `"prediction-fading"`, `"prediction-credible"`, `"far"`, `"largest-correction"`, `"least-departure"`, `"safety"`, `"growth"`, `"kept"`, `"share-of-step"`, `"share-of-first"`, `"parts-to-grow"`, or nothing.
+        doubled: the same to be doubled; default none; a list of `"tangent-cost"`, `"novelty"`, `"unseen"`, `"contraction"`, `"stalled"`, `"small"`, `"secant-independence"`, `"secant-reach"`, `"secant-credible"`, `"prediction-fading"`, `"prediction-credible"`, `"far"`, `"largest-correction"`, `"least-departure"`, `"safety"`, `"growth"`, `"kept"`, `"share-of-step"`, `"share-of-first"`, `"parts-to-grow"`, or nothing.
         output_every: steps from record to record, default 1; a whole number from 1 to 1000000000, or nothing.
         frames_per_second: of the motion that `lissom view` shows, per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
         end: last time, default 1 [s]; a number, or nothing.
@@ -101,6 +107,8 @@ class Statics(Analysis):
     tolerance: Number | None = None
     max_iterations: Count | None = None
     without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
+    halved: list[Literal["tangent-cost", "novelty", "unseen", "contraction", "stalled", "small", "secant-independence", "secant-reach", "secant-credible", "prediction-fading", "prediction-credible", "far", "largest-correction", "least-departure", "safety", "growth", "kept", "share-of-step", "share-of-first", "parts-to-grow"]] | None = None
+    doubled: list[Literal["tangent-cost", "novelty", "unseen", "contraction", "stalled", "small", "secant-independence", "secant-reach", "secant-credible", "prediction-fading", "prediction-credible", "far", "largest-correction", "least-departure", "safety", "growth", "kept", "share-of-step", "share-of-first", "parts-to-grow"]] | None = None
     output_every: Count | None = None
     frames_per_second: Number | None = None
     end: Number | None = None
@@ -123,6 +131,8 @@ class Path(Analysis):
         tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
         without: mechanisms left out of the search for a step's solution, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        halved: numbers of the search and of the choice of steps to be halved, for studies; default none; a list of `"tangent-cost"`, `"novelty"`, `"unseen"`, `"contraction"`, `"stalled"`, `"small"`, `"secant-independence"`, `"secant-reach"`, `"secant-credible"`, `"prediction-fading"`, `"prediction-credible"`, `"far"`, `"largest-correction"`, `"least-departure"`, `"safety"`, `"growth"`, `"kept"`, `"share-of-step"`, `"share-of-first"`, `"parts-to-grow"`, or nothing.
+        doubled: the same to be doubled; default none; a list of `"tangent-cost"`, `"novelty"`, `"unseen"`, `"contraction"`, `"stalled"`, `"small"`, `"secant-independence"`, `"secant-reach"`, `"secant-credible"`, `"prediction-fading"`, `"prediction-credible"`, `"far"`, `"largest-correction"`, `"least-departure"`, `"safety"`, `"growth"`, `"kept"`, `"share-of-step"`, `"share-of-first"`, `"parts-to-grow"`, or nothing.
         end: load factor at which the path ends, default 1; with `vary` the value at which it ends, which must be given; a number, or nothing.
         step: first step of the load factor or of the number, default a fiftieth of the way to `end`; a number > 0, or nothing.
         steps: most steps, default 1000; a whole number from 1 to 1000000, or nothing.
@@ -141,6 +151,8 @@ class Path(Analysis):
     tolerance: Number | None = None
     max_iterations: Count | None = None
     without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
+    halved: list[Literal["tangent-cost", "novelty", "unseen", "contraction", "stalled", "small", "secant-independence", "secant-reach", "secant-credible", "prediction-fading", "prediction-credible", "far", "largest-correction", "least-departure", "safety", "growth", "kept", "share-of-step", "share-of-first", "parts-to-grow"]] | None = None
+    doubled: list[Literal["tangent-cost", "novelty", "unseen", "contraction", "stalled", "small", "secant-independence", "secant-reach", "secant-credible", "prediction-fading", "prediction-credible", "far", "largest-correction", "least-departure", "safety", "growth", "kept", "share-of-step", "share-of-first", "parts-to-grow"]] | None = None
     end: Number | None = None
     step: Number | None = None
     steps: Count | None = None
@@ -162,6 +174,8 @@ class Buckling(Analysis):
         tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
         without: mechanisms left out of the search for a step's solution, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        halved: numbers of the search and of the choice of steps to be halved, for studies; default none; a list of `"tangent-cost"`, `"novelty"`, `"unseen"`, `"contraction"`, `"stalled"`, `"small"`, `"secant-independence"`, `"secant-reach"`, `"secant-credible"`, `"prediction-fading"`, `"prediction-credible"`, `"far"`, `"largest-correction"`, `"least-departure"`, `"safety"`, `"growth"`, `"kept"`, `"share-of-step"`, `"share-of-first"`, `"parts-to-grow"`, or nothing.
+        doubled: the same to be doubled; default none; a list of `"tangent-cost"`, `"novelty"`, `"unseen"`, `"contraction"`, `"stalled"`, `"small"`, `"secant-independence"`, `"secant-reach"`, `"secant-credible"`, `"prediction-fading"`, `"prediction-credible"`, `"far"`, `"largest-correction"`, `"least-departure"`, `"safety"`, `"growth"`, `"kept"`, `"share-of-step"`, `"share-of-first"`, `"parts-to-grow"`, or nothing.
         count: number of load factors, default 5; a whole number from 1 to 10000, or nothing.
     """
 
@@ -176,6 +190,8 @@ class Buckling(Analysis):
     tolerance: Number | None = None
     max_iterations: Count | None = None
     without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
+    halved: list[Literal["tangent-cost", "novelty", "unseen", "contraction", "stalled", "small", "secant-independence", "secant-reach", "secant-credible", "prediction-fading", "prediction-credible", "far", "largest-correction", "least-departure", "safety", "growth", "kept", "share-of-step", "share-of-first", "parts-to-grow"]] | None = None
+    doubled: list[Literal["tangent-cost", "novelty", "unseen", "contraction", "stalled", "small", "secant-independence", "secant-reach", "secant-credible", "prediction-fading", "prediction-credible", "far", "largest-correction", "least-departure", "safety", "growth", "kept", "share-of-step", "share-of-first", "parts-to-grow"]] | None = None
     count: Count | None = None
 
 
@@ -193,6 +209,8 @@ class Modes(Analysis):
         tolerance: of Newton's iteration, in scaled units, default 1e-8; with chosen steps `relative_tolerance`/100; 1e-12 for `energy-decaying`; a number > 0, or nothing.
         max_iterations: of Newton's iteration, default 40; a whole number from 1 to 10000, or nothing.
         without: mechanisms left out of the search for a step's solution, for studies; default none; a list of `"prediction"`, `"secants"`, `"single-correction"`, `"account"`, `"back-off"`, `"start-stresses"`, `"parts"`, or nothing.
+        halved: numbers of the search and of the choice of steps to be halved, for studies; default none; a list of `"tangent-cost"`, `"novelty"`, `"unseen"`, `"contraction"`, `"stalled"`, `"small"`, `"secant-independence"`, `"secant-reach"`, `"secant-credible"`, `"prediction-fading"`, `"prediction-credible"`, `"far"`, `"largest-correction"`, `"least-departure"`, `"safety"`, `"growth"`, `"kept"`, `"share-of-step"`, `"share-of-first"`, `"parts-to-grow"`, or nothing.
+        doubled: the same to be doubled; default none; a list of `"tangent-cost"`, `"novelty"`, `"unseen"`, `"contraction"`, `"stalled"`, `"small"`, `"secant-independence"`, `"secant-reach"`, `"secant-credible"`, `"prediction-fading"`, `"prediction-credible"`, `"far"`, `"largest-correction"`, `"least-departure"`, `"safety"`, `"growth"`, `"kept"`, `"share-of-step"`, `"share-of-first"`, `"parts-to-grow"`, or nothing.
         count: number of modes, default 20; a whole number from 1 to 100000, or nothing.
         about: about static equilibrium under the loads of the time `start` (default), or about the places of the file without loads and gravity; `"static"`, `"undeformed"`, or nothing.
         shift: frequency near which modes are sought; default: the lowest ones [Hz]; a number ≥ 0, or nothing.
@@ -209,6 +227,8 @@ class Modes(Analysis):
     tolerance: Number | None = None
     max_iterations: Count | None = None
     without: list[Literal["prediction", "secants", "single-correction", "account", "back-off", "start-stresses", "parts"]] | None = None
+    halved: list[Literal["tangent-cost", "novelty", "unseen", "contraction", "stalled", "small", "secant-independence", "secant-reach", "secant-credible", "prediction-fading", "prediction-credible", "far", "largest-correction", "least-departure", "safety", "growth", "kept", "share-of-step", "share-of-first", "parts-to-grow"]] | None = None
+    doubled: list[Literal["tangent-cost", "novelty", "unseen", "contraction", "stalled", "small", "secant-independence", "secant-reach", "secant-credible", "prediction-fading", "prediction-credible", "far", "largest-correction", "least-departure", "safety", "growth", "kept", "share-of-step", "share-of-first", "parts-to-grow"]] | None = None
     count: Count | None = None
     about: Literal["static", "undeformed"] | None = None
     shift: Number | None = None

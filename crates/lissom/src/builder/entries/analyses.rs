@@ -108,6 +108,10 @@ keys! {
     max_iterations: usize = "max_iterations";
     /// Mechanisms left out of the search for a step's solution, for studies; default none.
     without: Vec<words::Without> = "without";
+    /// Numbers of the search and of the choice of steps to be halved, for studies; default none.
+    halved: Vec<words::Halved> = "halved";
+    /// The same to be doubled; default none.
+    doubled: Vec<words::Doubled> = "doubled";
 }
 
 keys! {

@@ -1,0 +1,146 @@
+//! The numbers that the search for a step's solution and the choice of steps go by. Each can be halved and doubled, so that a
+//! command can show what depends on it. Bounds of round-off and sizes of memories stand where they are used.
+
+/// Something that is decided by a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[repr(u8)]
+pub enum Number {
+    /// What a new tangent costs, in iterations: some seven of soft-beam-64 and beam-net-4 take as long. It is renewed within
+    /// a solution that would need more of them, and when solutions with it have become dearer than a new one.
+    TangentCost,
+    /// Weight of the last solution in what solutions have cost lately.
+    Novelty,
+    /// Where a solution is believed in without having seen its contraction, its error is to be this part of what is
+    /// allowed: many such solutions in a row err to the same side.
+    Unseen,
+    /// A better contraction than this is not believed of a tangent made for another solution: the largest part of a
+    /// correction may vanish at once and hide a small part that shrinks slowly.
+    Contraction,
+    /// Corrections that shrink by less than this are round-off, once they are small.
+    Stalled,
+    /// A stalled correction below this part of what the step has to find out is small.
+    Small,
+    /// Secants that are less independent of newer ones are left out.
+    SecantIndependence,
+    /// A secant is used for corrections up to so many times as large: beyond, its round-off would tell.
+    SecantReach,
+    /// A secant is kept if what the tangent has missed is below this part of it: where a tangent is worse it is to be
+    /// renewed, and corrections that are round-off have nothing to tell.
+    SecantCredible,
+    /// What a step counts for after another one in linear prediction: coefficients change as the motion does.
+    PredictionFading,
+    /// A prediction that would have left more than this part of what the scheme's own guess missed is not followed: where
+    /// motion has just jumped, or constraints lose their rank, it leads to other branches.
+    PredictionCredible,
+    /// Iterates whose last correction is larger than this are far from equilibrium [-].
+    Far,
+    /// Corrections of rotations larger than this are cut short [rad].
+    LargestCorrection,
+    /// Departures from going straight on below this are not resolved for their own sake where states are measured beside
+    /// places [-].
+    LeastDeparture,
+    /// A step is chosen this much smaller than its estimated error allows, so that few are rejected.
+    Safety,
+    /// A step grows by this factor at most.
+    Growth,
+    /// The size of steps is kept where it would change by less than this factor: what was learned of it goes on to serve.
+    Kept,
+    /// What a step may err, over the tolerance to the power at which errors at the end are in proportion to it: with 1 they
+    /// are about the tolerance, with a half nine in ten stay below it.
+    ShareOfStep,
+    /// Part of the tolerance that a step may err whose estimate is of a lower order than its scheme: there are few of them.
+    ShareOfFirst,
+    /// After so many parts of a planned step in a row the next one is twice as long.
+    PartsToGrow,
+}
+
+/// Every number with its word, its value and where it counts.
+pub const NUMBERS: [(Number, &str, f64, &str); 20] = [
+    (Number::TangentCost, "tangent-cost", 8.0, "iterations that a new tangent costs"),
+    (Number::Novelty, "novelty", 0.05, "weight of the last solution in the cost of solutions"),
+    (Number::Unseen, "unseen", 0.02, "part of the tolerance for solutions whose contraction is not seen"),
+    (Number::Contraction, "contraction", 0.05, "best contraction believed of a kept tangent"),
+    (Number::Stalled, "stalled", 0.5, "contraction of corrections that are round-off"),
+    (Number::Small, "small", 1e-6, "corrections that may be round-off"),
+    (Number::SecantIndependence, "secant-independence", 3e-4, "independence of secants"),
+    (Number::SecantReach, "secant-reach", 10.0, "corrections over the secants used for them"),
+    (Number::SecantCredible, "secant-credible", 0.7, "what a tangent may have missed of a secant"),
+    (
+        Number::PredictionFading,
+        "prediction-fading",
+        0.5,
+        "weight of a step after the next one in predictions",
+    ),
+    (
+        Number::PredictionCredible,
+        "prediction-credible",
+        0.5,
+        "what a prediction may leave of what was missed",
+    ),
+    (Number::Far, "far", 1e-3, "corrections that are far from equilibrium"),
+    (Number::LargestCorrection, "largest-correction", 1.0, "largest correction of a rotation"),
+    (Number::LeastDeparture, "least-departure", 1e-5, "departures resolved beside states"),
+    (Number::Safety, "safety", 0.8, "part of the step that the estimated error allows"),
+    (Number::Growth, "growth", 5.0, "largest growth of a step"),
+    (Number::Kept, "kept", 1.2, "changes of steps that are left out"),
+    (Number::ShareOfStep, "share-of-step", 0.5, "part of the tolerance that a step may err"),
+    (Number::ShareOfFirst, "share-of-first", 0.1, "the same of a first step"),
+    (Number::PartsToGrow, "parts-to-grow", 3.0, "parts of a step until they are doubled"),
+];
+
+/// A planned step, a load step and a correction are halved so often at most.
+pub(crate) const MOST_HALVINGS: u32 = 12;
+
+/// Their words.
+pub const WORDS: [&str; NUMBERS.len()] = {
+    let mut words = [""; NUMBERS.len()];
+    let mut index = 0;
+    while index < words.len() {
+        words[index] = NUMBERS[index].1;
+        index += 1;
+    }
+    words
+};
+
+/// The values in use.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Numbers([f64; NUMBERS.len()]);
+
+impl Default for Numbers {
+    fn default() -> Self {
+        Self(std::array::from_fn(|index| NUMBERS[index].2))
+    }
+}
+
+impl Numbers {
+    /// The value of one.
+    pub fn of(&self, number: Number) -> f64 {
+        self.0[number as usize]
+    }
+
+    /// With those of these words `factor` times as large; none where a word means nothing.
+    pub fn times<'a>(mut self, words: impl IntoIterator<Item = &'a str>, factor: f64) -> Option<Self> {
+        for word in words {
+            let (number, ..) = NUMBERS.iter().find(|(_, name, ..)| *name == word)?;
+            self.0[*number as usize] *= factor;
+        }
+        Some(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_change_what_they_name_and_nothing_else() {
+        for (index, (number, word, value, _)) in NUMBERS.into_iter().enumerate() {
+            assert_eq!(number as usize, index, "{word} stands at its place");
+            let changed = Numbers::default().times([word], 2.0).expect("a word of the table");
+            for (other, _, whole, _) in NUMBERS {
+                assert_eq!(changed.of(other), if other == number { 2.0 * value } else { whole });
+            }
+        }
+        assert_eq!(Numbers::default().times(["pivoting"], 2.0), None);
+    }
+}
