@@ -122,17 +122,19 @@ def test_reasons_to_doubt_are_told_while_stepping() -> None:
     model = lissom.load(ROOT / "examples" / "four-bar.toml", **{"analysis.step": 0.05})
     with pytest.warns(lissom.ModelWarning) as of_run:
         told = model.run().summary["warnings"]
-    assert len(told) == 1 and [str(warning.message) for warning in of_run] == told
+    assert [str(warning.message) for warning in of_run] == told
+    codes = sorted(warning.split(":")[0] for warning in told)
+    assert "energy-surplus" in codes
     with pytest.warns(lissom.ModelWarning) as of_steps:
         sim = model.simulation()
         while not sim.is_finished:
             sim.step()
     # Told when it came up; the figures go on to grow.
-    code = told[0].split(":")[0]
-    assert sim.warnings == told and len(of_steps) == 1 and str(of_steps[0].message).startswith(f"{code}: from t = 3.4")
+    assert sim.warnings == told and sorted(str(warning.message).split(":")[0] for warning in of_steps) == codes
+    assert "from t = 3.4" in str(of_steps[0].message)
     with pytest.warns(lissom.ModelWarning) as of_time:
         model.simulation().step_to(sim.end)
-    assert len(of_time) == 1 and str(of_time[0].message).startswith(code)
+    assert sorted(str(warning.message).split(":")[0] for warning in of_time) == codes
 
 
 def test_inputs_are_set_from_outside() -> None:
