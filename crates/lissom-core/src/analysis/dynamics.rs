@@ -95,6 +95,8 @@ pub struct Simulation {
     pub(crate) ledger: Ledger,
     /// The same up to where the attempt at the next step has come.
     pub(crate) next_ledger: Ledger,
+    /// Largest violation of a constraint at the end of the last attempt, relative to the representative length, or in radians.
+    next_violation: f64,
     /// Reasons to doubt the motion up to the state.
     pub(crate) warnings: Vec<Warning>,
     /// Positions in which constraints of loops repeat each other.
@@ -229,6 +231,7 @@ impl Simulation {
             velocity_correction,
             ledger,
             next_ledger: ledger,
+            next_violation: 0.0,
             warnings,
             singular,
             stable_at: None,
@@ -422,15 +425,19 @@ impl Simulation {
         describe(&Failure::Factor(*error), self.system.layout(), time, &self.settings, "")
     }
 
-    /// Judges what the last attempt came to.
-    pub(crate) fn judge_step(&mut self) -> Result<(), StepError> {
-        let judge = Judge {
+    fn judge(&self) -> Judge<'_> {
+        Judge {
             system: &self.system,
             representative: &self.representative,
             is_motion: self.settings.scheme.dynamic,
             checks_energy: self.settings.energy_check,
-        };
-        self.next_ledger = judge.examine(&self.state, &self.next, &self.ledger)?;
+        }
+    }
+
+    /// Judges what the last attempt came to.
+    pub(crate) fn judge_step(&mut self) -> Result<(), StepError> {
+        (self.next_ledger, self.next_violation) =
+            self.judge().examine(&self.state, &self.next, &self.ledger)?;
         Ok(())
     }
 
@@ -438,6 +445,9 @@ impl Simulation {
     fn note_doubts(&mut self) {
         judge::contact::tell(&self.system, &self.next, &mut self.warnings);
         judge::linear_range::tell(&self.system, &self.next, &mut self.warnings);
+        if let Some(warning) = self.judge().yielding(&self.next, self.next_violation) {
+            warn(&mut self.warnings, warning);
+        }
         let (before, after) = (&self.ledger, &self.next_ledger);
         let time = self.next.kinematics.time;
         if self.settings.scheme.dynamic {

@@ -65,6 +65,12 @@ impl Contact {
         Touch { normal, along: [row(0), row(1)], point, cosine, upright }
     }
 
+    /// Direction from the wheel's centre to the middle of the rim at the point of contact, in the plane's axes.
+    pub(crate) fn down(&self, rotation: &Matrix3) -> Vector3 {
+        let Touch { normal, cosine, upright, .. } = self.touch(rotation);
+        rotation * ((cosine * self.axis - normal) / upright)
+    }
+
     /// b_k: derivatives of the sliding velocities by the relative twist, in the tip's joint frame.
     pub(crate) fn rows(&self, rotation: &Matrix3) -> [Vector6; DIRECTIONS] {
         let touch = self.touch(rotation);

@@ -27,6 +27,8 @@ use crate::system::{Kinematics, State, System};
 /// Violation of a constraint at which it is not held, relative to the representative length, or in radians. Solutions
 /// and redundant constraints that agree leave some 1e-10.
 const LARGEST_VIOLATION: f64 = 1e-5;
+/// Violation that is told: a tenth of that.
+const NOTEWORTHY_VIOLATION: f64 = 1e-6;
 /// A node that turns further in one step than a quarter of a turn is not resolved by any of the schemes [rad].
 pub(crate) const LARGEST_TURN: f64 = 0.5 * PI;
 /// Nodes of an element that are turned against each other by more than this cannot be told from the other way round:
@@ -50,12 +52,18 @@ pub(crate) struct Judge<'a> {
 }
 
 impl Judge<'_> {
-    /// Judges the step from `start` to `end`; gives the ledger after it.
+    /// Judges the step from `start` to `end`; gives the ledger after it, and the largest violation of a constraint, relative to the
+    /// representative length, or in radians.
     ///
     /// # Errors
     /// If the end of the step cannot be believed.
-    pub(crate) fn examine(&self, start: &State, end: &State, ledger: &Ledger) -> Result<Ledger, StepError> {
-        self.constraints(end)?;
+    pub(crate) fn examine(
+        &self,
+        start: &State,
+        end: &State,
+        ledger: &Ledger,
+    ) -> Result<(Ledger, f64), StepError> {
+        let violation = self.constraints(end)?;
         self.sliders(end)?;
         let is_smooth = self.is_motion && self.turns(start, end)?;
         let weighs = !is_smooth || ledger.is_due();
@@ -66,7 +74,7 @@ impl Judge<'_> {
         if self.checks_energy && self.is_motion {
             after.refuse_gain(ledger, end.kinematics.time, || self.most_restless(start, end))?;
         }
-        Ok(after)
+        Ok((after, violation))
     }
 
     /// Name of the node whose velocity changes most, a turn counting as that of an arc at the representative length.
@@ -82,41 +90,60 @@ impl Judge<'_> {
     }
 
     /// Fails where constraints are violated by more than solving leaves: they contradict each other, or a drive asks
-    /// for more than the others leave.
-    fn constraints(&self, end: &State) -> Result<(), StepError> {
-        let layout = self.system.layout();
-        let quantities = &layout.quantities()[layout.coordinate_count()..];
+    /// for more than the others leave. Gives the largest violation.
+    fn constraints(&self, end: &State) -> Result<f64, StepError> {
+        let worst = self.violations(end).fold(0.0_f64, f64::max);
+        if worst <= LARGEST_VIOLATION {
+            return Ok(worst);
+        }
+        Err(StepError::Contradiction {
+            time: end.kinematics.time,
+            violated: self.names_of_violated(end, worst),
+        })
+    }
+
+    /// Told where constraints are violated by more than solving leaves, and less than what fails.
+    pub(crate) fn yielding(&self, end: &State, worst: f64) -> Option<Warning> {
+        let is_told = worst > NOTEWORTHY_VIOLATION;
+        is_told.then(|| Warning::ConstraintsYield {
+            time: end.kinematics.time,
+            violated: self.names_of_violated(end, worst),
+        })
+    }
+
+    /// Violations relative to the representative length, or in radians.
+    fn violations(&self, end: &State) -> impl Iterator<Item = f64> {
         let length = if self.representative.length > 0.0 { self.representative.length } else { 1.0 };
-        let relative = |(violation, quantity): (&f64, &Quantity)| match quantity {
+        end.violations.iter().zip(self.quantities()).map(move |(violation, quantity)| match quantity {
             Quantity::Length => violation.abs() / length,
             Quantity::Angle | Quantity::State => violation.abs(),
-        };
-        let worst = end.violations.iter().zip(quantities).map(relative).fold(0.0_f64, f64::max);
-        if worst <= LARGEST_VIOLATION {
-            return Ok(());
-        }
-        let mut named: Vec<(f64, usize)> = end
-            .violations
-            .iter()
-            .zip(quantities)
-            .map(relative)
-            .enumerate()
-            .map(|(k, size)| (size, k))
-            .collect();
+        })
+    }
+
+    /// Of the constraints.
+    fn quantities(&self) -> &[Quantity] {
+        let layout = self.system.layout();
+        &layout.quantities()[layout.coordinate_count()..]
+    }
+
+    /// The constraints that are violated most, and by how much.
+    fn names_of_violated(&self, end: &State, worst: f64) -> String {
+        let mut named: Vec<(f64, usize)> =
+            self.violations(end).enumerate().map(|(k, size)| (size, k)).collect();
         // Constraints that miss as much as each other are named in the model's order, not by their last digits.
         let rank = |size: f64| (20.0 * size / worst).round();
         named.sort_by(|a, b| rank(b.0).total_cmp(&rank(a.0)));
         let mut words: Vec<String> = Vec::new();
         for &(_, k) in named.iter().filter(|(size, _)| *size > 0.1 * worst).take(MOST_NAMED) {
-            let (joint, equation) = layout.constraint_name(k);
-            let unit = match quantities[k] {
+            let (joint, equation) = self.system.layout().constraint_name(k);
+            let unit = match self.quantities()[k] {
                 Quantity::Length => "m",
                 Quantity::Angle => "rad",
                 Quantity::State => "",
             };
             words.push(format!("`{joint}` ({equation}) by {:.3e} {unit}", end.violations[k].abs()));
         }
-        Err(StepError::Contradiction { time: end.kinematics.time, violated: words.join(", ") })
+        words.join(", ")
     }
 
     /// Fails where a slider has come off the end of its beam.

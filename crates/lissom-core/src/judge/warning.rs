@@ -110,7 +110,7 @@ pub enum Warning {
     },
     /// Steps of planned size do not resolve the motion.
     #[error(
-        "the steps are too long for the motion: from t = {time:.6e} s on they are estimated to miss more than 0.3 % of how far \
+        "the steps are too long for the motion: from t = {time:.6e} s on they are estimated to miss more than 0.1 % of how far \
          the model moves, {:.2} % in the end, most in the {unknown}; take smaller steps, or set `relative_tolerance` \
          instead of `step`", 100.0 * error
     )]
@@ -121,6 +121,30 @@ pub enum Warning {
         error: f64,
         /// Name of the unknown that errs most.
         unknown: String,
+    },
+    /// Constraints that repeat each other give way.
+    #[error(
+        "at t = {time:.6e} s constraints yield: {violated}; they repeat each other, or others, and hold what loads or drives strain, so \
+         that results are good to that only: free what is held twice, or look whether units are right"
+    )]
+    ConstraintsYield {
+        /// When it was first seen [s].
+        time: f64,
+        /// Names of the constraints and their violations.
+        violated: String,
+    },
+    /// A wheel's point of contact runs round faster than steps of planned size resolve.
+    #[error(
+        "at t = {time:.6e} s the wheel of `{joint}` lies nearly flat, and its point of contact runs round by {angle:.2} rad in a step, \
+         which is too long for it: take smaller steps, or set `relative_tolerance` instead of `step`"
+    )]
+    ContactRunsRound {
+        /// When it was first seen [s].
+        time: f64,
+        /// Name of the joint.
+        joint: String,
+        /// By how much it ran round in the first such step [rad].
+        angle: f64,
     },
     /// A wheel on a rail touches where its model means nothing.
     #[error("at t = {time:.6e} s the wheel of `{joint}` {doubt}")]
@@ -258,6 +282,8 @@ impl Warning {
             Self::ContactTooShort { .. } => "contact-too-short",
             Self::DriveJumps { .. } => "drive-jumps",
             Self::Unresolved { .. } => "unresolved-motion",
+            Self::ConstraintsYield { .. } => "constraints-yield",
+            Self::ContactRunsRound { .. } => "contact-runs-round",
             Self::WheelLifts { .. } => "wheel-lifts",
             Self::WheelSlides { .. } => "wheel-slides",
             Self::RailContact { .. } => "rail-contact",

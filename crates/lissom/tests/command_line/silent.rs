@@ -332,6 +332,15 @@ fn plots_of_a_former_run_do_not_stay_beside_new_results() {
 }
 
 #[test]
+fn constraints_that_yield_are_told() {
+    warned(
+        "redundant-joints-yield",
+        "constraints-yield",
+        &["`j3` (rotation 3) by 1.0", "`d8` (rotation)", "held twice"],
+    );
+}
+
+#[test]
 fn steps_too_long_for_the_motion_are_told_and_short_ones_are_not() {
     for name in ["unresolved-universal", "unresolved-vibration", "unresolved-spin"] {
         warned(name, "unresolved-motion", &["the steps are too long", "% in the end", "node `b"]);
