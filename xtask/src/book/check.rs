@@ -23,7 +23,13 @@ fn structure(root: &Path) -> Result<Vec<String>, BookError> {
     let docs = root.join("docs");
     let mut complaints = Vec::new();
     let mut filled: Vec<String> = Vec::new();
+    let summary = docs.join("SUMMARY.md");
+    let listed = links(&std::fs::read_to_string(&summary).map_err(BookError::file(&summary))?);
     for chapter in regions::chapters(&docs)? {
+        let own = chapter.strip_prefix(&docs).unwrap_or(&chapter);
+        if chapter != summary && !listed.iter().any(|known| Path::new(known) == own) {
+            complaints.push(format!("docs/{} is not in SUMMARY.md", own.display()));
+        }
         let text = std::fs::read_to_string(&chapter).map_err(BookError::file(&chapter))?;
         let shown = chapter.strip_prefix(root).unwrap_or(&chapter).display();
         for target in links(&text) {
@@ -52,9 +58,12 @@ fn structure(root: &Path) -> Result<Vec<String>, BookError> {
 
 /// What is wrong with a link, if anything.
 fn wrong_link(docs: &Path, chapter: &Path, target: &str) -> Option<&'static str> {
-    let path = target.split('#').next().unwrap_or_default();
-    if path.is_empty() || path.contains("://") || path.starts_with("mailto:") {
+    let (path, anchor) = target.split_once('#').unwrap_or((target, ""));
+    if path.contains("://") || path.starts_with("mailto:") {
         return None;
+    }
+    if path.is_empty() {
+        return (!has_heading(chapter, anchor)).then_some("names no heading of this chapter");
     }
     let mut place = chapter.parent().unwrap_or(docs).to_owned();
     for part in Path::new(path).components() {
@@ -68,11 +77,43 @@ fn wrong_link(docs: &Path, chapter: &Path, target: &str) -> Option<&'static str>
     }
     if !place.starts_with(docs) {
         Some("leaves docs/, where the book cannot follow")
-    } else if place.is_file() {
-        None
-    } else {
+    } else if !place.is_file() {
         Some("points nowhere")
+    } else {
+        (!anchor.is_empty() && !has_heading(&place, anchor)).then_some("names no heading of that chapter")
     }
+}
+
+/// Whether a chapter has a heading that the link `#anchor` leads to.
+fn has_heading(chapter: &Path, anchor: &str) -> bool {
+    std::fs::read_to_string(chapter).is_ok_and(|text| anchors(&text).iter().any(|own| own == anchor))
+}
+
+/// Names of the headings of a chapter as mdBook makes them of their words: small letters, digits, `-` and `_`; a heading that
+/// repeats another gets a number.
+fn anchors(text: &str) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    let mut fenced = false;
+    for line in text.lines() {
+        if line.trim_start().starts_with("```") {
+            fenced = !fenced;
+        }
+        if fenced || !line.starts_with('#') {
+            continue;
+        }
+        let words = line.trim_start_matches('#').trim().chars();
+        let name: String = words
+            .filter(|letter| {
+                letter.is_alphanumeric() || *letter == '-' || *letter == '_' || letter.is_whitespace()
+            })
+            .map(|letter| if letter.is_whitespace() { '-' } else { letter })
+            .flat_map(char::to_lowercase)
+            .collect();
+        let repeated = (1..).map(|count| format!("{name}-{count}"));
+        let free = std::iter::once(name.clone()).chain(repeated).find(|name| !names.contains(name));
+        names.extend(free);
+    }
+    names
 }
 
 /// Targets of the links of a chapter, code left out.
@@ -123,13 +164,20 @@ mod tests {
     }
 
     #[test]
+    fn headings_are_named_as_the_book_names_them() {
+        let text = "# A `b_c`: d, e-f\n```\n# no heading\n```\n## Twice\n### Twice\n";
+        assert_eq!(anchors(text), ["a-b_c-d-e-f", "twice", "twice-1"]);
+    }
+
+    #[test]
     fn wrong_links_are_told() {
         let docs = root().join("docs");
         let chapter = docs.join("theory/energy-decaying.md");
         let wrong = |target| wrong_link(&docs, &chapter, target).is_some();
         assert!(wrong("nowhere.md") && wrong("../../README.md") && wrong("../theory"));
         assert!(
-            !wrong("#here") && !wrong("https://example.org/a.md") && !wrong("../theory/energy-decaying.md#x")
+            wrong("#here") && wrong("../theory/energy-decaying.md#x") && wrong("../path.md#Along-a-number")
         );
+        assert!(!wrong("https://example.org/a.md#b") && !wrong("../path.md#along-a-number"));
     }
 }
