@@ -6,7 +6,16 @@ import { turn } from "./kinematics.js";
 
 /** Sections are drawn at least this large, relative to the model. */
 const LEAST = 0.0045;
-const ROUND = 20;
+/** Corners of a round section at most, and at least. */
+const ROUND = [8, 20];
+/** Corners cut off so much of a round section, relative to the model: half a pixel where the model fills a thousand. */
+const CUT = 5e-4;
+
+/** Corners of a section of this half width, relative to the model: a polygon of n corners lies within r (1 - cos(π/n)) of its circle. */
+const cornersOf = (half) => {
+  const [least, most] = ROUND;
+  return Math.min(Math.max(Math.ceil(Math.PI / Math.acos(1 - Math.min(CUT / half, 1))), least), most);
+};
 
 /** Points of an outline in axes 2 and 3; round ones as many as `count`, those of a rectangle by its corners. */
 const outlinePoints = (outline, count, grown) => {
@@ -38,8 +47,9 @@ export class BeamMesh {
     this.kinematics = kinematics;
     const { nodes, stations } = beam;
     this.isSharp = stations.every((station) => station.outline.shape === "rectangle");
-    this.sides = this.isSharp ? 4 : ROUND;
     const grown = LEAST * size;
+    const largest = Math.max(grown, ...stations.flatMap(({ outline: o }) => [o.radius, o.width, o.height].filter(Boolean)));
+    this.sides = this.isSharp ? 4 : cornersOf(largest / size);
     this.outlines = stations.map((station) => outlinePoints(station.outline, this.sides, grown));
     const widest = stations.flatMap(({ outline: o }) => [o.radius, o.width, o.height].filter(Boolean));
     this.isThickened = Math.min(...widest) / 2 < grown;

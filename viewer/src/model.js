@@ -205,8 +205,13 @@ export class ModelView {
     });
   }
 
-  dispose() {
+  /** Is drawn no more. */
+  leave() {
     this.stage.scene.remove(this.group);
+  }
+
+  /** Gives back what the graphics card holds. */
+  dispose() {
     this.group.traverse((child) => {
       child.geometry?.dispose();
       child.material?.dispose?.();

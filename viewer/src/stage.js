@@ -3,12 +3,22 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 
+/** Whether the processor draws, for want of a graphics card: every sample of a pixel then costs as much as a pixel. */
+const drawsInSoftware = () => {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const named = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = named ? gl.getParameter(named.UNMASKED_RENDERER_WEBGL) : "";
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|basic render/i.test(name);
+};
+
 export class Stage {
   constructor(holder, changed) {
     this.holder = holder;
     this.changed = changed;
-    this.renderer = new THREE.WebGLRenderer({ antialias: true, preserveDrawingBuffer: true });
-    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.isSoftware = drawsInSoftware();
+    this.renderer = new THREE.WebGLRenderer({ antialias: !this.isSoftware, preserveDrawingBuffer: true });
+    this.sharpen(true);
     holder.prepend(this.renderer.domElement);
     this.scene = new THREE.Scene();
     this.hemisphere = new THREE.HemisphereLight(0xffffff, 0x888888, 1.7);
@@ -23,6 +33,12 @@ export class Stage {
     this.gizmo = holder.querySelector(".gizmo");
     new ResizeObserver(() => this.resize()).observe(holder);
     this.makeControls();
+  }
+
+  /** Where the processor draws, edges of a picture that stands still are smoothed by four pixels for one, others are not. */
+  sharpen(isStill) {
+    const ratio = Math.min(window.devicePixelRatio, 2) * (this.isSoftware && isStill ? 2 : 1);
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
   }
 
   makeControls() {
@@ -94,7 +110,11 @@ export class Stage {
     this.hemisphere.color.set(theme.sky);
     this.hemisphere.groundColor.set(theme.floor);
     this.hemisphere.position.copy(this.up);
-    for (const thing of [this.grid, this.axes]) if (thing) this.scene.remove(thing);
+    for (const thing of [this.grid, this.axes]) {
+      if (!thing) continue;
+      this.scene.remove(thing);
+      thing.geometry.dispose();
+    }
     const cell = 10 ** Math.floor(Math.log10(this.size / 2));
     const step = this.size / cell > 12 ? 2 * cell : cell;
     const cells = 2 * Math.ceil((0.7 * this.size) / step);

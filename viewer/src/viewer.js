@@ -33,6 +33,8 @@ export class Viewer {
     document.documentElement.dataset.theme = this.themeName;
     this.theme = themeOf(this.themeName);
     this.isStale = true;
+    /** Models that were drawn before; see `rebuild`. */
+    this.replaced = [];
     this.stage = new Stage($("stage"), () => (this.isStale = true));
     this.player = new Player(() => (this.isMoved = true));
     this.plots = new Plots($("plots"), (time) => this.player.seek(time));
@@ -152,10 +154,16 @@ export class Viewer {
     );
   }
 
-  /** Draws the model anew, as after another theme. */
+  /**
+   * Draws the model anew, as after another theme. The old one is given back only when the new one has been drawn with the same
+   * shaders: otherwise they would be compiled again for every model, which takes ten times as long as drawing.
+   */
   rebuild() {
     const selected = this.model?.selected;
-    this.model?.dispose();
+    if (this.model) {
+      this.model.leave();
+      this.replaced.push(this.model);
+    }
     this.model = null;
     if (this.kinematics) {
       const bounds = this.kinematics.bounds();
@@ -363,7 +371,9 @@ export class Viewer {
     if (this.player.tick(now)) this.isMoved = true;
     if (this.isMoved && this.history) this.move();
     if (this.isStale && this.model) {
+      this.stage.sharpen(!this.player.isPlaying);
       this.stage.render();
+      for (const model of this.replaced.splice(0)) model.dispose();
       this.isStale = false;
       this.drawn = (this.drawn ?? 0) + 1;
     }

@@ -437,9 +437,21 @@ frames_per_second = 1000
       page.on("request", (request) => request.url().startsWith(address) || complaints.push(`asks ${request.url()}`));
       await page.goto(address);
       const shown = (value) => page.waitForFunction((value) => lissom.result?.scene.beams[0].stations[0].outline.height === value, value, { timeout: 60000 });
+      // What the graphics card holds once a picture is drawn.
+      const held = async () => {
+        const drawn = await page.evaluate(() => lissom.drawn);
+        await page.waitForFunction((drawn) => lissom.drawn > drawn, drawn, { timeout: 60000 });
+        return page.evaluate(() => {
+          const { programs, memory } = lissom.stage.renderer.info;
+          return { shaders: programs.map(({ id }) => id), ...memory };
+        });
+      };
       await shown(0.1);
+      const first = await held();
       writeFileSync(model, text.replace("height = 0.1", "height = 0.12"));
       await shown(0.12);
+      // Shaders are compiled once, and nothing of the last model is left.
+      assert.deepEqual(await held(), first);
       // A mistake is told beside the last picture, and is gone when it is mended.
       writeFileSync(model, text.replace("order = 3", "order = 9"));
       await page.waitForFunction(() => document.querySelector("#notices .error")?.textContent.includes("order"), null, { timeout: 60000 });

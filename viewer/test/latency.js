@@ -27,6 +27,11 @@ try {
     const began = performance.now();
     writeFileSync(file, `${text}\n# ${"x".repeat(1 + (k % 3))}`);
     await page.waitForFunction(([version, drawn]) => Number(document.documentElement.dataset.version) > version && lissom.drawn > drawn, [version, drawn], { timeout: 120000 });
+    // Reading a pixel waits until all is drawn.
+    await page.evaluate(() => {
+      const gl = lissom.stage.renderer.getContext();
+      gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    });
     times.push(performance.now() - began);
   }
   const seconds = await page.evaluate(() => document.getElementById("facts").textContent);
