@@ -88,26 +88,37 @@ impl About {
         document: &Document,
         then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
     ) -> Result<T, E> {
-        match self {
-            Self::Undeformed => undeformed(document, then),
-            Self::Rotation => in_rotation(document, then),
+        handed_over(then, |hand| match self {
+            Self::Undeformed => undeformed(document, hand),
+            Self::Rotation => in_rotation(document, hand),
             Self::Static if !matches!(document.analysis.kind, AnalysisKind::Statics { .. }) => {
-                in_equilibrium(document, then)
+                in_equilibrium(document, hand)
             }
-            Self::Static => after(document, document.analysis.end, then),
-            Self::Time(time) => after(document, time, then),
-        }
+            Self::Static => after(document, document.analysis.end, hand),
+            Self::Time(time) => after(document, time, hand),
+        })
     }
 }
 
-fn undeformed<T, E: From<ModesError>>(
-    document: &Document,
+/// What takes the state that was found.
+type Hand<'h> = &'h mut dyn FnMut(Reached<'_, '_>);
+
+/// What `then` makes of the state that `find` hands over. The search for the state is compiled once, whatever is made of it.
+fn handed_over<T, E: From<ModesError>>(
     then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
+    find: impl FnOnce(Hand<'_>) -> Result<(), ModesError>,
 ) -> Result<T, E> {
+    let mut then = Some(then);
+    let mut made = None;
+    find(&mut |reached| made = then.take().map(|then| then(reached)))?;
+    made.expect("a search that succeeds hands its state over")
+}
+
+fn undeformed(document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
     let mut document = document.clone();
     document.gravity.fill(0.0);
     document.loads.clear();
-    let mut lowered = lower(&document).map_err(ModesError::from)?;
+    let mut lowered = lower(&document)?;
     stop(&mut lowered.state);
     let model = linear(&lowered.system, &lowered.state, &lowered.settings)?;
     balanced(
@@ -116,23 +127,21 @@ fn undeformed<T, E: From<ModesError>>(
         STILL_BALANCED,
         "springs or drives pull at it: take the static equilibrium",
     )?;
-    then(Reached { model: &model, channels: &lowered.channels, warnings: Vec::new() })
+    hand(Reached { model: &model, channels: &lowered.channels, warnings: Vec::new() });
+    Ok(())
 }
 
-fn in_equilibrium<T, E: From<ModesError>>(
-    document: &Document,
-    then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
-) -> Result<T, E> {
-    let Lowered { system, mut state, mut settings, channels, .. } =
-        lower(document).map_err(ModesError::from)?;
+fn in_equilibrium(document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
+    let Lowered { system, mut state, mut settings, channels, .. } = lower(document)?;
     stop(&mut state);
     let model = linear(&system, &state, &settings)?;
     if balanced(&model, "state of the file", BALANCED, "").is_ok() {
-        return then(Reached { model: &model, channels: &channels, warnings: Vec::new() });
+        hand(Reached { model: &model, channels: &channels, warnings: Vec::new() });
+        return Ok(());
     }
     drop(model);
     settings.limits.tolerance = settings.limits.tolerance.min(TOLERANCE);
-    let (system, mut state, doubts) = at_rest(system, state, &settings).map_err(ModesError::from)?;
+    let (system, mut state, doubts) = at_rest(system, state, &settings)?;
     // Instability is told by the modes themselves.
     let relaxed = doubts.iter().filter(|doubt| matches!(doubt, Warning::Relaxed { .. }));
     let warnings = relaxed.map(|doubt| format!("{}: {doubt}", doubt.code())).collect();
@@ -141,35 +150,30 @@ fn in_equilibrium<T, E: From<ModesError>>(
     let hint =
         "give the model an analysis of kind `statics` in more load steps, and take the modes at its end";
     balanced(&model, "state that was found", STILL_BALANCED, hint)?;
-    then(Reached { model: &model, channels: &channels, warnings })
+    hand(Reached { model: &model, channels: &channels, warnings });
+    Ok(())
 }
 
-fn in_rotation<T, E: From<ModesError>>(
-    document: &Document,
-    then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
-) -> Result<T, E> {
-    let Lowered { system, state, settings, channels, .. } = lower(document).map_err(ModesError::from)?;
-    let state = steady(&system, &state, settings.solver).map_err(ModesError::from)?;
+fn in_rotation(document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
+    let Lowered { system, state, settings, channels, .. } = lower(document)?;
+    let state = steady(&system, &state, settings.solver)?;
     let model = linear(&system, &state, &settings)?;
     if model.unsteadiness() > STEADY_ROTATION {
-        return Err(ModesError::Unsteady(model.unsteadiness()).into());
+        return Err(ModesError::Unsteady(model.unsteadiness()));
     }
     // Loads at rest in space can be in balance at one azimuth, as gravity across the axis of a rotor.
-    let later = model.turned().map_err(ModesError::from)?.unsteadiness();
+    let later = model.turned()?.unsteadiness();
     if later.is_nan() || later > STEADY_ROTATION {
-        return Err(ModesError::SteadyHereAlone(later).into());
+        return Err(ModesError::SteadyHereAlone(later));
     }
-    then(Reached { model: &model, channels: &channels, warnings: Vec::new() })
+    hand(Reached { model: &model, channels: &channels, warnings: Vec::new() });
+    Ok(())
 }
 
 /// The state that the model's own analysis reaches.
-fn after<T, E: From<ModesError>>(
-    document: &Document,
-    time: f64,
-    then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
-) -> Result<T, E> {
+fn after(document: &Document, time: f64, hand: Hand<'_>) -> Result<(), ModesError> {
     let (start, end) = (document.analysis.start, document.analysis.end);
-    let wrong = |reason: String| Err(E::from(ModesError::Time { time, reason }));
+    let wrong = |reason: String| Err(ModesError::Time { time, reason });
     if !matches!(document.analysis.kind, AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. }) {
         return wrong(
             "an analysis of this kind has no course in time; take `static` or `undeformed`".to_owned(),
@@ -183,9 +187,9 @@ fn after<T, E: From<ModesError>>(
     if is_static {
         document.analysis.tolerance = document.analysis.tolerance.min(TOLERANCE);
     }
-    let mut session = Session::new(&document).map_err(ModesError::from)?;
-    session.step_to(time).map_err(ModesError::from)?;
-    now(&session, &document, then)
+    let mut session = Session::new(&document)?;
+    session.step_to(time)?;
+    where_it_stands(&session, &document, hand)
 }
 
 /// Linearises where `session`, which runs `document`, stands.
@@ -194,6 +198,10 @@ pub(crate) fn now<T, E: From<ModesError>>(
     document: &Document,
     then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
 ) -> Result<T, E> {
+    handed_over(then, |hand| where_it_stands(session, document, hand))
+}
+
+fn where_it_stands(session: &Session, document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
     let is_static = matches!(document.analysis.kind, AnalysisKind::Statics { .. });
     let time = session.progress().time;
     let simulation = session.simulation();
@@ -217,7 +225,8 @@ pub(crate) fn now<T, E: From<ModesError>>(
             model.unsteadiness()
         ));
     }
-    then(Reached { model: &model, channels: session.channels(), warnings })
+    hand(Reached { model: &model, channels: session.channels(), warnings });
+    Ok(())
 }
 
 fn linear<'a>(system: &'a System, state: &State, settings: &Settings) -> Result<LinearModel<'a>, ModesError> {
