@@ -261,3 +261,60 @@ fn mistakes_are_told() {
     let (_, report) = session.record();
     assert!(!report.is_complete(), "{report:?}");
 }
+
+/// Two masses of 2 and 3 kg attract each other with 60 N m²/r², from a distance of 1 m, where they are farthest: for the
+/// distance, semi-major axis a = 1/(2 - v²/50).
+#[test]
+fn masses_that_attract_each_other_go_round_in_ellipses() {
+    let text = |law: &str, scheme: &str, step: f64, end: f64| {
+        format!(
+            "lissom = 1\n[point_masses.one]\nmass = 2\nposition = [0, 0, 0]\nvelocity = [0, -3.6, 0]\n\
+             [point_masses.two]\nmass = 3\nposition = [1, 0, 0]\nvelocity = [0, 2.4, 0]\n\
+             [springs.attraction]\nkind = \"point\"\nbase = \"one\"\ntip = \"two\"\n{law}\n\
+             [outputs.one]\nkind = \"position\"\nof = \"one\"\n[outputs.two]\nkind = \"position\"\nof = \"two\"\n\
+             [outputs.energy]\nkind = \"energy\"\n[outputs.momentum]\nkind = \"momentum\"\n\
+             [analysis]\nkind = \"dynamics\"\nscheme = \"{scheme}\"\nend = {end}\nstep = {step:e}\n"
+        )
+    };
+    let axis = 1.0 / (2.0 - 36.0 / 50.0);
+    let period = std::f64::consts::TAU * f64::sqrt(axis * axis * axis / 50.0);
+    let from_the_start = "length = 1\nforce = \"60/(1 + elongation)^2\"";
+    for scheme in SCHEMES {
+        let third = scheme == "radau-iia" || scheme == "energy-decaying";
+        let (parts, within) = if third { (1000.0, 1e-6) } else { (4000.0, 2e-5) };
+        let (record, report) = session(&text(from_the_start, scheme, period / parts, period)).record();
+        assert!(report.is_complete(), "{scheme}: {report:?}");
+        let column = |output: &str, component: &str| record.column(output, component).unwrap();
+        let apart = |k: usize| {
+            let difference = |axis| column("two", axis)[k] - column("one", axis)[k];
+            [difference("x"), difference("y")]
+        };
+        let (last, half) = (record.times.len() - 1, record.times.len() / 2);
+        let [x, y] = apart(last);
+        assert!((x - 1.0).abs() < within && y.abs() < 10.0 * within, "{scheme}: {x} {y}");
+        // The other apsis, and the strain energy from one to the other.
+        let near = 2.0 * axis - 1.0;
+        let [x, y] = apart(half);
+        assert!((x + near).abs() < within && y.abs() < 10.0 * within, "{scheme}: {x} {y} for {near}");
+        let strain = column("energy", "strain");
+        assert!(
+            (strain[half] - 60.0 * (1.0 - 1.0 / near)).abs() < 100.0 * within,
+            "{scheme}: {}",
+            strain[half]
+        );
+        let total = column("energy", "total");
+        let most = total.iter().fold(0.0_f64, |most, own| most.max((own - total[0]).abs()));
+        assert!(most < 100.0 * within, "{scheme}: {most}");
+        let turning = column("momentum", "l3");
+        let most = turning.iter().fold(0.0_f64, |most, own| most.max((own - turning[0]).abs()));
+        assert!(most < 100.0 * within, "{scheme}: {most}");
+    }
+    // Counted from where both meet there is no potential energy: the work is that of a load, and the motion the same.
+    let [one, other] = [from_the_start, "length = 0\nforce = \"60/elongation^2\""]
+        .map(|law| session(&text(law, "radau-iia", 1e-3, 0.3)).record().0);
+    let last = |record: &lissom::Record, output: &str, component: &str| {
+        *record.column(output, component).unwrap().last().unwrap()
+    };
+    assert!((last(&one, "two", "y") - last(&other, "two", "y")).abs() < 1e-12);
+    assert_eq!(last(&other, "energy", "strain"), 0.0);
+}

@@ -91,7 +91,9 @@ impl ForceLaw {
             play: 0.5 * parameters.number_or("backlash", 0.0)?,
             is_active: false,
         };
-        law.is_active = !law.seems_passive();
+        // The potential energy is counted from the free length; a law that is infinite there has none.
+        let is_finite = law.elastic.as_ref().is_none_or(|law| law.evaluate(0.0, 0.0)[0].is_finite());
+        law.is_active = !(is_finite && law.seems_passive());
         Ok(law)
     }
 
@@ -300,6 +302,18 @@ mod tests {
         }
     }
 
+    #[derive(Debug)]
+    struct Attraction;
+
+    impl ForceFunction for Attraction {
+        fn evaluate(&self, first: f64, _second: f64) -> [f64; 3] {
+            [first.powi(-2), -2.0 * first.powi(-3), 0.0]
+        }
+        fn depends_on_second(&self) -> bool {
+            false
+        }
+    }
+
     fn law(parameters: &Parameters) -> ForceLaw {
         ForceLaw::new(parameters, ["force", "damper_force"]).unwrap()
     }
@@ -384,5 +398,8 @@ mod tests {
         assert!(law(&Parameters::new().with("damper_force", Value::Number(1.0))).is_active());
         let active = law(&Parameters::new().with("force", cubic(-2.0)));
         assert_eq!(active.energy(1.0), 0.0);
+        // The potential of an attraction has no value where both meet.
+        let attraction = Value::Force(Arc::new(Attraction));
+        assert!(law(&Parameters::new().with("force", attraction)).is_active());
     }
 }
