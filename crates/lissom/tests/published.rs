@@ -300,6 +300,86 @@ const EXUDYN: &[Published] = &[
         exact: None,
         refined: Some((4.409_082_301_3, 1e-09)),
     },
+    Published {
+        name: "four satellites about a star",
+        called: "connectorGravityTest",
+        text: include_str!("published/satellites.toml"),
+        end: 1e6,
+        step: 50.0,
+        // The farthest, on its circle; the star is heavier by 1e17.
+        exact: Some((
+            || {
+                let angle = (6.6743e-11 * 1e20_f64 / 1e18).sqrt() * 1e6;
+                1e6 * (angle.cos() + angle.sin())
+            },
+            1e-3,
+        )),
+        refined: Some((1_014_867.395_06, 1e-3)),
+    },
+    Published {
+        name: "two trees of links that are led",
+        called: "createKinematicTreeTest",
+        text: include_str!("published/link-trees.toml"),
+        end: 1.2,
+        step: 5e-4,
+        exact: None,
+        refined: Some((3.340_819_520_32, 1e-10)),
+    },
+    Published {
+        name: "a wheel on a table that is braked from an event on",
+        called: "rotatingTableTest",
+        text: include_str!("published/rotating-table.toml"),
+        end: 5.0,
+        step: 2.5e-3,
+        exact: None,
+        refined: Some((0.278_930_165, 1e-8)),
+    },
+    Published {
+        name: "a pendulum that lets go of a mass and of its pivot",
+        called: "switchingConstraintsPendulum",
+        text: include_str!("published/released-pendulum.toml"),
+        end: 2.0,
+        step: 1e-3,
+        exact: Some((
+            || {
+                // From a circle about (-1, 0) both leave along its tangent with 2 m/s.
+                let leaves = |angle: f64, time: f64| {
+                    let (sine, cosine) = angle.sin_cos();
+                    [0.5 * cosine - 2.0 * time * sine, 0.5 * sine + 2.0 * time * cosine]
+                };
+                let (mass, rod) = (leaves(0.4, 1.9), leaves(1.2, 1.7));
+                (mass[0] - rod[0]).hypot(mass[1] - rod[1])
+            },
+            5e-7,
+        )),
+        refined: Some((2.803_890_66, 5e-7)),
+    },
+    Published {
+        name: "a mass that sticks and slips on bristles",
+        called: "lugreFrictionTest",
+        text: include_str!("published/bristle.toml"),
+        end: 25.0,
+        step: 1e-3,
+        exact: None,
+        refined: Some((1.908_839_199_2, 1e-8)),
+    },
+    Published {
+        name: "two shafts and a cross",
+        called: "universalJoint",
+        text: include_str!("published/universal-joint.toml"),
+        end: 6.0,
+        step: 2e-3,
+        // The second shaft goes round as often as the first.
+        exact: Some((
+            || {
+                let first = 60.0_f64;
+                let second = ((0.25 * PI).cos() * first.sin()).atan2(first.cos());
+                second + 2.0 * PI * ((first - second) / (2.0 * PI)).round()
+            },
+            1e-10,
+        )),
+        refined: Some((59.912_814_470_8, 1e-9)),
+    },
 ];
 
 const MBDYN: &[Published] = &[
