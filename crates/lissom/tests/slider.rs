@@ -392,3 +392,59 @@ fn what_makes_no_sense_is_refused() {
     refused("beams = [\"bar\"]", "beams = []", "is empty");
     refused("beams = [\"bar\"]", "beams = [\"bar\", \"bar\"]", "does not begin where");
 }
+
+/// Section forces under a slider that stands between nodes: what the warning says of them. Its deflection is right.
+#[test]
+fn sections_beside_a_slider_err_as_the_warning_says() {
+    let (force, length) = (0.1, 4.0);
+    for (order, elements, share) in [(1, 8, 0.30), (2, 8, 0.13), (3, 8, 0.07), (3, 4, 0.07)] {
+        let element = length / f64::from(elements);
+        let place = 2.0 + 0.5 * element;
+        let sections: String = (0..40)
+            .map(|k| {
+                let at = 0.0125 + 0.025 * f64::from(k);
+                format!(
+                    "[outputs.moment{k}]\nkind = \"section_moment\"\nof = \"bridge@{at}\"\n[outputs.shear{k}]\n\
+                     kind = \"section_force\"\nof = \"bridge@{at}\"\n"
+                )
+            })
+            .collect::<Vec<_>>()
+            .concat();
+        let motion = format!(
+            "[joints.drive]\nkind = \"prescribed_displacement\"\njoint = \"contact\"\ndisplacement = \"{place}\"\n\
+             [loads.weight]\nkind = \"force\"\non = \"car\"\nvector = [0, 0, -{force}]\n{sections}"
+        );
+        let text = BRIDGE
+            .replace("GRAVITY", "0")
+            .replace("ELEMENTS", &elements.to_string())
+            .replace("order = 3", &format!("order = {order}"))
+            .replace("position = [0, 0, 0]\nvelocity = [5, 0, 0]", &format!("position = [{place}, 0, 0]"))
+            .replace("MOTION", &motion)
+            .replace("kind = \"dynamics\"\nend = 0.76\nstep = 2e-3", "kind = \"statics\"\nsteps = 1");
+        let record = run(&text, &[]);
+        let last = record.times.len() - 1;
+        let (mut beside, mut away) = ([0.0_f64; 2], [0.0_f64; 2]);
+        for k in 0..40 {
+            let x = length * (0.0125 + 0.025 * f64::from(k));
+            let moment = force * x.min(place) * (length - x.max(place)) / length;
+            let shear = force * if x < place { length - place } else { place } / length;
+            let found = column(&record, &format!("moment{k}"), "m2")[last].abs();
+            let missed = [
+                (found - moment).abs() / (force * element),
+                (column(&record, &format!("shear{k}"), "f3")[last].abs() - shear).abs() / force,
+            ];
+            let worst = if (x - place).abs() <= element { &mut beside } else { &mut away };
+            for (worst, missed) in worst.iter_mut().zip(missed) {
+                *worst = worst.max(missed);
+            }
+        }
+        assert!(beside[0] > 0.3 * share && beside[0] < share, "{order} {elements}: {beside:?}");
+        assert!(beside[1] > 0.3 && beside[1] < 0.51, "{order} {elements}: {beside:?}");
+        assert!(order == 1 || away.iter().all(|own| *own < 1e-3), "{order} {elements}: {away:?}");
+        // P a² b²/(3 E I L), and the shear's share, which is small.
+        let (a, b) = (place, length - place);
+        let wanted = force * a * a * b * b / (3.0 * 4e3 * length) + force * a * b / (length * 4e6);
+        let found = -column(&record, "car", "z")[last];
+        assert!((found / wanted - 1.0).abs() < 0.04, "{order} {elements}: {found} {wanted}");
+    }
+}

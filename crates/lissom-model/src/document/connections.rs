@@ -6,8 +6,8 @@ use lissom_motion::Vector3;
 
 use super::decode::PARTS;
 use super::{
-    AnalysisKind, Attachment, Beam, Body, Component, Document, NodeReference, PointMass, Superelement,
-    interface_name,
+    AnalysisKind, Attachment, Beam, Body, Component, Document, NodeReference, OutputKind, OutputSource,
+    PointMass, Superelement, interface_name,
 };
 use crate::context::Context;
 use crate::line::Line;
@@ -57,6 +57,38 @@ pub(super) fn check(context: &Context<'_>, document: &Document) {
     unused(context, document);
     complete(context, document);
     at_rest(context, document);
+    under_sliders(context, document);
+}
+
+/// A slider hands its force to the nodes about it: sections between them do not know where it stands. Within one element it
+/// leaves out up to half of its force of the shear, and of the moment the parts of force times length of an element that
+/// `order` says; farther away both are right.
+fn under_sliders(context: &Context<'_>, document: &Document) {
+    for output in &document.outputs {
+        let OutputSource::Node { node, .. } = &output.source else { continue };
+        let NodeReference::Beam { beam: name, .. } = &node.value else { continue };
+        let is_of_section = matches!(output.kind, OutputKind::SectionForce | OutputKind::SectionMoment);
+        let slider = document.joints.iter().find(|joint| match &joint.attachment {
+            Attachment::AlongBeams { beams, .. } => beams.iter().any(|beam| beam.value == *name),
+            _ => false,
+        });
+        let (Some(slider), Some(beam)) = (slider.filter(|_| is_of_section), document.beam(name)) else {
+            continue;
+        };
+        let share = match beam.order {
+            1 => 30,
+            2 => 13,
+            _ => 7,
+        };
+        let message = format!(
+            "section forces of `{name}` do not know where within an element slider `{}` stands: up to one element from it \
+             the shear force errs by up to half of its force, the moment by up to {share} % of its force times the length \
+             of an element",
+            slider.name.value
+        );
+        let problem = Problem::warning(node.span, message).also(slider.name.span, "the slider");
+        context.tell(problem.help("read them farther away, or take more elements"));
+    }
 }
 
 /// Statics knows no rates and no samples.
