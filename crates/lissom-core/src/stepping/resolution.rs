@@ -48,12 +48,13 @@ struct Missed {
 }
 
 impl Missed {
-    /// How far the unknown may be off at the end.
-    fn total(&self, pairs: f64) -> f64 {
+    /// How far the unknown may be off so many steps after the last pair.
+    fn total(&self, pairs: f64, steps: f64) -> f64 {
         let angle = self.differences / self.errors;
         let amplitude = self.errors / (2.0 * pairs * MEAN_COSINE * OSCILLATION * angle.powi(3));
         // Where nothing differs there is no oscillation.
-        if amplitude.is_nan() { self.sum } else { self.sum.min(MOST * amplitude) }
+        let sum = self.sum + steps * self.last;
+        if amplitude.is_nan() { sum } else { sum.min(MOST * amplitude) }
     }
 }
 
@@ -126,7 +127,7 @@ impl Resolution {
 
     /// The coordinate row that is off most, and by how much.
     fn worst(&self) -> (usize, f64) {
-        let all = self.missed.iter().map(|missed| missed.total(self.pairs)).enumerate();
+        let all = self.missed.iter().map(|missed| missed.total(self.pairs, self.steps)).enumerate();
         all.fold((0, 0.0), |worst, (row, total)| if total > worst.1 { (row, total) } else { worst })
     }
 }
@@ -141,21 +142,22 @@ impl Simulation {
         if let Some(warning) = judge::contact::runs_round(&self.system, step) {
             warn(&mut self.warnings, warning);
         }
-        if !self.resolution.is_due(share) {
-            return;
+        let known = self.warnings.iter().position(|warning| matches!(warning, Warning::Unresolved { .. }));
+        let mut is_pair = false;
+        if self.resolution.is_due(share) {
+            self.estimate_error(Order::Third);
+            let work = &*self.work;
+            let errors = work.filtered.iter().zip(&work.error).zip(&work.sizes);
+            is_pair =
+                self.resolution.note(errors.map(|((filtered, error), size)| [filtered * size, error * size]));
         }
-        self.estimate_error(Order::Third);
-        let work = &*self.work;
-        let errors = work.filtered.iter().zip(&work.error).zip(&work.sizes);
-        let is_pair =
-            self.resolution.note(errors.map(|((filtered, error), size)| [filtered * size, error * size]));
-        if !is_pair {
+        // What has been told is kept up to date with every step, so that the last word is that of the end.
+        if !is_pair && known.is_none() {
             return;
         }
         self.farthest = self.farthest.max(self.excursion_of(&self.next));
         let (row, total) = self.resolution.worst();
         let part = self.settings.scheme.planned_share * total / self.farthest.max(SMALLEST_REFERENCE);
-        let known = self.warnings.iter().position(|warning| matches!(warning, Warning::Unresolved { .. }));
         if part <= NOTEWORTHY {
             // What looked large at the start may turn out small beside how far the model goes.
             if let Some(known) = known {
@@ -163,12 +165,21 @@ impl Simulation {
             }
             return;
         }
-        let name = self.system.layout().name_of(row);
+        let system = &self.system;
         match known.map(|known| &mut self.warnings[known]) {
-            Some(Warning::Unresolved { error, unknown, .. }) => (*error, *unknown) = (part, name),
+            Some(Warning::Unresolved { error, unknown, .. }) => {
+                *error = part;
+                if is_pair {
+                    *unknown = system.layout().name_of(row);
+                }
+            }
             _ => warn(
                 &mut self.warnings,
-                Warning::Unresolved { time: self.next.kinematics.time, error: part, unknown: name },
+                Warning::Unresolved {
+                    time: self.next.kinematics.time,
+                    error: part,
+                    unknown: system.layout().name_of(row),
+                },
             ),
         }
     }
