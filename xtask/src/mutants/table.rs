@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 
 use super::MutantsError;
-use super::mutant::Mutant;
+use super::place::Mutant;
 use super::trial::Outcome;
 
 /// Where the part that is written begins.
@@ -39,11 +39,13 @@ impl Figures {
     pub(super) fn words(&self) -> String {
         let Self { seed, sample, tried, not_built, survived } = *self;
         let built = tried - not_built;
-        let share = if built == 0 { 0.0 } else { 100.0 * survived as f64 / built as f64 };
-        format!(
-            "Seed {seed}: {tried} of {sample} mutants tried so far; {not_built} do not compile; of the {built} that do, \
-             {survived} survive all tests ({share:.0} %)."
-        )
+        let share = 100.0 * survived as f64 / built.max(1) as f64;
+        let tried =
+            format!("Seed {seed}: {tried} of {sample} mutants tried so far; {not_built} do not compile");
+        if built == 0 {
+            return format!("{tried}, and nothing can be said of the others.");
+        }
+        format!("{tried}; of the {built} that do, {survived} survive all tests ({share:.0} %).")
     }
 }
 
@@ -63,7 +65,7 @@ fn written(before: &str, figures: &Figures, tried: &[(&Mutant, &Outcome)]) -> St
     let reasons = reasons(before);
     let mut survivors: Vec<&Mutant> =
         tried.iter().filter(|(_, outcome)| outcome.is_survivor()).map(|(mutant, _)| *mutant).collect();
-    survivors.sort_by(|a, b| (&a.file, a.line()).cmp(&(&b.file, b.line())));
+    survivors.sort_by(|a, b| (&a.file, a.line).cmp(&(&b.file, b.line)));
     let mut text = format!("\n{}\n", figures.words());
     if survivors.is_empty() {
         return text;
@@ -71,10 +73,10 @@ fn written(before: &str, figures: &Figures, tried: &[(&Mutant, &Outcome)]) -> St
     text += "\n| file | line | what | reason |\n|---|---|---|---|\n";
     for mutant in survivors {
         // A sign of a table within a table.
-        let what = mutant.what().replace('|', "\\|");
+        let what = mutant.what.replace('|', "\\|");
         let key = (mutant.file.clone(), what.clone());
         let reason = reasons.get(&key).map_or(NO_REASON, String::as_str);
-        let (line, what) = (mutant.line().to_string(), format!("`{what}`"));
+        let (line, what) = (mutant.line.to_string(), format!("`{what}`"));
         text += &["| ", &[mutant.file.as_str(), &line, &what, reason].join(" | "), " |\n"].concat();
     }
     text
@@ -101,10 +103,11 @@ mod tests {
 
     #[test]
     fn reasons_stay_with_their_mutants_and_those_that_are_noticed_go() {
-        let a = Mutant::named("file.rs:1:1: replace | with & in f");
-        let b = Mutant::named("file.rs:1:9: replace + with - in g");
+        let a = Mutant::named("file.rs", 1, "replace | with & in f");
+        let b = Mutant::named("file.rs", 1, "replace + with - in g");
         let figures = Figures::of(&[(&a, &Outcome::Survived), (&b, &Outcome::NotBuilt)], 10, 1);
         assert!(figures.words().contains("2 of 10 mutants tried so far; 1 do not compile; of the 1"));
+        assert!(!Figures::of(&[(&b, &Outcome::NotBuilt)], 10, 1).words().contains('%'));
         let both = [(&a, &Outcome::Survived), (&b, &Outcome::Survived)];
         let first = written("", &figures, &both);
         assert!(first.contains("| file.rs | 1 | `replace \\| with & in f` |  |"), "{first}");

@@ -1,19 +1,25 @@
-//! Whether the tests notice a mutant: they run in stages, those that are built soonest first, until one fails.
+//! Whether the tests notice a mutant: those that come to it run, the shortest first, until one fails.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{BufRead, BufReader};
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
 use super::MutantsError;
+use super::build::{TestProgram, TestPrograms};
+use super::switch::{REACHED, RECORD, VARIABLE};
 
-/// A stage that takes longer [s] hangs.
-const LONGEST: u32 = 3600;
-/// What `timeout` exits with where it has ended a program.
-const TIMED_OUT: i32 = 124;
-/// Lines of a failure that are shown.
-const SHOWN: usize = 40;
+/// A program that takes so many times as long as without a mutant hangs,
+const PATIENCE: f64 = 5.0;
+/// at the least so long [s]: the machine may be busy otherwise.
+const SHORTEST: f64 = 30.0;
+/// Bytes of addresses that a program may have: a loop that comes to no end may store something in each round.
+const ADDRESSES: &str = "--as=12000000000";
+/// What `timeout` exits with where it has ended a program, or killed it.
+const TIMED_OUT: [i32; 2] = [124, 137];
 
 /// What became of a mutant.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -26,11 +32,13 @@ pub(super) enum Outcome {
     NotBuilt,
     /// No test noticed.
     Survived,
+    /// No test comes there.
+    Unreached,
 }
 
 impl Outcome {
     pub(super) fn is_survivor(&self) -> bool {
-        *self == Self::Survived
+        matches!(self, Self::Survived | Self::Unreached)
     }
 
     pub(super) fn words(&self) -> String {
@@ -39,125 +47,188 @@ impl Outcome {
             Self::Hung => "noticed: the tests hang".to_owned(),
             Self::NotBuilt => "does not compile".to_owned(),
             Self::Survived => "NOT NOTICED".to_owned(),
+            Self::Unreached => "NOT REACHED by any test".to_owned(),
         }
     }
 }
 
-/// Tests in a copy of the project.
+/// What is known of a program with tests when no mutant is chosen.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+struct Unbroken {
+    /// When it was built [ns since 1970].
+    built: u64,
+    /// How long it runs [s].
+    seconds: f64,
+    /// Its tests.
+    tests: BTreeSet<String>,
+    /// Threads that come to a mutant, by its number. Each test runs in a thread of its name.
+    reached: BTreeMap<usize, BTreeSet<String>>,
+    /// Whether it bears no recording, so that it is not known which mutants it comes to.
+    is_unknown: bool,
+}
+
+impl Unbroken {
+    /// The tests that come to a mutant; an empty list for all.
+    fn tests_at(&self, number: usize) -> Option<Vec<String>> {
+        if self.is_unknown {
+            return Some(Vec::new());
+        }
+        let threads = self.reached.get(&number)?;
+        Some(if threads.is_subset(&self.tests) { threads.iter().cloned().collect() } else { Vec::new() })
+    }
+
+    /// About how long so many of its tests take [s].
+    fn cost(&self, tests: usize) -> f64 {
+        let share = if tests == 0 { 1.0 } else { tests as f64 / self.tests.len() as f64 };
+        self.seconds * share
+    }
+}
+
+/// What came of one program.
+struct Run {
+    outcome: Outcome,
+    tests: BTreeSet<String>,
+    seconds: f64,
+    output: String,
+}
+
+/// The tests, and what is known of them.
 pub(super) struct Trials {
-    tree: PathBuf,
-    build: PathBuf,
-    /// Targets of each stage, as arguments of `cargo test --workspace`, with the first crate whose code they see.
-    stages: Vec<Vec<String>>,
+    programs: TestPrograms,
+    unbroken: BTreeMap<String, Unbroken>,
 }
 
 impl Trials {
-    /// Tests of the project in `tree`, built in `build`.
+    /// Runs all tests without a mutant, but those programs that have been run since they were built. What is known is kept
+    /// in `folder`.
     ///
     /// # Errors
-    /// If the tests cannot be listed.
-    pub(super) fn new(tree: &Path, build: &Path) -> Result<Self, MutantsError> {
-        let tests = |name: &str| -> Result<Vec<String>, MutantsError> {
-            let names = test_targets(&tree.join("crates").join(name).join("tests"))?;
-            Ok(names.into_iter().flat_map(|name| ["--test".to_owned(), name]).collect())
-        };
-        let units = |mut stage: Vec<String>, kind: &str| {
-            stage.insert(0, kind.to_owned());
-            stage
-        };
-        // What the model file means is seen by the later stages alone.
-        let stages = vec![
-            tests("lissom-core")?,
-            units(tests("lissom-model")?, "--lib"),
-            units(tests("lissom")?, "--bins"),
-        ];
-        Ok(Self { tree: tree.to_owned(), build: build.to_owned(), stages })
-    }
-
-    /// Runs all tests of the code as it is.
-    ///
-    /// # Errors
-    /// If one fails.
-    pub(super) fn baseline(&self) -> Result<(), MutantsError> {
-        match self.stages(&self.stages)? {
-            (Outcome::Survived, _) => Ok(()),
-            (_, output) => Err(MutantsError::Baseline(output)),
-        }
-    }
-
-    /// Runs the tests that may notice a change of `file` until one fails.
-    ///
-    /// # Errors
-    /// If they cannot be run.
-    pub(super) fn run(&self, file: &str) -> Result<Outcome, MutantsError> {
-        let first = usize::from(!file.starts_with("crates/lissom-core/"));
-        Ok(self.stages(&self.stages[first..])?.0)
-    }
-
-    fn stages(&self, stages: &[Vec<String>]) -> Result<(Outcome, String), MutantsError> {
-        for stage in stages {
-            let built = self.cargo(stage, true)?;
-            if !built.status.success() {
-                let output = tail(&String::from_utf8_lossy(&built.stderr));
-                // A full disk, or a build that was ended, says nothing of the mutant.
-                if output.contains("could not compile") {
-                    return Ok((Outcome::NotBuilt, output));
-                }
-                return Err(MutantsError::Build(output));
+    /// If a test fails, or a program cannot be run.
+    pub(super) fn new(programs: TestPrograms, folder: &Path) -> Result<Self, MutantsError> {
+        let path = folder.join("reached.json");
+        let text = std::fs::read_to_string(&path).unwrap_or_else(|_| "{}".to_owned());
+        let unbroken = serde_json::from_str(&text).map_err(MutantsError::json(path.display()))?;
+        let mut trials = Self { programs, unbroken };
+        for program in trials.programs.tests.clone() {
+            let built = trials.programs.built(&program);
+            if trials.unbroken.get(&program.name).is_some_and(|known| known.built == built) {
+                continue;
             }
-            let run = self.cargo(stage, false)?;
-            let output = String::from_utf8_lossy(&run.stdout).into_owned();
-            match run.status.code() {
-                Some(0) => {}
-                Some(TIMED_OUT) => return Ok((Outcome::Hung, tail(&output))),
-                _ => return Ok((Outcome::Caught(first_failure(&output)), tail(&output))),
+            let known = trials.unbroken(&program, built, &folder.join("reached.txt"))?;
+            println!("{:5.0} s without a mutant: {}", known.seconds, program.name);
+            trials.unbroken.insert(program.name, known);
+            let text = serde_json::to_string(&trials.unbroken).map_err(MutantsError::json(path.display()))?;
+            std::fs::write(&path, text).map_err(MutantsError::about(path.display()))?;
+        }
+        Ok(trials)
+    }
+
+    fn unbroken(&self, program: &TestProgram, built: u64, file: &Path) -> Result<Unbroken, MutantsError> {
+        std::fs::write(file, "").map_err(MutantsError::about(file.display()))?;
+        let variables = [(VARIABLE, RECORD.to_owned()), (REACHED, file.display().to_string())];
+        let mut run = self.run(program, &[], &variables, None)?;
+        // Some count what is allocated, which recording does as well.
+        let is_unknown = run.outcome != Outcome::Survived;
+        if is_unknown {
+            run = self.run(program, &[], &[(VARIABLE, "0".to_owned())], None)?;
+        }
+        if run.outcome != Outcome::Survived {
+            return Err(MutantsError::Baseline(format!("{}\n{}", program.name, run.output)));
+        }
+        let text = std::fs::read_to_string(file).map_err(MutantsError::about(file.display()))?;
+        let mut reached: BTreeMap<usize, BTreeSet<String>> = BTreeMap::new();
+        for (number, thread) in text.lines().filter_map(|line| line.split_once(' ')) {
+            reached.entry(number.parse().unwrap_or(0)).or_default().insert(thread.to_owned());
+        }
+        Ok(Unbroken { built, seconds: run.seconds, tests: run.tests, reached, is_unknown })
+    }
+
+    /// Runs the tests that come to a mutant until one fails.
+    ///
+    /// # Errors
+    /// If a program cannot be run.
+    pub(super) fn try_mutant(&self, number: usize) -> Result<Outcome, MutantsError> {
+        let mut plan: Vec<(f64, &TestProgram, &Unbroken, Vec<String>)> = Vec::new();
+        for program in &self.programs.tests {
+            let unbroken = &self.unbroken[&program.name];
+            if let Some(tests) = unbroken.tests_at(number) {
+                plan.push((unbroken.cost(tests.len()), program, unbroken, tests));
             }
         }
-        Ok((Outcome::Survived, String::new()))
+        let is_reached = plan.iter().any(|(_, _, unbroken, _)| !unbroken.is_unknown);
+        plan.sort_by(|a, b| a.0.total_cmp(&b.0));
+        for (_, program, unbroken, tests) in plan {
+            let limit = SHORTEST + PATIENCE * unbroken.seconds;
+            let run = self.run(program, &tests, &[(VARIABLE, number.to_string())], Some(limit))?;
+            if run.outcome != Outcome::Survived {
+                return Ok(run.outcome);
+            }
+        }
+        Ok(if is_reached { Outcome::Survived } else { Outcome::Unreached })
     }
 
-    /// Builds the tests of a stage, or runs them.
-    fn cargo(&self, stage: &[String], only_build: bool) -> Result<Output, MutantsError> {
-        // The one that runs this program, if one does.
-        let program = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+    /// Runs tests of a program, all if none is named; with a limit [s] until one fails.
+    fn run(
+        &self,
+        program: &TestProgram,
+        tests: &[String],
+        variables: &[(&str, String)],
+        limit: Option<f64>,
+    ) -> Result<Run, MutantsError> {
         // Programs that tests start end with it.
-        let mut command = Command::new("timeout");
-        command.arg("--kill-after=10").arg(LONGEST.to_string()).arg(program);
-        command.args(["test", "--quiet", "--workspace"]).args(stage);
-        if only_build {
-            command.arg("--no-run");
+        let mut command = Command::new("prlimit");
+        command.args([ADDRESSES, "timeout", "--kill-after=10", &limit.unwrap_or(0.0).to_string()]);
+        command.arg(&program.executable).args(tests);
+        if !tests.is_empty() {
+            command.arg("--exact");
         }
-        command.current_dir(&self.tree).env("CARGO_TARGET_DIR", &self.build);
-        // Nobody looks at these programs with a debugger.
-        command.env("CARGO_PROFILE_DEV_DEBUG", "0").env("CARGO_TERM_COLOR", "never");
-        command.output().map_err(MutantsError::about("timeout cargo test"))
+        command.current_dir(&program.folder).env("CARGO_MANIFEST_DIR", &program.folder);
+        command.envs(variables.iter().map(|(name, value)| (name, value)));
+        command
+            .envs(self.programs.started.iter().map(|(name, path)| (format!("CARGO_BIN_EXE_{name}"), path)));
+        command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
+        let began = Instant::now();
+        let mut child = command.spawn().map_err(MutantsError::about("prlimit timeout"))?;
+        let (mut passed, mut failed, mut output) = (BTreeSet::new(), None, String::new());
+        for line in child.stdout.take().into_iter().flat_map(|output| BufReader::new(output).split(b'\n')) {
+            let line = line.map_err(MutantsError::about(&program.name))?;
+            let line = String::from_utf8_lossy(&line);
+            match result(&line) {
+                Some((test, true)) => {
+                    passed.insert(test.to_owned());
+                }
+                Some((test, false)) if failed.is_none() => {
+                    failed = Some(test.to_owned());
+                    if limit.is_some() {
+                        let mut end = Command::new("kill");
+                        end.arg(child.id().to_string()).status().map_err(MutantsError::about("kill"))?;
+                    }
+                }
+                _ => {}
+            }
+            output += &line;
+            output.push('\n');
+        }
+        let status = child.wait().map_err(MutantsError::about(&program.name))?;
+        let outcome = match (failed, status.code()) {
+            (Some(test), _) => Outcome::Caught(format!("`{test}`")),
+            (None, Some(0)) => Outcome::Survived,
+            (None, Some(code)) if TIMED_OUT.contains(&code) => Outcome::Hung,
+            _ => Outcome::Caught(format!("{}, which breaks down", program.name)),
+        };
+        Ok(Run { outcome, tests: passed, seconds: began.elapsed().as_secs_f64(), output })
     }
 }
 
-/// Names of the test programs in a folder.
-fn test_targets(folder: &Path) -> Result<Vec<String>, MutantsError> {
-    let mut names = Vec::new();
-    for entry in fs::read_dir(folder).map_err(MutantsError::about(folder.display()))? {
-        let path = entry.map_err(MutantsError::about(folder.display()))?.path();
-        let is_target = path.extension().is_some_and(|end| end == "rs") || path.join("main.rs").is_file();
-        if let Some(name) = path.file_stem().and_then(|name| name.to_str()).filter(|_| is_target) {
-            names.push(name.to_owned());
-        }
+/// The test that a line tells the result of, and whether it passed.
+fn result(line: &str) -> Option<(&str, bool)> {
+    let (test, result) = line.strip_prefix("test ")?.rsplit_once(" ... ")?;
+    let test = test.strip_suffix(" - should panic").unwrap_or(test);
+    match result {
+        "ok" => Some((test, true)),
+        "FAILED" => Some((test, false)),
+        _ => None,
     }
-    names.sort();
-    Ok(names)
-}
-
-/// Name of the test that failed first, from what `cargo test` writes.
-fn first_failure(output: &str) -> String {
-    let named = output.lines().find_map(|line| line.strip_prefix("---- ")?.strip_suffix(" stdout ----"));
-    named.map_or_else(|| "a test program that broke down".to_owned(), |name| format!("`{name}`"))
-}
-
-/// The last lines.
-fn tail(output: &str) -> String {
-    let lines: Vec<&str> = output.lines().collect();
-    lines[lines.len().saturating_sub(SHOWN)..].join("\n")
 }
 
 #[cfg(test)]
@@ -165,18 +236,47 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_test_that_fails_is_named() {
-        let output =
-            "running 3 tests\n.F.\nfailures:\n\n---- sections::tests::a_tube stdout ----\npanicked\n";
-        assert_eq!(first_failure(output), "`sections::tests::a_tube`");
-        assert_eq!(first_failure("Segmentation fault"), "a test program that broke down");
+    fn results_are_read_from_the_lines_of_tests() {
+        assert_eq!(result("test a::b ... ok"), Some(("a::b", true)));
+        assert_eq!(result("test a::b - should panic ... ok"), Some(("a::b", true)));
+        assert_eq!(result("test c ... FAILED"), Some(("c", false)));
+        assert_eq!(result("test c ... ignored, takes hours"), None);
+        assert_eq!(result("running 3 tests"), None);
     }
 
     #[test]
-    fn every_test_program_of_the_project_belongs_to_a_stage() {
-        let trials = Trials::new(&crate::verify::root(), Path::new("")).expect("the tests are listed");
-        let has = |stage: usize, name: &str| trials.stages[stage].iter().any(|argument| argument == name);
-        assert!(has(0, "derivatives") && has(1, "schema") && has(2, "command_line"));
-        assert!(has(1, "--lib") && has(2, "--bins") && !has(2, "support"));
+    fn only_tests_that_come_to_a_mutant_run() {
+        let names = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<BTreeSet<String>>();
+        let reached = [(1, names(&["a"])), (2, names(&["a", "main"]))].into();
+        let known = Unbroken {
+            seconds: 4.0,
+            tests: names(&["a", "b"]),
+            reached,
+            is_unknown: false,
+            ..Unbroken::default()
+        };
+        assert_eq!(known.tests_at(1), Some(vec!["a".to_owned()]));
+        assert_eq!(known.tests_at(2), Some(Vec::new()));
+        assert_eq!(known.tests_at(3), None);
+        assert_eq!((known.cost(1), known.cost(0)), (2.0, 4.0));
+        let unknown = Unbroken { is_unknown: true, ..known };
+        assert_eq!(unknown.tests_at(3), Some(Vec::new()));
+    }
+
+    #[test]
+    fn failures_and_programs_that_hang_are_noticed() {
+        let program =
+            TestProgram { name: "it".to_owned(), executable: "sh".into(), folder: std::env::temp_dir() };
+        let programs = TestPrograms { tests: Vec::new(), started: BTreeMap::new() };
+        let trials = Trials { programs, unbroken: BTreeMap::new() };
+        let outcome = |script: &str, limit: f64| {
+            let (arguments, variables) = (["-c".to_owned(), script.to_owned()], [(VARIABLE, "7".to_owned())]);
+            trials.run(&program, &arguments, &variables, Some(limit)).expect("the script runs").outcome
+        };
+        assert_eq!(outcome("echo test a ... ok", 60.0), Outcome::Survived);
+        let failure = outcome("echo test a$LISSOM_MUTANT ... FAILED; sleep 600", 300.0);
+        assert_eq!(failure, Outcome::Caught("`a7`".to_owned()));
+        assert_eq!(outcome("sleep 600", 0.2), Outcome::Hung);
+        assert!(matches!(outcome("kill -SEGV $$", 60.0), Outcome::Caught(_)));
     }
 }

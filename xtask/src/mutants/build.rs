@@ -1,0 +1,157 @@
+//! Builds the tests of the copy once, with all mutants in them, and tells those that are no program.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+use std::process::Command;
+use std::time::UNIX_EPOCH;
+
+use serde_json::Value;
+
+use super::MutantsError;
+use super::switch::Switched;
+
+/// Tests of the text of the program, which has changed with all mutants.
+const OF_THE_TEXT: &str = "house_rules";
+/// All tests but those of the chores.
+const ALL: [&str; 3] = ["--lib", "--test", "*"];
+/// Lines of the compiler that are shown.
+const SHOWN: usize = 40;
+
+/// A program with tests.
+#[derive(Clone, Debug)]
+pub(super) struct TestProgram {
+    /// Its crate and name.
+    pub(super) name: String,
+    pub(super) executable: PathBuf,
+    /// Where it runs.
+    pub(super) folder: PathBuf,
+}
+
+/// All tests.
+#[derive(Debug)]
+pub(super) struct TestPrograms {
+    pub(super) tests: Vec<TestProgram>,
+    /// Programs that tests start, by name.
+    pub(super) started: BTreeMap<String, PathBuf>,
+}
+
+impl TestPrograms {
+    /// When a program, or one that it may start, was built last [ns since 1970].
+    pub(super) fn built(&self, test: &TestProgram) -> u64 {
+        let time = |path: &PathBuf| std::fs::metadata(path).and_then(|found| found.modified());
+        let times = self.started.values().chain([&test.executable]).filter_map(|path| time(path).ok());
+        times
+            .filter_map(|time| Some(time.duration_since(UNIX_EPOCH).ok()?.as_nanos() as u64))
+            .max()
+            .unwrap_or(0)
+    }
+}
+
+/// What comes of a build.
+pub(super) enum Built {
+    Programs(TestPrograms),
+    /// Numbers of mutants that the compiler refuses.
+    Refused(BTreeSet<usize>),
+}
+
+/// Builds all tests in `tree`.
+///
+/// # Errors
+/// If cargo cannot be run, or something else than a mutant is refused.
+pub(super) fn build(
+    tree: &Path,
+    folder: &Path,
+    targets: &[String],
+    parts: &BTreeMap<PathBuf, Switched>,
+) -> Result<Built, MutantsError> {
+    // The one that runs this program, if one does.
+    let mut command = Command::new(std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command.args(["test", "--workspace", "--no-run", "--message-format=json"]).args(targets);
+    if targets.is_empty() {
+        command.args(ALL);
+    }
+    command.current_dir(tree).env("CARGO_TARGET_DIR", folder);
+    // Nobody looks at these programs with a debugger.
+    command.env("CARGO_PROFILE_DEV_DEBUG", "0");
+    let output = command.output().map_err(MutantsError::about("cargo test"))?;
+    let messages: Vec<Value> = output
+        .stdout
+        .split(|&byte| byte == b'\n')
+        .filter_map(|line| serde_json::from_slice(line).ok())
+        .collect();
+    if output.status.success() {
+        return Ok(Built::Programs(programs(&messages)));
+    }
+    let errors =
+        messages.iter().map(|message| &message["message"]).filter(|message| message["level"] == "error");
+    let refused: BTreeSet<usize> = errors.clone().filter_map(|error| blamed(error, parts)).collect();
+    if refused.is_empty() {
+        let mut text: String = errors.filter_map(|error| error["rendered"].as_str()).collect();
+        text += &String::from_utf8_lossy(&output.stderr);
+        let lines: Vec<&str> = text.lines().take(SHOWN).collect();
+        return Err(MutantsError::Build(lines.join("\n")));
+    }
+    Ok(Built::Refused(refused))
+}
+
+/// The mutant that an error is about.
+fn blamed(error: &Value, parts: &BTreeMap<PathBuf, Switched>) -> Option<usize> {
+    let mut spans: Vec<&Value> = error["spans"].as_array()?.iter().collect();
+    spans.sort_by_key(|span| span["is_primary"] != true);
+    spans.iter().find_map(|span| {
+        let part = parts.get(Path::new(span["file_name"].as_str()?))?;
+        let place = |name: &str| span[name].as_u64().map(|place| place as usize);
+        part.blamed(&(place("byte_start")?..place("byte_end")?))
+    })
+}
+
+/// What was built.
+fn programs(messages: &[Value]) -> TestPrograms {
+    let mut programs = TestPrograms { tests: Vec::new(), started: BTreeMap::new() };
+    for message in messages.iter().filter(|message| message["reason"] == "compiler-artifact") {
+        let (Some(executable), Some(target), Some(manifest)) = (
+            message["executable"].as_str(),
+            message["target"]["name"].as_str(),
+            message["manifest_path"].as_str().and_then(|path| Path::new(path).parent()),
+        ) else {
+            continue;
+        };
+        let (executable, folder) = (PathBuf::from(executable), manifest.to_owned());
+        if message["profile"]["test"] == true {
+            if target != OF_THE_TEXT {
+                let of = folder.file_name().unwrap_or_default().to_string_lossy();
+                let kind = message["target"]["kind"][0].as_str().unwrap_or_default();
+                let name = format!("{of}: {kind} {target}");
+                programs.tests.push(TestProgram { name, executable, folder });
+            }
+        } else if message["target"]["kind"][0] == "bin" {
+            programs.started.insert(target.to_owned(), executable);
+        }
+    }
+    programs
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn programs_with_tests_and_those_they_start_are_told_apart() {
+        let artifact = |name: &str, kind: &str, is_test: bool| {
+            serde_json::json!({
+                "reason": "compiler-artifact", "executable": format!("/build/{name}"),
+                "manifest_path": "/tree/crates/lissom/Cargo.toml",
+                "target": {"name": name, "kind": [kind]}, "profile": {"test": is_test},
+            })
+        };
+        let built = programs(&[
+            artifact("lissom", "bin", false),
+            artifact("cable", "test", true),
+            artifact("house_rules", "test", true),
+        ]);
+        assert_eq!(built.tests.len(), 1);
+        assert_eq!(built.tests[0].name, "lissom: test cable");
+        assert_eq!(built.tests[0].folder, Path::new("/tree/crates/lissom"));
+        assert!(built.started.contains_key("lissom"));
+    }
+}
