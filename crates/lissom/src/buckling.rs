@@ -129,10 +129,16 @@ pub fn buckling(
             .to_owned(),
         ),
     }
-    if buckling.modes.is_empty() && buckling.completeness == Completeness::Counted {
-        warnings.push(
-            "no positive load factor makes the stiffness singular: these loads stiffen the model".to_owned(),
-        );
+    if buckling.completeness == Completeness::Counted {
+        let number = buckling.modes.len();
+        if number == 0 {
+            warnings.push(
+                "no positive load factor makes the stiffness singular: these loads stiffen the model"
+                    .to_owned(),
+            );
+        } else if number < asked && (count.is_some() || own != DEFAULT_BUCKLING_COUNT) {
+            warnings.push(format!("{asked} load factors are asked for, and there are only {number}"));
+        }
     }
     Ok(BucklingReport {
         shapes: buckling.modes.iter().map(|mode| zero.shape_of(&mode.shape)).collect(),

@@ -183,6 +183,7 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
         (count, shift) = (own, near);
         about = if undeformed { About::Undeformed } else { About::Static };
     }
+    let is_asked = request.count.is_some() || count != lissom_model::document::DEFAULT_MODE_COUNT;
     count = request.count.unwrap_or(count);
     about = request.about.unwrap_or(about);
     shift = request.shift.or(shift);
@@ -202,6 +203,12 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
         report.warnings.extend(reached.warnings);
         Ok(report)
     })?;
+    let number = report.modes.len();
+    if is_asked && number < count {
+        let few =
+            if report.completeness == Completeness::Counted { "there are only" } else { "found are only" };
+        report.warnings.push(format!("{count} modes are asked for, and {few} {number}"));
+    }
     report.about = about.name();
     report.wall = began.elapsed();
     if let Completeness::Missing(missed) = report.completeness {

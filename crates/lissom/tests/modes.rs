@@ -515,3 +515,17 @@ fn frequencies_that_come_several_times_are_counted_whole_wherever_the_count_cuts
         }
     }
 }
+
+/// More than there are: all that there are, and a warning; what nobody asked for is no matter.
+#[test]
+fn fewer_modes_than_asked_for_are_told() {
+    let text = beam(1, 1, CLAMP);
+    let told = |count: Option<usize>| {
+        let request = ModeRequest { count, about: Some(About::Undeformed), shift: None };
+        let report = modes(&Model::from_text("model.toml", &text), &[], &request).unwrap();
+        (report.modes.len(), report.warnings)
+    };
+    assert_eq!(told(Some(50)), (6, vec!["50 modes are asked for, and there are only 6".to_owned()]));
+    assert_eq!(told(Some(6)), (6, Vec::new()));
+    assert_eq!(told(None), (6, Vec::new()));
+}
