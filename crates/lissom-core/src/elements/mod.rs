@@ -164,11 +164,13 @@ pub enum LinearLimit {
     Spin,
     /// The share of the stiffness that axial forces and rotation give or take.
     Load,
+    /// What moments couple of bending and twist.
+    Moment,
 }
 
 impl LinearLimit {
     /// All of them.
-    pub const ALL: [Self; 3] = [Self::Deformation, Self::Spin, Self::Load];
+    pub const ALL: [Self; 4] = [Self::Deformation, Self::Spin, Self::Load, Self::Moment];
 }
 
 /// Adds `block` to the local matrix at local rows from `row` and columns from `column`.

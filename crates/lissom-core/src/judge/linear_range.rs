@@ -24,7 +24,8 @@ fn tell_of(
     let known = warnings.iter_mut().find_map(|warning| match (limit, warning) {
         (LinearLimit::Deformation, Warning::BeyondLinear { largest, .. })
         | (LinearLimit::Spin, Warning::TurnsFast { largest, .. })
-        | (LinearLimit::Load, Warning::LoadStiffness { largest, .. }) => Some(largest),
+        | (LinearLimit::Load, Warning::LoadStiffness { largest, .. })
+        | (LinearLimit::Moment, Warning::MomentStiffness { largest, .. }) => Some(largest),
         _ => None,
     });
     if let Some(largest) = known {
@@ -37,5 +38,6 @@ fn tell_of(
         LinearLimit::Deformation => Warning::BeyondLinear { time, interface, largest },
         LinearLimit::Spin => Warning::TurnsFast { time, interface, largest },
         LinearLimit::Load => Warning::LoadStiffness { time, interface, largest },
+        LinearLimit::Moment => Warning::MomentStiffness { time, interface, largest },
     });
 }

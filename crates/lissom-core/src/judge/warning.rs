@@ -251,6 +251,20 @@ pub enum Warning {
         /// The largest share over that up to which the matrices are believed, 0.5 %.
         largest: f64,
     },
+    /// Moments couple bending and twist of a superelement, which no matrices know.
+    #[error(
+        "from t = {time:.6e} s on moments couple bending and twist of the superelement of `{interface}`, which its matrices do not know: \
+         it is displaced by up to an estimated {:.2} % of its largest deformation otherwise; cut it into several superelements, or model \
+         it by beams", 0.5 * largest
+    )]
+    MomentStiffness {
+        /// When it was first seen [s].
+        time: f64,
+        /// Name of the interface that carries its floating frame.
+        interface: String,
+        /// What is missed over that up to which the matrices are believed, 0.5 %.
+        largest: f64,
+    },
     /// An output that goes on along the motion could not go on.
     #[error(
         "at t = {time:.6e} s the output `{output}` cannot go on: from one step to the next it changes by more than can be told,          and is not a number from there on; take smaller steps; an angle about an axis has no value where the axis is turned          by half a turn"
@@ -292,6 +306,7 @@ impl Warning {
             Self::BeyondLinear { .. } => "beyond-linear",
             Self::TurnsFast { .. } => "turns-fast",
             Self::LoadStiffness { .. } => "load-stiffness",
+            Self::MomentStiffness { .. } => "moment-stiffness",
             Self::AccumulationLost { .. } => "output-lost",
             Self::Model { .. } => "model",
         }

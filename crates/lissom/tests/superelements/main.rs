@@ -1,6 +1,7 @@
 //! Superelements: reduced beams against beams, rigid motion, prestress, files, and all schemes.
 
 mod load_stiffness;
+mod moments;
 
 use std::collections::BTreeMap;
 

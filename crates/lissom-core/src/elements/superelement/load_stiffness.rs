@@ -1,16 +1,28 @@
 //! By how much loads would change the stiffness of a superelement whose matrices do not know of it: an estimate for a warning.
 //!
 //! Legend: interface k lies at the distance ℓ_k from the floating frame in the direction d_k, N_k = d_k·(K u)_k is the force along
-//! it, w_k the displacements under a unit force there with the floating interface held.
+//! it, w_k the displacements under a unit force there with the floating interface held, F_q flexibility against forces on modes, f_q(ω)
+//! centrifugal forces on them.
 //!
 //! ```text
-//! b = u - Σ N_k w_k                                   what the part bends besides its elongation
+//! b = u - Σ N_k w_k - F_q f_q(ω)                       what the part bends besides its elongation
 //! H_k = (6/5) v²/ℓ - (1/5) v·t + (2/15) ℓ t²           shortening (twice) of a cubic from the frame to the displacement v and slope t
 //! H_j = ∫ρ φ_j² (ℓ/m) κ_j² q_j²,   κ_j⁴ = ω_j² m/(ℓ EI),   EI = ℓ³/(3 λ),   λ largest transverse flexibility
 //! part = (Σ |N_k| H_k + Σ |N_k| Σ_j H_j + ω² b·M b) / (b·K b)
 //! ```
 //!
 //! It is the share of the stiffness against b that axial forces and rotation give or take [Przemieniecki 1968, ch. 15, for H_k].
+//!
+//! Moments couple bending out of their plane with twist, and torques bending in one plane with that in the other: a section that is turned
+//! by ϑ carries a moment M on, which bends by M × ϑ. Rotations grow from the frame on, and moments towards it: a quarter of the product counts.
+//! Against beams under forces and torques at the end the estimate is 1.2 times the error.
+//!
+//! ```text
+//! m_k moment and f_k force on interface k, M_k larger of m_k and m_k + ℓ d × f_k across d, T_k along d, κ_k rotation of the interface
+//! missed = ¼ max(λ_d |M × κ|_d, λ_t |M| |κ_d|, λ_t |T| |κ_t|),    λ_d, λ_t flexibilities of twist and of bending
+//! ```
+//!
+//! It is compared with the largest displacement, as missed times the size of the element. No matrices know it.
 
 use lissom_motion::{Matrix3, Vector3};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
@@ -35,6 +47,9 @@ struct Axial {
     response: DVector<f64>,
     /// Force along d in rotation across it, over the square of its rate [kg m].
     centrifugal: f64,
+    /// Rotation about d under a unit moment about it, and the largest across d under one across [rad/(N m)].
+    twist: f64,
+    bend: f64,
 }
 
 /// What the estimate needs.
@@ -43,6 +58,8 @@ pub(super) struct LoadStiffness {
     axial: Vec<Axial>,
     /// (ℓ/m) κ² of each modal coordinate.
     slopes: Vec<f64>,
+    /// F_q: a column for each modal coordinate.
+    of_modes: DMatrix<f64>,
 }
 
 /// Displacements under unit forces with one interface held; mechanisms do not move.
@@ -91,7 +108,11 @@ impl LoadStiffness {
                 slenderness = Some((length, softest));
             }
             let centrifugal = (0..3).map(|k| direction[k] * outward[6 * interface + k]).sum::<f64>().abs();
-            axial.push(Axial { interface, direction, length, response, centrifugal });
+            let turns: Matrix3 =
+                flexibility.fixed_view::<3, 3>(6 * interface + 3, 6 * interface + 3).into_owned();
+            let twist = direction.dot(&(turns * direction));
+            let bend = (across * turns * across).symmetric_eigenvalues().max();
+            axial.push(Axial { interface, direction, length, response, centrifugal, twist, bend });
         }
         let first = 6 * element.nodes.len();
         let slopes = (first..size).map(|row| {
@@ -102,7 +123,36 @@ impl LoadStiffness {
             let own = length / element.total * mass * rate * (element.total / (length * bending)).sqrt();
             own.is_finite().then_some(own)
         });
-        Self { axial, slopes: slopes.map(Option::unwrap_or_default).collect() }
+        let slopes = slopes.map(Option::unwrap_or_default).collect();
+        Self { axial, slopes, of_modes: flexibility.columns(first, size - first).into_owned() }
+    }
+
+    /// Rotation that moments make and linear matrices miss, times the size of the element over its largest displacement.
+    pub(super) fn share_of_moments(
+        &self,
+        element: &Superelement,
+        (displacement, force): (&[f64], &[f64]),
+    ) -> Option<f64> {
+        let reach = element.reach();
+        let size = (0..element.nodes.len())
+            .map(|i| three(displacement, 6 * i).norm().max(reach * three(displacement, 6 * i + 3).norm()))
+            .fold(0.0, f64::max);
+        if size <= NO_BENDING[0] * reach {
+            return None;
+        }
+        let missed = |own: &Axial| {
+            let (push, moment) = (three(force, 6 * own.interface), three(force, 6 * own.interface + 3));
+            let turn = three(displacement, 6 * own.interface + 3);
+            let (torque, twist) = (own.direction.dot(&moment), own.direction.dot(&turn));
+            let at_end = moment - torque * own.direction;
+            let at_frame = at_end + own.length * own.direction.cross(&push);
+            let most = if at_end.norm() > at_frame.norm() { at_end } else { at_frame };
+            let bent = turn - twist * own.direction;
+            let twisting = own.twist * most.cross(&bent).norm();
+            let bending = own.bend * (most.norm() * twist.abs()).max(torque.abs() * bent.norm());
+            0.25 * twisting.max(bending)
+        };
+        self.axial.iter().map(missed).reduce(f64::max).map(|missed| missed * reach / size)
     }
 
     /// The share of the stiffness against what the part bends, where it bends; `displacement` is u, `force` K u.
@@ -122,6 +172,7 @@ impl LoadStiffness {
             stretch = stretch.max(largest * own_stretch);
             pulls.push(pull.abs());
         }
+        bent -= &self.of_modes * element.centrifugal(spin);
         let (reach, nodes) = (element.reach(), element.nodes.len());
         let size = (0..nodes)
             .map(|i| {
@@ -153,6 +204,17 @@ impl LoadStiffness {
 }
 
 impl Superelement {
+    /// Centrifugal forces on the modal coordinates, of the places that the interfaces carry along with them.
+    fn centrifugal(&self, spin: &Vector3) -> DVector<f64> {
+        let first = 6 * self.nodes.len();
+        let mut outward = DVector::zeros(self.size());
+        for (i, place) in self.places.iter().enumerate() {
+            outward.fixed_rows_mut::<3>(6 * i).copy_from(&-spin.cross(&spin.cross(place)));
+        }
+        let carried = self.carried.tr_mul(&(&self.carried * &outward)) / self.total;
+        (&self.mass * &outward + carried).rows(first, self.size() - first).into_owned()
+    }
+
     /// The mass of a modal coordinate, that of the centre included.
     fn whole_mass(&self, row: usize) -> f64 {
         self.mass[(row, row)] + self.carried.column(row).norm_squared() / self.total

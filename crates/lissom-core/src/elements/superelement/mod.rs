@@ -92,7 +92,7 @@ pub struct Superelement {
     gravity: Gravity,
     /// Rate of rotation up to which matrices are believed [rad/s]; none where nothing swings.
     largest_spin: Option<f64>,
-    /// What estimates how loads change the stiffness; none where the matrices know that.
+    /// What estimates how loads change the stiffness; none where nobody asks.
     load_stiffness: Option<LoadStiffness>,
     /// What is of second order in the deformation, where the matrices know it.
     second_order: Option<Box<SecondOrder>>,
@@ -158,7 +158,7 @@ impl Superelement {
     /// With a rate of rotation from which on a warning is told [rad/s], and with one of loads that change the stiffness.
     #[must_use]
     pub fn believed_up_to(self, spin: Option<f64>) -> Self {
-        let load_stiffness = self.second_order.is_none().then(|| LoadStiffness::of(&self));
+        let load_stiffness = Some(LoadStiffness::of(&self));
         Self { largest_spin: spin, load_stiffness, ..self }
     }
 
@@ -361,10 +361,17 @@ impl Element for Superelement {
         }
         ROOMS.with_borrow_mut(|Rooms { own: room, .. }| {
             room.enter(self, at);
-            if limit == LinearLimit::Load {
+            if limit != LinearLimit::Deformation {
                 let estimate = self.load_stiffness.as_ref()?;
                 product(&self.stiffness, &room.displacement, &mut room.stress);
-                let share = estimate.share(self, (&room.displacement, &room.stress, &spin))?;
+                let share = match limit {
+                    LinearLimit::Moment => {
+                        estimate.share_of_moments(self, (&room.displacement, &room.stress))?
+                    }
+                    // Matrices of second order know it.
+                    _ if self.second_order.is_some() => return None,
+                    _ => estimate.share(self, (&room.displacement, &room.stress, &spin))?,
+                };
                 return Some(LinearRange { part: share / LARGEST_SHARE, node: frame });
             }
             let deformed = |i: usize| {
