@@ -6,7 +6,7 @@ use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use lissom_core::elements::superelement::{Damping, ReducedMatrices};
-use lissom_core::linear::{Assembly, Reduction, ReductionError};
+use lissom_core::linear::{Assembly, ReductionError};
 use lissom_core::registry::ParameterError;
 use lissom_core::system::{Kinematics, LOCKED, Layout, NodeId};
 use lissom_model::Document;
@@ -22,6 +22,10 @@ use crate::export::npy;
 use crate::model::{Model, Override};
 use crate::modes::ModesError;
 
+/// Modes that corrections are made of: as many times those asked for, and so many more. What the modes beyond would add falls with the
+/// square of their number.
+const SOUGHT: [usize; 2] = [3, 24];
+
 /// What is asked for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ReduceRequest {
@@ -31,6 +35,8 @@ pub struct ReduceRequest {
     pub interfaces: Vec<String>,
     /// Number of modes with the interfaces held.
     pub modes: usize,
+    /// Whether shapes are added that make up for the modes left out where loads and rotation change the stiffness.
+    pub corrections: bool,
     /// The state, whose stresses the stiffness holds.
     pub about: About,
     /// Name of the superelement.
@@ -46,6 +52,8 @@ pub struct ReduceReport {
     pub archive: Vec<u8>,
     /// Frequencies of the modes with the interfaces held [Hz].
     pub frequencies: Vec<f64>,
+    /// Number of shapes behind them that make up for the modes left out.
+    pub corrections: usize,
     /// Names of the interfaces.
     pub interfaces: Vec<String>,
     /// Coordinates before and after.
@@ -142,8 +150,9 @@ pub fn reduce(
         solver: settings.solver,
     };
     // The lowest mode tells whether something moves freely while the interfaces are held, also where no mode is asked for.
-    let mut found = assembly.reduce(request.modes.max(usize::from(inner > 0)))?;
-    keep(&mut found, request.modes);
+    let sought =
+        if request.corrections { SOUGHT[0] * request.modes + SOUGHT[1] } else { request.modes.max(1) };
+    let found = assembly.reduce(sought.min(inner))?.with_modes(request.modes, request.corrections);
     if found.frequencies.len() < request.modes {
         let number = found.frequencies.len();
         return question(format!(
@@ -169,6 +178,7 @@ pub fn reduce(
         files: files(request, (&labels, &found.places), &matrices),
         archive: archive((&labels, &found.places), &matrices)?,
         frequencies: found.frequencies,
+        corrections: found.corrections,
         interfaces: labels,
         unknowns,
         mass,
@@ -176,25 +186,6 @@ pub fn reduce(
         warnings,
         wall: began.elapsed(),
     })
-}
-
-/// Leaves out all but so many modes.
-fn keep(found: &mut Reduction, modes: usize) {
-    found.frequencies.truncate(modes);
-    let size = 6 * found.places.len() + found.frequencies.len();
-    let matrices = &mut found.matrices;
-    let of = [Some(&mut matrices.mass), Some(&mut matrices.stiffness)];
-    let damping = match &mut matrices.damping {
-        Damping::Matrix(matrix) => Some(matrix),
-        _ => None,
-    };
-    for matrix in of.into_iter().chain([damping]).flatten() {
-        *matrix = matrix.view((0, 0), (size, size)).into_owned();
-    }
-    matrices.preload.truncate(size);
-    if let Some(geometric) = &mut matrices.geometric {
-        geometric.keep(size);
-    }
 }
 
 /// Mass in translations along an axis.
@@ -571,6 +562,7 @@ impl ReduceReport {
         tell("unknowns", json!(self.unknowns[0]));
         tell("reduced_unknowns", json!(self.unknowns[1]));
         tell("frequencies", json!(self.frequencies));
+        tell("corrections", json!(self.corrections));
         tell("mass", json!(self.mass));
         tell("preloaded", json!(self.is_preloaded));
         tell("files", self.files.iter().map(|(name, _)| json!(name)).collect());

@@ -11,6 +11,7 @@
 
 mod arnoldi;
 mod buckling;
+mod corrections;
 mod energy_shares;
 mod free;
 mod geometric;

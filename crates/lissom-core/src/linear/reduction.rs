@@ -84,6 +84,8 @@ pub struct Reduction {
     pub places: Vec<Vector3>,
     /// Frequencies of the modes with the interfaces held [Hz].
     pub frequencies: Vec<f64>,
+    /// Number of shapes behind the modes that make up for those left out.
+    pub corrections: usize,
     /// Whether a count shows that no mode was missed.
     pub is_counted: bool,
     /// Number of unknowns that were reduced.
@@ -156,6 +158,7 @@ impl Assembly<'_> {
             matrices,
             places: places.collect(),
             frequencies,
+            corrections: 0,
             is_counted,
             unknowns: self.free.layout().coordinate_count(),
         })

@@ -43,6 +43,10 @@ pub(super) struct Reduce {
     #[arg(long, value_name = "NUMBER", default_value_t = 10)]
     modes: usize,
 
+    /// No shapes besides the modes: they make up for what modes miss where loads and rotation change the stiffness.
+    #[arg(long)]
+    modes_alone: bool,
+
     /// State that is reduced: `static`, `undeformed` or a time of the model's analysis [s].
     #[arg(long, value_name = "STATE|TIME", default_value = "static", allow_negative_numbers = true)]
     about: About,
@@ -79,6 +83,7 @@ impl Reduce {
             parts: self.part,
             interfaces: self.interfaces,
             modes: self.modes,
+            corrections: !self.modes_alone,
             about: self.about,
             name,
         };
@@ -115,9 +120,10 @@ fn told(heading: &str, name: &str, found: &ReduceReport, folder: &Path) -> Strin
     // Writing to a string cannot fail.
     let _ = writeln!(
         text,
-        "  superelement `{name}`: {before} coordinates to {after}, {} interfaces and {} modes, {:.6} kg{}, {:.3} s",
+        "  superelement `{name}`: {before} coordinates to {after}, {} interfaces, {} modes and {} corrections, {:.6} kg{}, {:.3} s",
         found.interfaces.len(),
         found.frequencies.len(),
+        found.corrections,
         found.mass,
         if found.is_preloaded { ", preloaded" } else { "" },
         found.wall.as_secs_f64()

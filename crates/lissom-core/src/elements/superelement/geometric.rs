@@ -93,12 +93,15 @@ impl GeometricMatrices {
         first.chain(&mut self.momentum).chain(&mut self.shortening)
     }
 
-    /// Leaves out rows and columns from `size` on.
-    pub fn keep(&mut self, size: usize) {
-        for matrix in self.blocks_mut() {
-            *matrix = matrix.view((0, 0), (size, size)).into_owned();
+    /// Over other unknowns: y = map z.
+    #[must_use]
+    pub fn through(&self, map: &DMatrix<f64>) -> Self {
+        let mut own = self.clone();
+        for matrix in own.blocks_mut() {
+            *matrix = map.tr_mul(&(&*matrix * map));
         }
-        self.slope = self.slope.columns(0, size).into_owned();
+        own.slope = &own.slope * map;
+        own
     }
 
     /// With unknowns that are measured otherwise, each by its factor.

@@ -58,7 +58,7 @@ pub(super) struct RigidMotion {
 }
 
 /// Column `k` of the rigid motions, translations and then rotations about the origin of the places.
-pub(super) fn rigid_column(places: &[Vector3], size: usize, k: usize) -> Vec<f64> {
+pub(crate) fn rigid_column(places: &[Vector3], size: usize, k: usize) -> Vec<f64> {
     let mut column = vec![0.0; size];
     let axis = Vector3::ith(k % 3, 1.0);
     for (i, place) in places.iter().enumerate() {

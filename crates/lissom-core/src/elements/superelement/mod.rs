@@ -48,6 +48,7 @@ pub(crate) use self::geometric::PAIRS;
 use self::linearize::Maps;
 pub(crate) use self::load_stiffness::flexibility;
 use self::load_stiffness::{LARGEST_SHARE, LoadStiffness};
+pub(crate) use self::matrices::rigid_column;
 pub use self::matrices::{Damping, ReducedMatrices};
 use self::matrices::{RigidMotion, rigid_motion};
 use self::room::{Room, product};

@@ -1,0 +1,134 @@
+//! Modes of a reduction that are left out, and what shapes make up for most of them: what the floating frame carries along is bent by its
+//! own inertia, and where rotation, accelerations and axial forces change the stiffness, shapes that follow are others than those without
+//! loads.
+//!
+//! Legend: y_k kept unknowns (interfaces and modes), q_d modes that are left out, of unit mass and the frequencies Ω_d; F_k flexibility of
+//! the kept unknowns, floating frame held; f inertial forces of an acceleration of the frame or of a rotation; G a matrix of second order
+//! times the load at which it gives or takes as much stiffness as there is.
+//!
+//! ```text
+//! Ω_d² q_d = f_d - G_dk y_k      z = Ω_d q_d,  y_k = F_k^½ η      (|z|², |η|² elastic energies, twice)
+//! X = [Ω_d⁻¹ G_dk F_k^½,  Ω_d⁻¹ f_d / √(f_k·F_k f_k + f_d·Ω_d⁻² f_d)]  of all loads side by side
+//! X = U Σ Vᵀ,  columns of U with σ² > LEAST:                        q_d = Ω_d⁻¹ U c
+//! ```
+//!
+//! σ² is the part of the elastic energy that is missed at such a load; loads of a kind are of one size, that at which the largest of them
+//! counts so. Shapes of f are attachment modes by inertia [Craig and Kurdila 2006, ch. 17], those of G static modal derivatives [Idelsohn and
+//! Cardona 1985] by the loads of the floating frame; c are turned so that mass and stiffness are diagonal.
+
+use lissom_motion::Vector3;
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+use super::reduction::Reduction;
+use crate::elements::superelement::{Damping, flexibility, rigid_column};
+
+/// Part of the elastic energy that may be missed under loads that give or take all stiffness: what shapes to first order in the loads leave
+/// there is as much.
+const LEAST: f64 = 1e-3;
+
+impl Reduction {
+    /// With the first `modes` modes, and, if `is_corrected`, with shapes that make up for those left out.
+    #[must_use]
+    pub fn with_modes(mut self, modes: usize, is_corrected: bool) -> Self {
+        let interfaces = 6 * self.places.len();
+        let all = self.matrices.mass.nrows();
+        self.frequencies.truncate(modes);
+        let kept = interfaces + self.frequencies.len();
+        let shapes =
+            if is_corrected && kept < all { self.corrections(kept) } else { DMatrix::zeros(all - kept, 0) };
+        self.corrections = shapes.ncols();
+        let mut map = DMatrix::zeros(all, kept + shapes.ncols());
+        map.view_mut((0, 0), (kept, kept)).fill_with_identity();
+        map.view_mut((kept, kept), shapes.shape()).copy_from(&shapes);
+        let through = |matrix: &DMatrix<f64>| map.tr_mul(&(matrix * &map));
+        let own = &mut self.matrices;
+        own.mass = through(&own.mass);
+        own.stiffness = through(&own.stiffness);
+        if let Damping::Matrix(damping) = &mut own.damping {
+            *damping = through(damping);
+        }
+        if !own.preload.is_empty() {
+            own.preload = map.tr_mul(&DVector::from_column_slice(&own.preload)).as_slice().to_vec();
+        }
+        if let Some(geometric) = &mut own.geometric {
+            **geometric = geometric.through(&map);
+        }
+        self
+    }
+
+    /// Columns over the modes from row `kept` on.
+    fn corrections(&self, kept: usize) -> DMatrix<f64> {
+        let stiffness = &self.matrices.stiffness;
+        let left = stiffness.nrows() - kept;
+        let own = stiffness.view((0, 0), (kept, kept)).into_owned();
+        let SymmetricEigen { eigenvectors, eigenvalues } = SymmetricEigen::new(flexibility(&own, 0));
+        let root = eigenvectors * DMatrix::from_diagonal(&eigenvalues.map(|value| value.max(0.0).sqrt()));
+        let rates = DVector::from_fn(left, |k, _| stiffness[(kept + k, kept + k)].sqrt());
+        let over_rates = |matrix: &mut DMatrix<f64>| {
+            for (mut row, rate) in matrix.row_iter_mut().zip(&rates) {
+                row /= *rate;
+            }
+        };
+        // X Xᵀ of all loads side by side, whose eigenvectors and eigenvalues are U and Σ².
+        let mut gram = DMatrix::zeros(left, left);
+        for alike in self.inertial_forces() {
+            let energy = |force: &DVector<f64>| {
+                let among = root.tr_mul(&force.rows(0, kept));
+                let beyond = force.rows(kept, left).component_div(&rates);
+                among.norm_squared() + beyond.norm_squared()
+            };
+            let largest = alike.iter().map(energy).fold(0.0, f64::max);
+            for force in alike.iter().filter(|_| largest > 0.0) {
+                let column = force.rows(kept, left).component_div(&rates);
+                gram += &column * column.transpose() / largest;
+            }
+        }
+        for alike in self.second_order_matrices() {
+            let share = |matrix: &&DMatrix<f64>| {
+                let among = root.tr_mul(&(matrix.view((0, 0), (kept, kept)) * &root));
+                among.singular_values().max()
+            };
+            let largest = alike.iter().map(share).fold(0.0, f64::max);
+            for matrix in alike.iter().filter(|_| largest > 0.0) {
+                let below = matrix.view((kept, 0), (left, kept)).into_owned();
+                let beside = matrix.view((0, kept), (kept, left)).transpose();
+                for rows in [below, beside] {
+                    let mut found = rows * &root / largest;
+                    over_rates(&mut found);
+                    gram += &found * found.transpose();
+                }
+            }
+        }
+        let SymmetricEigen { eigenvectors, eigenvalues } = SymmetricEigen::new(gram);
+        let chosen: Vec<usize> = (0..left).filter(|&k| eigenvalues[k] > LEAST).collect();
+        if chosen.is_empty() {
+            return DMatrix::zeros(left, 0);
+        }
+        let mut found = eigenvectors.select_columns(&chosen);
+        over_rates(&mut found);
+        let SymmetricEigen { eigenvectors, eigenvalues } = SymmetricEigen::new(found.tr_mul(&found));
+        let unit = eigenvalues.map(|mass| mass.max(f64::MIN_POSITIVE).sqrt().recip());
+        found * eigenvectors * DMatrix::from_diagonal(&unit)
+    }
+
+    /// Generalised forces of accelerations, of angular accelerations and of steady rotations of the frame.
+    fn inertial_forces(&self) -> [Vec<DVector<f64>>; 3] {
+        let size = self.matrices.mass.nrows();
+        let origin = self.places.first().copied().unwrap_or_default();
+        let places: Vec<Vector3> = self.places.iter().map(|place| place - origin).collect();
+        let carried = |k: usize| &self.matrices.mass * DVector::from_vec(rigid_column(&places, size, k));
+        let turning =
+            self.matrices.geometric.iter().flat_map(|own| own.slope.row_iter().map(|row| row.transpose()));
+        [(0..3).map(carried).collect(), (3..6).map(carried).collect(), turning.collect()]
+    }
+
+    /// Matrices of rotation, of acceleration and of axial forces; none where they are not known.
+    fn second_order_matrices(&self) -> [Vec<&DMatrix<f64>>; 3] {
+        let Some(own) = &self.matrices.geometric else { return Default::default() };
+        [
+            own.inertia.iter().chain(&own.momentum).collect(),
+            own.moment.iter().collect(),
+            own.shortening.iter().collect(),
+        ]
+    }
+}
