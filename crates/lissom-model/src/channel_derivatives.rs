@@ -118,6 +118,11 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
                 Place::OnBeam { nodes, .. } => nodes,
             }));
         }
+        Source::Modal(unknowns) => touched.coordinates.extend(unknowns.coordinates()),
+        Source::Recovered(unknowns, _) => {
+            touched.nodes.extend(unknowns.nodes());
+            touched.coordinates.extend(unknowns.coordinates());
+        }
         Source::DrivePower(index) => {
             let drive = &system.drives()[*index];
             touched.coordinates.insert(drive.prescribed.coordinate);

@@ -6,16 +6,20 @@ use std::sync::Arc;
 use lissom_core::elements::beam::line::{BeamLine, BeamProbe};
 use lissom_core::elements::quadrature::gauss_lobatto;
 use lissom_core::elements::shape::lagrange;
+use lissom_core::elements::superelement::Deformation;
 use lissom_core::joints::attached::AttachedJoint;
 use lissom_core::joints::{Equations, MOST_COORDINATES, Quantity};
 use lissom_core::signals::{Argument, SignalFunction};
 use lissom_core::system::{CoordinateId, ElementId, Kinematics, NodeId, State, System};
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, rotation_part, translation_part};
+use nalgebra::DMatrix;
 
 use crate::document::{NodeReference, Output, OutputKind, OutputSource, ReactionAxes, interface_name};
 use crate::expression::Formula;
+use crate::lower::Deformed;
 use crate::observers::{Observer, Seen};
 use crate::report::{Located, Problem};
+use crate::superelement_channels::{self, recovered};
 use crate::sweep::Fatigue;
 
 /// One output: a name, its components, and how they are found.
@@ -38,6 +42,7 @@ pub struct Channel {
 pub(crate) struct Resolver<'a> {
     pub(crate) nodes: &'a BTreeMap<String, NodeId>,
     pub(crate) lines: &'a BTreeMap<String, BeamLine>,
+    pub(crate) deformations: &'a BTreeMap<String, Deformed>,
     pub(crate) coordinates: &'a BTreeMap<String, Vec<CoordinateId>>,
     pub(crate) springs: &'a BTreeMap<String, (ElementId, Quantity)>,
     /// Springs, loads and joints' friction.
@@ -87,6 +92,10 @@ pub(crate) enum Source {
     Accumulated(usize),
     /// Places along a beam.
     Line(Vec<Place>),
+    /// Modal coordinates of a superelement.
+    Modal(Arc<Deformation>),
+    /// What a matrix makes of its unknowns.
+    Recovered(Arc<Deformation>, Arc<DMatrix<f64>>),
     Energy,
     Momentum,
     Signal(Argument),
@@ -244,6 +253,8 @@ impl Channel {
                     [position.x, position.y, position.z]
                 }));
             }
+            Source::Modal(unknowns) => out.extend(unknowns.modal(at).flatten()),
+            Source::Recovered(unknowns, matrix) => out.extend(recovered(unknowns, matrix, at).iter()),
             Source::Signal(argument) => out.push(signal_value(system, at, *argument)),
             Source::Momentum => {
                 let (linear, angular) = system.momentum(at);
@@ -332,6 +343,7 @@ pub(crate) fn source(
         }
         OutputSource::Actor(name) => power_source(name, system, names)?,
         OutputSource::Beam(name) => Source::Line(nodes_of(name, names)?),
+        OutputSource::Superelement(name) => superelement_channels::source(output.kind, name, names)?,
         OutputSource::Joint(name) => joint_source(output, name, system, names)?,
         OutputSource::Node { node, point } => {
             let place = place(output, node, point.as_ref(), drawn, names)?;
@@ -539,9 +551,21 @@ pub(crate) fn components(
             let of = |k: usize| ["x", "y", "z"].map(|axis| (format!("{axis}{k}"), "m"));
             (0..places.len()).flat_map(of).unzip()
         }
-        (OutputKind::Relative | OutputKind::RelativeAcceleration | OutputKind::Line, _) => {
-            (Vec::new(), Vec::new())
+        (OutputKind::Modal, Source::Modal(unknowns)) => {
+            let of = |k: usize| ["q", "v"].map(|letter| (format!("{letter}{k}"), ""));
+            (1..=unknowns.coordinates().len()).flat_map(of).unzip()
         }
+        (OutputKind::Recovered, Source::Recovered(_, matrix)) => {
+            (1..=matrix.nrows()).map(|k| (format!("r{k}"), "")).unzip()
+        }
+        (
+            OutputKind::Relative
+            | OutputKind::RelativeAcceleration
+            | OutputKind::Line
+            | OutputKind::Modal
+            | OutputKind::Recovered,
+            _,
+        ) => (Vec::new(), Vec::new()),
         (OutputKind::Momentum, _) => {
             words(&["p1", "p2", "p3", "l1", "l2", "l3"], &["N s", "N s", "N s", "N m s", "N m s", "N m s"])
         }

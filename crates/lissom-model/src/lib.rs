@@ -38,6 +38,7 @@ mod schema;
 pub mod sections;
 mod solid;
 mod suggest;
+mod superelement_channels;
 mod surface;
 pub mod sweep;
 pub mod table;

@@ -363,7 +363,8 @@ fn modal_coordinates_have_the_mass_of_the_part() {
         floating: 0,
         matrices: matrices.check(&places).expect("good matrices"),
     };
-    let (_, coordinates) = add_superelement(&mut builder, &description).expect("small enough");
+    let unknowns = add_superelement(&mut builder, &description).expect("small enough");
+    let coordinates: Vec<_> = unknowns.coordinates().collect();
     let (system, mut state) = builder.build(0.0).expect("valid");
     assert_eq!(system.layout().coordinate_name(coordinates[0]), "part.mode1");
     state.kinematics.coordinates[coordinates[0]].rate = 2.0;

@@ -27,6 +27,7 @@ use std::sync::Arc;
 use lissom_core::elements::superelement::ReducedMatrices;
 use lissom_core::registry::Parameters;
 use lissom_motion::{Matrix3, Vector3};
+use nalgebra::DMatrix;
 
 use crate::expression::{Expression, Formula};
 use crate::line::Line;
@@ -314,6 +315,8 @@ pub struct Superelement {
     pub floating: usize,
     /// Its matrices, checked.
     pub matrices: ReducedMatrices,
+    /// What makes outputs of its unknowns, a row each.
+    pub recovery: Option<Arc<DMatrix<f64>>>,
 }
 
 impl Superelement {

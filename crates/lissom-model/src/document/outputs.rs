@@ -54,6 +54,10 @@ pub enum OutputKind {
     Line,
     /// Energies of the whole model [J].
     Energy,
+    /// Modal coordinates of a superelement and their rates.
+    Modal,
+    /// What the recovery matrix of a superelement makes of its deformation.
+    Recovered,
     /// A signal, an input or a state.
     Signal,
     /// An expression of other outputs.
@@ -68,7 +72,7 @@ pub enum OutputKind {
 
 impl OutputKind {
     /// All of them, in the order of the manual.
-    pub const ALL: [Self; 24] = [
+    pub const ALL: [Self; 26] = [
         Self::Position,
         Self::Displacement,
         Self::Rotation,
@@ -81,6 +85,8 @@ impl OutputKind {
         Self::SectionForce,
         Self::SectionMoment,
         Self::Line,
+        Self::Modal,
+        Self::Recovered,
         Self::Reaction,
         Self::Relative,
         Self::RelativeAcceleration,
@@ -116,6 +122,8 @@ impl OutputKind {
             Self::Work => "work",
             Self::Angle => "angle",
             Self::Line => "line",
+            Self::Modal => "modal",
+            Self::Recovered => "recovered",
             Self::Energy => "energy",
             Self::Momentum => "momentum",
             Self::Signal => "signal",
@@ -154,6 +162,12 @@ impl OutputKind {
             }
             Self::Angle => "Angle of a node about an axis since the start, continued beyond half a turn.",
             Self::Line => "Places of all nodes of a beam along its axis, from its start to its end.",
+            Self::Modal => {
+                "Modal coordinates of a superelement and their rates, in the units of its matrices."
+            }
+            Self::Recovered => {
+                "Stresses or displacements between the interfaces of a superelement: its `recovery` matrix times its deformation."
+            }
             Self::Energy => "Kinetic, strain, gravity and total energy of the model.",
             Self::Signal => "Value of a signal, an input or a state.",
             Self::Expression => {
@@ -173,7 +187,14 @@ impl OutputKind {
             || self.is_of_model()
             || matches!(
                 self,
-                Self::Signal | Self::Spring | Self::Power | Self::Work | Self::Line | Self::Expression
+                Self::Signal
+                    | Self::Spring
+                    | Self::Power
+                    | Self::Work
+                    | Self::Line
+                    | Self::Expression
+                    | Self::Modal
+                    | Self::Recovered
             ))
     }
 
@@ -222,6 +243,7 @@ impl OutputKind {
                 | Self::SectionMoment
                 | Self::Reaction
                 | Self::Spring
+                | Self::Recovered
                 | Self::Signal
                 | Self::Expression
         )
@@ -256,6 +278,8 @@ pub enum OutputSource {
     Actor(Located<String>),
     /// A whole beam, by name.
     Beam(Located<String>),
+    /// A superelement, by name.
+    Superelement(Located<String>),
     /// The whole model.
     Model,
     /// A signal, an input or a state, by name.
@@ -322,6 +346,8 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
             OutputSource::Actor(name_of_one(reader, &["springs", "loads", "joints"], what)?)
         } else if kind == OutputKind::Line {
             OutputSource::Beam(reader.name_in("of")?)
+        } else if matches!(kind, OutputKind::Modal | OutputKind::Recovered) {
+            OutputSource::Superelement(reader.name_in("of")?)
         } else if kind == OutputKind::Signal {
             OutputSource::Signal(name_of_one(
                 reader,

@@ -72,6 +72,12 @@ pub(super) fn superelement() -> Vec<Key> {
         ),
         optional("stiffness_damping", Shape::NotNegative, "s", "instead: times the stiffness"),
         optional(
+            "recovery",
+            Shape::Text,
+            "",
+            "file of a matrix that makes outputs of kind `recovered` of its unknowns: a row each, stresses or displacements between interfaces",
+        ),
+        optional(
             "preload",
             Shape::Text,
             "",

@@ -1,5 +1,7 @@
 //! Superelements of a model file: parts that are given by reduced matrices over their interfaces and modes.
 
+use std::sync::Arc;
+
 use lissom_core::elements::superelement::{Damping, GeometricMatrices, ReducedMatrices};
 use lissom_motion::Vector3;
 use nalgebra::DMatrix;
@@ -22,7 +24,7 @@ pub(super) fn superelements(context: &Context<'_>) -> Vec<Superelement> {
         let (mass, stiffness) = (needed(reader, "mass"), needed(reader, "stiffness"));
         let preload = matrix(reader, "preload")?.map_or_else(Vec::new, |column| column.as_slice().to_vec());
         let stacked = matrix(reader, "geometric")?;
-        let damping = damping(reader);
+        let (damping, recovery) = (damping(reader), matrix(reader, "recovery")?);
         let (interfaces, stiffness, mass) = (interfaces?, stiffness?, mass?);
         let floating = match reader.text("floating") {
             None => 0,
@@ -40,6 +42,19 @@ pub(super) fn superelements(context: &Context<'_>) -> Vec<Superelement> {
             );
         }
         let size = mass.nrows();
+        if let Some(recovery) = recovery.as_ref().filter(|recovery| recovery.ncols() != size) {
+            let message = format!(
+                "the `recovery` of {} has {} columns, and its mass has {size} rows",
+                reader.what,
+                recovery.ncols()
+            );
+            let help = "give a column for each row of the mass: six of each interface, then the modes";
+            return context.fail(
+                reader.node("recovery").map_or(reader.name, |node| node.span),
+                message,
+                help,
+            );
+        }
         let geometric = stacked
             .map(|stacked| GeometricMatrices::from_stacked(&stacked, places.len(), size).map(Box::new))
             .transpose();
@@ -68,6 +83,7 @@ pub(super) fn superelements(context: &Context<'_>) -> Vec<Superelement> {
             interfaces,
             floating,
             matrices,
+            recovery: recovery.map(Arc::new),
         })
     })
 }

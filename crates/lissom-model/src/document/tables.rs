@@ -458,6 +458,9 @@ fn outputs() -> Vec<Variant> {
         if *kind == OutputKind::Line {
             keys.push(required("of", Shape::Name("beams"), "", "the beam"));
         }
+        if matches!(kind, OutputKind::Modal | OutputKind::Recovered) {
+            keys.push(required("of", Shape::Name("superelements"), "", "the superelement"));
+        }
         if *kind == OutputKind::Signal {
             keys.push(required("of", Shape::Text, "", "the name of a signal, an input or a state"));
         }

@@ -120,6 +120,8 @@ fn of_output(
         | OutputKind::Work
         | OutputKind::Angle
         | OutputKind::Line
+        | OutputKind::Modal
+        | OutputKind::Recovered
         | OutputKind::Energy
         | OutputKind::Momentum
         | OutputKind::Quaternion

@@ -24,12 +24,14 @@ use std::sync::Arc;
 use lissom_core::analysis::Settings;
 use lissom_core::analysis::accumulated::Accumulated;
 use lissom_core::elements::beam::line::BeamLine;
+use lissom_core::elements::superelement::Deformation;
 use lissom_core::joints::Quantity;
 use lissom_core::judge::Warning;
 use lissom_core::registry::ParameterError;
 use lissom_core::signals::{Argument, MeasurementId};
 use lissom_core::system::{Builder, CoordinateId, ElementId, NodeId, State, System};
 use lissom_motion::Motion;
+use nalgebra::DMatrix;
 
 use crate::channels::{self, Channel};
 use crate::document::{Component, Document, NodeReference, interface_name};
@@ -74,6 +76,15 @@ impl Lowered {
     }
 }
 
+/// Unknowns of a superelement, and the matrix that makes outputs of them.
+#[derive(Clone)]
+pub struct Deformed {
+    /// Where the unknowns are found.
+    pub unknowns: Arc<Deformation>,
+    /// A row for each output; none where it is not given.
+    pub recovery: Option<Arc<DMatrix<f64>>>,
+}
+
 /// Nodes, coordinates and signals by the names of the model.
 #[derive(Clone, Default)]
 pub struct Names {
@@ -81,6 +92,8 @@ pub struct Names {
     pub nodes: BTreeMap<String, NodeId>,
     /// Nodes of each superelement, in the order of its interfaces; they are also among `nodes`, as `superelement.interface`.
     pub superelements: BTreeMap<String, Vec<NodeId>>,
+    /// What each superelement is deformed by.
+    pub deformations: BTreeMap<String, Deformed>,
     /// Nodes and elements of each beam.
     pub lines: BTreeMap<String, BeamLine>,
     /// Coordinates of each joint; a drive has those of the joint it drives.
@@ -222,6 +235,7 @@ impl Names {
         channels::Resolver {
             nodes: &self.nodes,
             lines: &self.lines,
+            deformations: &self.deformations,
             coordinates: &self.coordinates,
             springs: &self.springs,
             powers: &self.powers,

@@ -1,11 +1,13 @@
 //! Superelements as nodes, modal coordinates and elements.
 
+use std::sync::Arc;
+
 use lissom_core::elements::superelement::{InterfacePlace, SuperelementDescription, add_superelement};
 use lissom_core::system::{Builder, NodeId};
 use lissom_motion::{Motion, Rotation};
 
-use super::Names;
 use super::order::by_name;
+use super::{Deformed, Names};
 use crate::document::{Document, interface_name};
 use crate::report::Problem;
 
@@ -31,8 +33,11 @@ pub(super) fn add(
             matrices: element.matrices.clone(),
         };
         match add_superelement(builder, &description) {
-            Ok((nodes, _)) => {
+            Ok(unknowns) => {
+                let nodes = unknowns.nodes().to_vec();
                 let own: Vec<NodeId> = nodes.clone();
+                let deformed = Deformed { unknowns: Arc::new(unknowns), recovery: element.recovery.clone() };
+                names.deformations.insert(name.clone(), deformed);
                 names.superelements.insert(name.clone(), own);
                 names.nodes.extend(interfaces.into_iter().map(|interface| interface.name).zip(nodes));
             }

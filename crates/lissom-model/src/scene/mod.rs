@@ -225,6 +225,7 @@ impl Places<'_> {
             | OutputSource::Spring(name)
             | OutputSource::Actor(name)
             | OutputSource::Beam(name)
+            | OutputSource::Superelement(name)
             | OutputSource::Signal(name) => (Some(name.value.clone()), None),
             OutputSource::Node { node, point } => {
                 (Some(part_of(&node.value).to_owned()), self.observed(&node.value, point.as_ref()))

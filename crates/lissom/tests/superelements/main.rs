@@ -2,6 +2,7 @@
 
 mod load_stiffness;
 mod moments;
+mod outputs;
 
 use std::collections::BTreeMap;
 

@@ -3,6 +3,7 @@
 use lissom_motion::{Motion, Vector3};
 use nalgebra::DMatrix;
 
+use super::deformation::Deformation;
 use super::matrices::{Damping, rigid_motion};
 use super::{LARGEST_SPIN, LARGEST_SPIN_KNOWN, ReducedMatrices, Superelement};
 use crate::joints::Quantity;
@@ -36,7 +37,7 @@ pub struct SuperelementDescription<'a> {
     pub matrices: ReducedMatrices,
 }
 
-/// Adds a superelement; gives its nodes and modal coordinates. Modal coordinates are measured so that each has the mass of
+/// Adds a superelement; gives where its unknowns are found. Modal coordinates are measured so that each has the mass of
 /// the part: then they are of the size of displacements.
 ///
 /// # Errors
@@ -44,7 +45,7 @@ pub struct SuperelementDescription<'a> {
 pub fn add_superelement(
     builder: &mut Builder,
     description: &SuperelementDescription<'_>,
-) -> Result<(Vec<NodeId>, Vec<CoordinateId>), ParameterError> {
+) -> Result<Deformation, ParameterError> {
     let SuperelementDescription { name, frame, interfaces, floating, matrices } = description;
     let (size, first) = (matrices.mass.nrows(), 6 * interfaces.len());
     if size > MOST {
@@ -85,5 +86,6 @@ pub fn add_superelement(
     let element =
         Superelement::new((nodes.clone(), coordinates.clone()), (*floating, &places), scaled, gravity);
     builder.add_element(element.believed_up_to(spin));
-    Ok((nodes, coordinates))
+    let modes = coordinates.into_iter().enumerate().map(|(k, own)| (own, factor(first + k))).collect();
+    Ok(Deformation { nodes, floating: *floating, places, modes })
 }

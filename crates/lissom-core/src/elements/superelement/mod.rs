@@ -27,6 +27,7 @@
 
 mod build;
 mod centre;
+mod deformation;
 mod geometric;
 mod linearize;
 mod load_stiffness;
@@ -43,6 +44,7 @@ use nalgebra::{DMatrix, DVector, Matrix3xX};
 
 pub use self::build::{InterfacePlace, SuperelementDescription, add_superelement};
 use self::centre::{Centre, Derivatives};
+pub use self::deformation::Deformation;
 pub use self::geometric::GeometricMatrices;
 pub(crate) use self::geometric::PAIRS;
 use self::linearize::Maps;

@@ -99,6 +99,8 @@ CLASSES: dict[str, type[Entry] | dict[str, type[Entry]]] = {
         "section_force": outputs.SectionForce,
         "section_moment": outputs.SectionMoment,
         "line": outputs.Line,
+        "modal": outputs.Modal,
+        "recovered": outputs.Recovered,
         "reaction": outputs.Reaction,
         "relative": outputs.Relative,
         "relative_acceleration": outputs.RelativeAcceleration,

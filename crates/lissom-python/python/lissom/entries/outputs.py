@@ -218,6 +218,36 @@ class Line(Output):
 
 
 @dataclass(kw_only=True, slots=True)
+class Modal(Output):
+    """Modal coordinates of a superelement and their rates, in the units of its matrices.
+
+    Args:
+        of: the superelement; the name of an entry of `[superelements]`.
+    """
+
+    _form: ClassVar[str] = "modal"
+
+    of: str
+
+
+@dataclass(kw_only=True, slots=True)
+class Recovered(Output):
+    """Stresses or displacements between the interfaces of a superelement: its `recovery` matrix times its deformation.
+
+    Args:
+        of: the superelement; the name of an entry of `[superelements]`.
+        woehler_exponent: exponent of Woehler's line: the summary then has `damage_equivalent` of each component; a number > 0, or nothing.
+        reference_cycles: number of cycles of the damage equivalent range; default one per second of the run; a number > 0, or nothing.
+    """
+
+    _form: ClassVar[str] = "recovered"
+
+    of: str
+    woehler_exponent: Number | None = None
+    reference_cycles: Number | None = None
+
+
+@dataclass(kw_only=True, slots=True)
 class Reaction(Output):
     """Force and moment of a joint on its tip.
 

@@ -113,6 +113,7 @@ class Superelement(Entry):
         damping: Matrix Market file over the same rows; a text, or nothing.
         modal_damping: instead: ratio to critical damping of every mode of the free part; a number ≥ 0, or nothing.
         stiffness_damping: instead: times the stiffness [s]; a number ≥ 0, or nothing.
+        recovery: file of a matrix that makes outputs of kind `recovered` of its unknowns: a row each, stresses or displacements between interfaces; a text, or nothing.
         preload: Matrix Market file of one column: forces of the undeformed part, which turn with it; a text, or nothing.
         geometric: Matrix Market file of `lissom reduce`: what is of second order in the deformation, as the stiffness that loads give and take; a text, or nothing.
         floating: the interface that carries the floating frame, default the first; a text, or nothing.
@@ -131,6 +132,7 @@ class Superelement(Entry):
     damping: str | None = None
     modal_damping: Number | None = None
     stiffness_damping: Number | None = None
+    recovery: str | None = None
     preload: str | None = None
     geometric: str | None = None
     floating: str | None = None

@@ -129,6 +129,26 @@ entry! {
 }
 
 entry! {
+    /// Modal coordinates of a superelement and their rates, in the units of its matrices.
+    Modal => OutputId, "modal";
+    ["kind" = "modal"]
+    /// With what must be given.
+    ///
+    /// - `of`: the superelement
+    new(of: JointId = "of")
+}
+
+entry! {
+    /// Stresses or displacements between the interfaces of a superelement: its `recovery` matrix times its deformation.
+    Recovered => OutputId, "recovered";
+    ["kind" = "recovered"]
+    /// With what must be given.
+    ///
+    /// - `of`: the superelement
+    new(of: JointId = "of")
+}
+
+entry! {
     /// Force and moment of a joint on its tip.
     Reaction => OutputId, "reaction";
     ["kind" = "reaction"]
@@ -265,7 +285,7 @@ keys! {
 }
 
 keys! {
-    [SectionForce, SectionMoment, Reaction, Spring, Signal, ExpressionOutput]
+    [SectionForce, SectionMoment, Recovered, Reaction, Spring, Signal, ExpressionOutput]
     /// Exponent of Woehler's line: the summary then has `damage_equivalent` of each component.
     woehler_exponent: f64 = "woehler_exponent";
     /// Number of cycles of the damage equivalent range; default one per second of the run.

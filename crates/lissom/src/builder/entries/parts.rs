@@ -102,6 +102,8 @@ entry! {
     modal_damping: f64 = "modal_damping";
     /// Instead: times the stiffness \[s\].
     stiffness_damping: f64 = "stiffness_damping";
+    /// File of a matrix that makes outputs of kind `recovered` of its unknowns: a row each, stresses or displacements between interfaces.
+    recovery: String = "recovery";
     /// Matrix Market file of one column: forces of the undeformed part, which turn with it.
     preload: String = "preload";
     /// Matrix Market file of `lissom reduce`: what is of second order in the deformation, as the stiffness that loads give and take.

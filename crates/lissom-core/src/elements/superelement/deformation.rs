@@ -1,0 +1,58 @@
+//! What a superelement is deformed by, in the unknowns of the matrices that it was given by: for outputs.
+
+use lissom_motion::{Motion, Vector3};
+
+use crate::system::{CoordinateId, Kinematics, NodeId};
+
+/// Where the unknowns of a superelement's matrices are found.
+#[derive(Clone, Debug)]
+pub struct Deformation {
+    /// Nodes of the interfaces.
+    pub(super) nodes: Vec<NodeId>,
+    /// Index of the interface that carries the floating frame.
+    pub(super) floating: usize,
+    /// Places of the interfaces in the undeformed part [m].
+    pub(super) places: Vec<Vector3>,
+    /// Modal coordinates, and those of the matrices over them.
+    pub(super) modes: Vec<(CoordinateId, f64)>,
+}
+
+impl Deformation {
+    /// Nodes of the interfaces, in the order of the matrices.
+    pub fn nodes(&self) -> &[NodeId] {
+        &self.nodes
+    }
+
+    /// Modal coordinates, in the order of the matrices.
+    pub fn coordinates(&self) -> impl ExactSizeIterator<Item = CoordinateId> + '_ {
+        self.modes.iter().map(|(coordinate, _)| *coordinate)
+    }
+
+    /// Number of unknowns: six of each interface and the modal coordinates.
+    pub fn size(&self) -> usize {
+        6 * self.nodes.len() + self.modes.len()
+    }
+
+    /// Modal coordinates with their rates, in the units of the matrices.
+    pub fn modal<'a>(&'a self, at: &'a Kinematics) -> impl Iterator<Item = [f64; 2]> + 'a {
+        self.modes.iter().map(|&(coordinate, factor)| {
+            let motion = &at.coordinates[coordinate];
+            [factor * motion.value, factor * motion.rate]
+        })
+    }
+
+    /// u: displacement [m] and rotation vector [rad] of each interface against the floating frame and in its axes, then the modal
+    /// coordinates.
+    pub fn unknowns(&self, at: &Kinematics) -> Vec<f64> {
+        let base = &at.nodes[self.nodes[self.floating]].frame;
+        let mut all = Vec::with_capacity(self.size());
+        for (i, (&node, place)) in self.nodes.iter().zip(&self.places).enumerate() {
+            let relative =
+                if i == self.floating { Motion::IDENTITY } else { at.nodes[node].frame.relative_to(base) };
+            let moved = relative.position - (place - self.places[self.floating]);
+            all.extend(moved.iter().chain(relative.rotation.logarithm().iter()));
+        }
+        all.extend(self.modal(at).map(|[value, _]| value));
+        all
+    }
+}
