@@ -122,10 +122,18 @@ mod tests {
     #[test]
     fn too_many_steps_or_rows_are_told() {
         let words = told("10", "end = 1e3\nstep = 1e-8", 1e9).join("\n");
-        assert!(words.contains("steps") && words.contains("hours"), "{words}");
+        assert!(words.contains("1.0e11 steps") && words.contains("take 278 hours"), "{words}");
         let words = told("10", "end = 10\nstep = 1e-8", 1e9).join("\n");
         assert!(words.contains("1.0e9 rows") && words.contains("80.0 GB"), "{words}");
         assert_eq!(told("10", "end = 10\nstep = 1e-8\noutput_every = 1000", 1e9), Vec::<String>::new());
         assert_eq!(told("10", "end = 10", 1e9), Vec::<String>::new());
+    }
+
+    #[test]
+    fn bytes_are_told_in_the_unit_that_leaves_few_digits() {
+        let sizes = [(2.4e6, "2 MB"), (9.99e8, "999 MB"), (1e9, "1.0 GB"), (2.5e11, "250.0 GB")];
+        for (bytes, words) in sizes.into_iter().chain([(1e12, "1.0 TB"), (3.2e15, "3200.0 TB")]) {
+            assert_eq!(size(bytes), words);
+        }
     }
 }

@@ -319,6 +319,29 @@ mod tests {
     }
 
     #[test]
+    fn units_tell_the_quantities_of_one_output_apart() {
+        for (quantity, unit, words) in [
+            ("relative", "rad", "relative rotation"),
+            ("relative motion", "rad", "relative rotation"),
+            ("relative", "m", "relative displacement"),
+            ("relative motion", "m", "relative displacement"),
+            ("relative", "rad/s", "relative angular velocity"),
+            ("relative", "m/s", "relative velocity"),
+            ("momentum", "N s", "momentum"),
+            ("momentum", "N m s", "angular momentum"),
+            ("spring", "N", "force of spring"),
+            ("spring", "N m", "moment of spring"),
+            ("spring", "m", "elongation"),
+            ("spring", "rad", "rotation"),
+            ("spring", "m/s", "rate of elongation"),
+            ("spring", "rad/s", "rate of rotation"),
+            ("velocity", "m/s", "velocity"),
+        ] {
+            assert_eq!(quantity_of(&Column::new("a", "x", quantity, unit)), words, "{quantity} [{unit}]");
+        }
+    }
+
+    #[test]
     fn small_and_large_values_get_a_prefix() {
         assert_eq!(prefixed(7e-3, "m"), (1e-3, " [mm]".to_owned()));
         assert_eq!(prefixed(0.5, "m"), (1.0, " [m]".to_owned()));
