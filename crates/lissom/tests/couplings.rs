@@ -413,6 +413,14 @@ fn wrong_relations_are_told() {
         ("profile = \"0.05*(1 - cos(x))\"", "profile = \"0.01 + x\"", "does not hold at the start"),
         ("lissom = 1", "lissom = 1\n[parameters]\nx = 3", "parameter"),
         ("kind = \"prismatic\"", "kind = \"cylindrical\"", "which one?"),
+        ("rotation = \"5*t", "coordinate = 2\nrotation = \"5*t", "joint `shaft` has no coordinate 2"),
+        ("rotation = \"5*t", "coordinate = 0.5\nrotation = \"5*t", "joint `shaft` has no coordinate 0.5"),
+        ("other = \"guide\"", "other = \"guide\"\nother_coordinate = 2", "joint `guide` has no coordinate 2"),
+        (
+            "other = \"guide\"",
+            "other = \"guide\"\nother_coordinate = 1.5",
+            "joint `guide` has no coordinate 1.5",
+        ),
     ] {
         let found = told(&CAM.replace(old, instead));
         assert!(found.contains(words), "{instead}: {found}");

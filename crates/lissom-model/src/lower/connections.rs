@@ -214,10 +214,20 @@ fn coordinate(
         .parameters
         .number_or("coordinate", (first + 1) as f64)
         .map_err(|error| parameter_problem(component, &error))?;
+    numbered(component, joint, ("coordinate", number), coordinates)
+}
+
+/// The coordinate of a joint that the number of a key means, counted from 1 on.
+pub(super) fn numbered(
+    component: &Component,
+    joint: &Located<String>,
+    (key, number): (&str, f64),
+    coordinates: &[CoordinateId],
+) -> Result<CoordinateId, Problem> {
     let index = number as usize;
     if index as f64 != number || index == 0 || index > coordinates.len() {
         let message = format!("joint `{}` has no coordinate {number}", joint.value);
-        return Err(Problem::error(component.span_of("coordinate"), message)
+        return Err(Problem::error(component.span_of(key), message)
             .help(format!("give a whole number from 1 to {}", coordinates.len())));
     }
     Ok(coordinates[index - 1])

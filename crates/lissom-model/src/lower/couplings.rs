@@ -100,13 +100,7 @@ fn only(
         return Err(Problem::error(joint.span, message).label("which one?").help(help));
     }
     let number = component.parameters.number(key).map_err(|error| parameter_problem(component, &error))?;
-    let index = number as usize;
-    if index as f64 != number || index == 0 || index > coordinates.len() {
-        let message = format!("joint `{}` has no coordinate {number}", joint.value);
-        return Err(Problem::error(component.span_of(key), message)
-            .help(format!("give a whole number from 1 to {}", coordinates.len())));
-    }
-    Ok(coordinates[index - 1])
+    super::connections::numbered(component, joint, (key, number), coordinates)
 }
 
 /// The coordinate that an expression names.
