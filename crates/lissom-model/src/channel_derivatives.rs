@@ -133,8 +133,13 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
             touched.multipliers = multiplier..multiplier + 1;
         }
         Source::Slider(index) => {
-            let first = system.sliders()[*index].first_multiplier;
-            touched.multipliers = first..first + 3;
+            let slider = &system.sliders()[*index];
+            let (first, count) = (slider.first_multiplier, slider.equations());
+            touched.multipliers = first..first + count;
+            if count > 3 {
+                // Its moment turns with the tip and with the line.
+                return None;
+            }
         }
         Source::Coupling(index) => {
             let coupling = &system.couplings()[*index];

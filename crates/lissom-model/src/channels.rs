@@ -229,7 +229,7 @@ impl Channel {
             Source::Accelerations(coordinates) => {
                 out.extend(coordinates.iter().map(|&own| joint_acceleration(system, own, at)));
             }
-            Source::Slider(index) => out.extend(slider_force(system, *index, state)),
+            Source::Slider(index) => out.extend(slider_reaction(system, *index, state)),
             Source::FreeAccelerations(coordinates) => {
                 out.extend(coordinates.iter().map(|&own| free_acceleration(system, own, at)));
             }
@@ -504,6 +504,9 @@ pub(crate) fn components(
         (OutputKind::Velocity, _) => three("v", "m/s"),
         (OutputKind::AngularVelocity, _) => three("w", "rad/s"),
         (OutputKind::Acceleration, _) => three("a", "m/s²"),
+        (OutputKind::Reaction, Source::Slider(index)) if is_aligned(system, *index) => {
+            words(&["f1", "f2", "f3", "m1", "m2", "m3"], &["N", "N", "N", "N m", "N m", "N m"])
+        }
         (OutputKind::SectionForce, _) | (OutputKind::Reaction, Source::Slider(_)) => three("f", "N"),
         (OutputKind::SectionMoment, _) => three("m", "N m"),
         (OutputKind::Reaction, Source::Drive(index)) => {
@@ -582,10 +585,17 @@ fn joint_acceleration(system: &System, (joint, own): (usize, usize), at: &Kinema
     all[own]
 }
 
-/// Force of a slider on its tip, global axes [N].
-fn slider_force(system: &System, slider: usize, state: &State) -> [f64; 3] {
-    let first = system.sliders()[slider].first_multiplier;
-    std::array::from_fn(|k| -state.multipliers[first + k])
+/// Whether the tip of a slider turns with its line.
+fn is_aligned(system: &System, slider: usize) -> bool {
+    system.sliders()[slider].equations() > 3
+}
+
+/// Force of a slider on its tip, global axes [N], and the moment [N m] where it holds the tip's orientation.
+fn slider_reaction(system: &System, slider: usize, state: &State) -> Vec<f64> {
+    let own = &system.sliders()[slider];
+    let reaction = own.reaction(&state.kinematics, &state.multipliers[own.first_multiplier..]);
+    let count = if is_aligned(system, slider) { 2 } else { 1 };
+    reaction.iter().take(count).flatten().copied().collect()
 }
 
 /// Second derivative of a coordinate that no joint between nodes has; that of a slider follows from those of nodes.

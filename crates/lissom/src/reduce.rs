@@ -391,7 +391,19 @@ impl Chosen {
                     vec![&base.value, &tip.value]
                 }
                 Attachment::OneNode { on, .. } => vec![&on.value],
-                Attachment::Places(places) => places.iter().map(|(on, _)| &on.value).collect(),
+                // Of a rope with drums all is kept or nothing.
+                Attachment::Places(places, drums)
+                    if !drums.iter().all(|(joint, _)| joints.contains(&joint.value)) =>
+                {
+                    if places.iter().any(|(on, _)| self.is_part(&on.value)) {
+                        return question(format!(
+                            "`{}` has a drum outside of these parts: leave it out, or take the drum in",
+                            component.name.value
+                        ));
+                    }
+                    return Ok(false);
+                }
+                Attachment::Places(places, _) => places.iter().map(|(on, _)| &on.value).collect(),
                 Attachment::JointCoordinate { joint } => return Ok(joints.contains(&joint.value)),
                 Attachment::JointCoordinates { joint, other } => {
                     return Ok(joints.contains(&joint.value) && joints.contains(&other.value));

@@ -1,4 +1,4 @@
-//! Ropes over pulleys against formulas: tackles, hoists, and ropes that go slack.
+//! Ropes over pulleys against formulas: tackles, hoists, drums, and ropes that go slack.
 
 use lissom::{Model, Record, SessionError};
 
@@ -158,9 +158,201 @@ step = 1e-3
     }
 }
 
+/// A mass of 10 kg hangs on a rope of 1e6 N/m that a drum of 0.9 kg m² and 0.3 m pays out.
+const DRUM: &str = r#"
+lissom = 1
+gravity = [0, 0, -10]
+[point_masses.load]
+mass = 10
+position = [0.3, 0, 0]
+[bodies.drum]
+mass = 4
+inertia = [0.9, 0.9, 0.9]
+position = [0, 0, 5]
+[joints.axle]
+kind = "revolute"
+base = "ground"
+tip = "drum"
+axis = [0, 1, 0]
+angle = 0.7
+[springs.rope]
+kind = "rope"
+along = [{ on = "ground", at = [0.3, 0, 5] }, { on = "load" }]
+drums = ["axle"]
+drum_radii = [0.3]
+stiffness = 1e6
+length = 4.99995
+[outputs.load]
+kind = "position"
+of = "load"
+[outputs.axle]
+kind = "relative"
+of = "axle"
+[outputs.bearing]
+kind = "reaction"
+of = "axle"
+[outputs.rope]
+kind = "spring"
+of = "rope"
+[outputs.energy]
+kind = "energy"
+[analysis]
+kind = "dynamics"
+end = 1
+step = 2e-3
+"#;
+
+/// a = g/(1 + I/(m r²)) = 5 m/s² at the tension m (g - a) = 50 N, without oscillation from the start.
+#[test]
+fn a_mass_on_a_drum_falls_slowly() {
+    for scheme in ["radau-iia", "energy-decaying", "generalized-alpha", "hht"] {
+        for steps in [("analysis.step", "2e-3"), ("analysis.relative_tolerance", "1e-6")] {
+            let record = run(DRUM, &[("analysis.scheme", scheme), steps]);
+            let last = record.times.len() - 1;
+            let of = |output, component| column(&record, output, component);
+            for (row, time) in record.times.iter().enumerate() {
+                let fallen = 2.5 * time * time;
+                let (z, turned) = (of("load", "z")[row], of("axle", "angle")[row] - 0.7);
+                assert!((z + fallen).abs() < 1e-6, "{scheme} {steps:?} t = {time}: {z}");
+                assert!((0.3 * turned - fallen).abs() < 1e-6, "{scheme} {steps:?} t = {time}: {turned}");
+                let tension = of("rope", "force")[row];
+                assert!((tension - 50.0).abs() < 0.02, "{scheme} {steps:?} t = {time}: {tension}");
+            }
+            let total = of("energy", "total");
+            assert!(
+                (total[last] - total[0]).abs() < 1e-4,
+                "{scheme} {steps:?}: {} {}",
+                total[0],
+                total[last]
+            );
+        }
+    }
+}
+
+/// The drum's carrier is free: what the rope pulls on it and on the drum leaves momentum and angular momentum what they were.
+#[test]
+fn a_drum_on_a_part_that_flies_takes_no_momentum() {
+    let text = DRUM
+        .replace("gravity = [0, 0, -10]", "gravity = [0, 0, 0]")
+        .replace("base = \"ground\"", "base = \"carrier\"")
+        .replace("{ on = \"ground\", at", "{ on = \"carrier\", at")
+        .replace("length = 4.99995", "length = 4.99")
+        .replace(
+            "[joints.axle]",
+            "[bodies.carrier]\nmass = 20\ninertia = [3, 2, 1]\nposition = [0, 0.2, 5.5]\n[outputs.momentum]\n\
+             kind = \"momentum\"\n[joints.axle]",
+        )
+        .replace("stiffness = 1e6", "stiffness = 2e3");
+    for scheme in ["radau-iia", "energy-decaying", "generalized-alpha", "hht"] {
+        let record = run(&text, &[("analysis.scheme", scheme)]);
+        for component in ["p1", "p2", "p3", "l1", "l2", "l3"] {
+            let values = column(&record, "momentum", component);
+            let most = values.iter().fold(0.0_f64, |most, own| most.max((own - values[0]).abs()));
+            assert!(most < 2e-4, "{scheme} {component}: {most}");
+        }
+        // The spring has given all of its energy.
+        let total = column(&record, "energy", "total");
+        assert!(column(&record, "energy", "kinetic")[total.len() - 1] > 0.05, "{scheme}");
+        assert!((total[total.len() - 1] / total[0] - 1.0).abs() < 5e-3, "{scheme}: {total:?}");
+    }
+}
+
+/// Two drums hold a tackle of two falls: one of 0.3 m takes up 2 rad/s, one of 0.2 m pays out 1 rad/s, so that the hook rises by
+/// (0.6 - 0.2)/2 m/s under twice the tension, and each drive holds its radius times that.
+#[test]
+fn a_hook_rises_by_half_of_what_two_drums_take_up() {
+    let drum = |name: &str, rate: f64| {
+        format!(
+            "[bodies.{name}]\nmass = 4\ninertia = [1, 1, 1]\nangular_velocity = [0, {rate}, 0]\n[joints.{name}]\n\
+             kind = \"revolute\"\nbase = \"ground\"\ntip = \"{name}\"\naxis = [0, 1, 0]\n[joints.{name}_drive]\n\
+             kind = \"prescribed_rotation\"\njoint = \"{name}\"\nrotation = \"{rate}*t\"\n[outputs.{name}_drive]\n\
+             kind = \"reaction\"\nof = \"{name}_drive\"\n"
+        )
+    };
+    let text = format!(
+        "lissom = 1\ngravity = [0, 0, -10]\n{}{}[point_masses.hook]\nmass = 12\nvelocity = [0, 0, 0.2]\n[springs.rope]\n\
+         kind = \"rope\"\nalong = [{{ on = \"ground\", at = [0, 0, 5] }}, {{ on = \"hook\" }}, {{ on = \"ground\", at = [0, 0, 5] }}]\n\
+         drums = [\"big.angle\", \"small\"]\ndrum_radii = [-0.3, 0.2]\nstiffness = 6e4\nlength = 9.999\n\
+         [outputs.hook]\nkind = \"position\"\nof = \"hook\"\n[analysis]\nkind = \"dynamics\"\nend = 1\nstep = 1e-2\n",
+        drum("big", 2.0),
+        drum("small", 1.0)
+    );
+    let record = run(&text, &[("analysis.scheme", "radau-iia")]);
+    let last = record.times.len() - 1;
+    assert!((column(&record, "hook", "z")[last] - 0.2).abs() < 1e-7);
+    let [big, small] = ["big_drive", "small_drive"].map(|own| column(&record, own, "moment")[last]);
+    assert!(
+        (big.abs() - 0.3 * 60.0).abs() < 1e-3 && (small.abs() - 0.2 * 60.0).abs() < 1e-3,
+        "{big} {small}"
+    );
+    assert!(big * small < 0.0, "one lifts, one lets down: {big} {small}");
+}
+
+/// A winch whose speed is a signal: a coordinate of its own that a large damping holds at the speed asked for. Its length is
+/// led by the hook's height, h' = 2 (1 - h).
+#[test]
+fn a_winch_follows_a_signal() {
+    let text = r#"
+lissom = 1
+gravity = [0, 0, -10]
+[bodies.hook]
+mass = 2
+inertia = [1, 1, 1]
+velocity = [0, 0, 2]
+[joints.rail]
+kind = "prismatic"
+base = "ground"
+tip = "hook"
+axis = [0, 0, 1]
+[joints.winch]
+kind = "generalized_coordinates"
+start = [0]
+rate = [-2]
+[springs.winch]
+kind = "coordinate_dynamics"
+coordinates = ["winch"]
+mass = 1
+damping = 1e9
+[loads.winch]
+kind = "joint_force"
+joint = "winch"
+force = "1e9*2*(rail.displacement - 1)"
+[springs.rope]
+kind = "rope"
+along = [{ on = "ground", at = [0, 0, 5] }, { on = "hook" }]
+drums = ["winch"]
+drum_radii = [1]
+stiffness = 1e7
+damping = 1e4
+length = 4.999998
+[outputs.rail]
+kind = "relative"
+of = "rail"
+[analysis]
+kind = "dynamics"
+scheme = "radau-iia"
+end = 2
+step = 1e-2
+"#;
+    let record = run(text, &[]);
+    for (row, time) in record.times.iter().enumerate() {
+        let height = column(&record, "rail", "displacement")[row];
+        assert!((height - (1.0 - (-2.0 * time).exp())).abs() < 1e-4, "t = {time}: {height}");
+    }
+}
+
 #[test]
 fn ropes_that_cannot_be_are_refused() {
     for (from, to, wanted) in [
+        ("stiffness = 1000", "stiffness = 1000\ndrums = [\"rail\"]", "as many as `drums`: 0 for 1"),
+        ("stiffness = 1000", "stiffness = 1000\ndrum_radii = [0.2]", "as many as `drums`: 1 for 0"),
+        ("stiffness = 1000", "stiffness = 1000\ndrums = [\"rail\"]\ndrum_radii = [0]", "pays nothing out"),
+        (
+            "stiffness = 1000",
+            "stiffness = 1000\ndrums = [\"rail.angle\"]\ndrum_radii = [1]",
+            "has no coordinate",
+        ),
+        ("stiffness = 1000", "stiffness = 1000\ndrums = [\"reel\"]\ndrum_radii = [1]", "reel"),
         (
             "{ on = \"hook\" },\n    { on = \"ground\"",
             "{ on = \"ground\", at = [0, 0, 5] },\n    { on = \"ground\"",

@@ -305,11 +305,14 @@ pub enum Attachment {
     TwoNodes,
     /// A joint's algebraic coordinate of this quantity.
     Coordinate(Quantity),
-    /// Places one after the other, each carried by a node.
+    /// Places one after the other, each carried by a node, and algebraic coordinates if there are any.
     Places,
     /// Several algebraic coordinates, of any quantity.
     Coordinates,
 }
+
+/// A node and a point in its body frame [m].
+pub(crate) type Carried = (NodeId, Vector3);
 
 /// Where a component is attached, resolved to indices.
 #[derive(Clone, Debug)]
@@ -320,8 +323,9 @@ pub enum Attached {
     TwoNodes([NodeId; 2], [Vector3; 2]),
     /// An algebraic coordinate.
     Coordinate(CoordinateId),
-    /// Nodes in their order, each with a point in its body frame [m]; a node may be there several times.
-    Places(Vec<(NodeId, Vector3)>),
+    /// Nodes in their order, each with a point in its body frame [m]; a node may be there several times. Then algebraic
+    /// coordinates in their order, none of them twice.
+    Places(Vec<(NodeId, Vector3)>, Vec<CoordinateId>),
     /// Algebraic coordinates in their order, none of them twice.
     Coordinates(Vec<CoordinateId>),
 }
@@ -349,13 +353,13 @@ impl Attached {
         }
     }
 
-    /// Nodes and points of an attachment to places.
+    /// Nodes and points of an attachment to places, and the coordinates.
     ///
     /// # Errors
     /// If the attachment is of another form.
-    pub(crate) fn places(self) -> Result<Vec<(NodeId, Vector3)>, ParameterError> {
+    pub(crate) fn places(self) -> Result<(Vec<Carried>, Vec<CoordinateId>), ParameterError> {
         match self {
-            Self::Places(places) => Ok(places),
+            Self::Places(places, coordinates) => Ok((places, coordinates)),
             _ => Err(ParameterError::new("along", "must list places")),
         }
     }

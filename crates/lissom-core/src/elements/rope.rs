@@ -1,10 +1,12 @@
 //! A rope over pulleys: a spring and damper without compression along the line through several places, over which it slides
-//! without friction, so that its tension is the same all along. Pulleys have no radius.
+//! without friction, so that its tension is the same all along. Pulleys have no radius. Drums pay it out.
 //!
-//! Legend: x_p places, Δ_i = x_{i+1} - x_i with length ℓ_i and direction u_i, L(t) free length.
+//! Legend: x_p places, Δ_i = x_{i+1} - x_i with length ℓ_i and direction u_i, L free length, L₀(t) as given, q_d coordinates of drums
+//! that are q_d0 at the start, r_d what they pay out per unit.
 //!
 //! ```text
-//! e = Σ ℓ_i - L(t),   ė = Σ u_i·Δ̇_i - L'(t),   T = max(0, k e + c ė) or another law for e > 0,   g_p = ∂Σℓ/∂x_p = u_{p-1} - u_p
+//! e = Σ ℓ_i - L,   ė = Σ u_i·Δ̇_i - L̇,   L = L₀(t) + Σ r_d (q_d - q_d0),   T = max(0, k e + c ė) or another law for e > 0
+//! T times ∂e:   at places  g_p = ∂Σℓ/∂x_p = u_{p-1} - u_p,   at drums  ∂e/∂q_d = -r_d
 //! ```
 
 use lissom_motion::{Matrix3, Vector3, skew};
@@ -16,7 +18,7 @@ use super::sides::Sides;
 use super::step_stages::{STAGES, StepStages, above_round_off};
 use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents, add_block};
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters, Value};
-use crate::system::{Builder, GROUND, Kinematics, NodeId};
+use crate::system::{Builder, CoordinateId, GROUND, Kinematics, NodeId};
 
 /// Registry entry.
 pub(crate) const KIND: ElementKind = ElementKind {
@@ -55,6 +57,12 @@ pub(crate) const KIND: ElementKind = ElementKind {
             "m",
             "Free length of the whole rope, over time where a winch changes it; default: the length at the start.",
         ),
+        Parameter::optional(
+            "drum_radii",
+            ParameterType::Numbers,
+            "m",
+            "Rope that `drums` pay out, each per rad or m of its coordinate; negative where it winds the rope up.",
+        ),
     ],
     attachment: Attachment::Places,
     build,
@@ -62,8 +70,10 @@ pub(crate) const KIND: ElementKind = ElementKind {
 
 /// Nodes a rope may lead over, besides the ground.
 const MOST_NODES: usize = 4;
-/// Local unknowns of so many nodes.
-const MOST: usize = 6 * MOST_NODES;
+/// Drums it may have: one at each end.
+const MOST_DRUMS: usize = 2;
+/// Local unknowns of so many nodes and drums.
+const MOST: usize = 6 * MOST_NODES + MOST_DRUMS;
 /// Places a rope may lead over.
 const MOST_PLACES: usize = 16;
 
@@ -74,13 +84,36 @@ pub(crate) struct Rope {
     nodes: Vec<NodeId>,
     /// Places in their order along the rope: which of the nodes, none for the ground, and where on it.
     places: Vec<(Option<usize>, Vector3)>,
+    /// Coordinates of drums, and of each what it pays out per unit and its value at the start.
+    drums: Vec<CoordinateId>,
+    pays_out: Vec<[f64; 2]>,
     law: ForceLaw,
     length: Function,
     sides: Sides,
 }
 
+/// What drums pay out per unit of their coordinates, and where these are at the start.
+fn drums(
+    builder: &Builder,
+    drums: &[CoordinateId],
+    parameters: &Parameters,
+) -> Result<Vec<[f64; 2]>, ParameterError> {
+    let radii = if parameters.has("drum_radii") { parameters.numbers("drum_radii")? } else { &[] };
+    let fault = |problem: String| Err(ParameterError::new("drum_radii", problem));
+    if radii.len() != drums.len() {
+        return fault(format!("must be as many as `drums`: {} for {}", radii.len(), drums.len()));
+    }
+    if drums.len() > MOST_DRUMS {
+        return fault("belong to more than two drums: a rope has two ends".to_owned());
+    }
+    if radii.contains(&0.0) {
+        return fault("must not be zero: such a drum pays nothing out".to_owned());
+    }
+    Ok(radii.iter().zip(drums).map(|(radius, drum)| [*radius, builder.coordinate_start(*drum)]).collect())
+}
+
 fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
-    let along = attached.places()?;
+    let (along, winding) = attached.places()?;
     let points: Vec<Vector3> =
         along.iter().map(|(node, place)| builder.initial_frame(*node).transform_point(place)).collect();
     let fault = |problem: &str| Err(ParameterError::new("along", problem));
@@ -119,11 +152,14 @@ fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> 
             );
         }
     }
+    let pays_out = drums(builder, &winding, parameters)?;
     // It cannot push.
     let pulls = parameters.clone().with("side", Value::Text("tension".to_owned()));
     builder.add_element(Rope {
         nodes,
         places,
+        drums: winding,
+        pays_out,
         law: ForceLaw::new(&pulls, ["force", "damper_force"])?,
         length: parameters.function_or("length", at_start)?,
         sides: Sides::default(),
@@ -189,8 +225,25 @@ impl Rope {
             points,
             segments,
             count,
-            elongation: length - self.length.value(at.time),
-            rate: rate - self.length.first_derivative(at.time),
+            elongation: length - self.free(at)[0],
+            rate: rate - self.free(at)[1],
+        }
+    }
+
+    /// Free length and its rate [m, m/s].
+    fn free(&self, at: &Kinematics) -> [f64; 2] {
+        let mut free = [self.length.value(at.time), self.length.first_derivative(at.time)];
+        for (&drum, [radius, start]) in self.drums.iter().zip(&self.pays_out) {
+            free[0] += radius * (at.coordinates[drum].value - start);
+            free[1] += radius * at.coordinates[drum].rate;
+        }
+        free
+    }
+
+    /// Adds the forces of a tension on drums.
+    fn add_winding(&self, tension: f64, out: &mut [f64]) {
+        for (k, [radius, _]) in self.pays_out.iter().enumerate() {
+            out[6 * self.nodes.len() + k] -= radius * tension;
         }
     }
 
@@ -218,10 +271,15 @@ impl Element for Rope {
         &self.nodes
     }
 
+    fn coordinates(&self) -> &[CoordinateId] {
+        &self.drums
+    }
+
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
         let shape = self.shape(at);
         let tension = self.tension(&shape, at).force;
         self.add_pulls(&shape, |index| tension * shape.pull(index), out);
+        self.add_winding(tension, out);
     }
 
     /// The length is integrated; what that misses is put back along the relative velocities of the places.
@@ -240,23 +298,23 @@ impl Element for Rope {
             })
             .sum();
         let shapes = step.stages.map(|at| self.shape(at));
-        // Of the places alone: what a winch does is known exactly.
-        let free = |at: &Kinematics| (self.length.value(at.time), self.length.first_derivative(at.time));
-        let frees = step.stages.map(free);
-        let places = [0, 1].map(|j| shapes[j].rate + frees[j].1);
+        // Of the places alone: what a winch does is known exactly, and so are coordinates.
+        let frees = step.stages.map(|at| self.free(at));
+        let places = [0, 1].map(|j| shapes[j].rate + frees[j][1]);
         let square = |shape: &Shape| shape.segments().iter().map(|own| own.speed.norm_squared()).sum::<f64>();
         let (inverse, shares) = step.shares([square(&shapes[0]), square(&shapes[1])]);
         let missed = longer - step.whole(places);
         let round_off = 16.0 * f64::EPSILON * moves.iter().map(Vector3::norm).sum::<f64>();
         let missed = missed * above_round_off(missed.abs(), round_off);
         let rates = [0, 1].map(|j| places[j] + shares[j] * missed);
-        let lengths = step.at_stages(start.elongation + free(step.start).0, rates);
+        let lengths = step.at_stages(start.elongation + self.free(step.start)[0], rates);
         for j in 0..STAGES {
-            let (elongation, rate) = (lengths[j] - frees[j].0, rates[j] - frees[j].1);
+            let (elongation, rate) = (lengths[j] - frees[j][0], rates[j] - frees[j][1]);
             let tension = self.law.evaluate(elongation, rate, self.sides.of(step.stages[j])).force;
             let shape = &shapes[j];
             let along = |segment: &Segment| segment.direction + missed * inverse * segment.speed;
             self.add_pulls(shape, |index| tension * shape.difference(index, along), out[j]);
+            self.add_winding(tension, out[j]);
         }
     }
 
@@ -264,7 +322,8 @@ impl Element for Rope {
     fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
         let shape = self.shape(at);
         let response = self.tension(&shape, at);
-        let size = 6 * self.nodes.len();
+        let first_drum = 6 * self.nodes.len();
+        let size = first_drum + self.drums.len();
         let gradients = shape.points.each_ref().map(Point::gradient);
         let mut by_length = [0.0; MOST];
         let mut by_rate = [0.0; MOST];
@@ -302,6 +361,9 @@ impl Element for Rope {
                     add_block(&mut out.stiffness, size, (6 * row, 6 * column), &block);
                 }
             }
+        }
+        for (k, [radius, _]) in self.pays_out.iter().enumerate() {
+            by_length[first_drum + k] = -radius;
         }
         for i in 0..size {
             for j in 0..size {

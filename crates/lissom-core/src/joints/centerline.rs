@@ -22,7 +22,7 @@ pub(crate) struct Centerline {
     knots: Vec<f64>,
 }
 
-/// Weights of nodes at a place, and their first and second derivatives by the arc length.
+/// Weights of nodes at a place, and their first three derivatives by the arc length.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Support {
     /// The first of the nodes.
@@ -30,7 +30,7 @@ pub(crate) struct Support {
     /// How many there are.
     pub(crate) count: usize,
     /// By derivative, then by node.
-    pub(crate) weights: [[f64; SUPPORT]; 3],
+    pub(crate) weights: [[f64; SUPPORT]; 4],
 }
 
 impl Support {
@@ -94,13 +94,15 @@ impl Centerline {
         let blend = match (left, right) {
             (true, true) => {
                 let slope = 6.0 * u * (1.0 - u) / length;
-                [u * u * (3.0 - 2.0 * u), slope, (6.0 - 12.0 * u) / (length * length)]
+                let bend = (6.0 - 12.0 * u) / (length * length);
+                [u * u * (3.0 - 2.0 * u), slope, bend, -12.0 / length.powi(3)]
             }
-            (true, false) => [0.0; 3],
-            _ => [1.0, 0.0, 0.0],
+            (true, false) => [0.0; 4],
+            _ => [1.0, 0.0, 0.0, 0.0],
         };
-        for (middle, share) in [(interval, [1.0 - blend[0], -blend[1], -blend[2]]), (interval + 1, blend)] {
-            if share == [0.0; 3] || middle == 0 || middle == last {
+        let rest = [1.0 - blend[0], -blend[1], -blend[2], -blend[3]];
+        for (middle, share) in [(interval, rest), (interval + 1, blend)] {
+            if share == [0.0; 4] || middle == 0 || middle == last {
                 continue;
             }
             for (k, [w, d, dd]) in self.parabola(middle, s).into_iter().enumerate() {
@@ -108,6 +110,7 @@ impl Centerline {
                 support.weights[0][own] += share[0] * w;
                 support.weights[1][own] += share[1] * w + share[0] * d;
                 support.weights[2][own] += share[2] * w + 2.0 * share[1] * d + share[0] * dd;
+                support.weights[3][own] += share[3] * w + 3.0 * (share[2] * d + share[1] * dd);
             }
         }
         support
@@ -123,15 +126,20 @@ impl Centerline {
         })
     }
 
-    /// x(from + change) - x(from) of unchanged places, without cancellation: the integral of x' over each interval, which is
-    /// of the fourth degree.
-    pub(crate) fn change(&self, from: f64, change: f64, place: impl Fn(usize) -> Vector3) -> Vector3 {
+    /// x(from + change) - x(from) of unchanged places, or the same of a `derivative` of x, without cancellation: the integral of the
+    /// next one over each interval, which is of the fourth degree at most.
+    pub(crate) fn change(
+        &self,
+        derivative: usize,
+        (from, change): (f64, f64),
+        place: impl Fn(usize) -> Vector3,
+    ) -> Vector3 {
         const OFFSET: f64 = 0.774_596_669_241_483_4;
         let over = |interval: usize, begin: f64, width: f64| {
             let mean = [-OFFSET, 0.0, OFFSET].into_iter().zip([5.0, 8.0, 5.0]).map(|(x, weight)| {
                 let support = self.within(interval, begin + 0.5 * (1.0 + x) * width);
                 let origin = place(support.first);
-                weight / 18.0 * support.sum(1, |node| place(node) - origin)
+                weight / 18.0 * support.sum(derivative + 1, |node| place(node) - origin)
             });
             width * mean.sum::<Vector3>()
         };
@@ -227,7 +235,7 @@ mod tests {
         }
         for s in [-0.1, 0.1, 0.31, 0.69, 1.0, 1.3, 1.6] {
             let step = 1e-4;
-            for derivative in 0..2 {
+            for derivative in 0..3 {
                 let [a, b] = [s - step, s + step].map(|at| line.at(at).sum(derivative, place));
                 let exact = line.at(s).sum(derivative + 1, place);
                 assert!(((b - a) / (2.0 * step) - exact).norm() < 1e-5, "{s} {derivative}");
@@ -240,9 +248,11 @@ mod tests {
         let line = line();
         for (from, change) in [(0.1, 0.05), (0.1, 1.3), (1.45, -1.4), (0.3, 0.4), (-0.1, 1.8)] {
             let wanted = line.at(from + change).sum(0, place) - line.at(from).sum(0, place);
-            assert!((line.change(from, change, place) - wanted).norm() < 1e-14, "{from} {change}");
+            assert!((line.change(0, (from, change), place) - wanted).norm() < 1e-14, "{from} {change}");
+            let wanted = line.at(from + change).sum(1, place) - line.at(from).sum(1, place);
+            assert!((line.change(1, (from, change), place) - wanted).norm() < 1e-13, "{from} {change}");
         }
-        let tiny = line.change(0.5, 1e-9, place);
+        let tiny = line.change(0, (0.5, 1e-9), place);
         let tangent = line.at(0.5).sum(1, place);
         assert!((tiny / 1e-9 - tangent).norm() < 1e-8);
     }

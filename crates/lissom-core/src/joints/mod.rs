@@ -4,6 +4,7 @@
 //! its tip node, and its own algebraic coordinates. It knows no step size, no scheme, no scaling, and
 //! not even where it is. `attached` turns its answers into rows of the system.
 
+pub(crate) mod alignment;
 pub mod attached;
 pub(crate) mod base_axes;
 pub mod blocks;

@@ -9,13 +9,16 @@
 //! ```
 //!
 //! The beam takes the force at its point x(s), without moments on sections: Σ w_k = 1 and Σ w_k x_k = x(s) leave momentum and
-//! angular momentum what they were. The row of s says that the force stands across the line.
+//! angular momentum what they were. The row of s says that the force stands across the line. Equations of a tip that turns with the
+//! line or with the sections are those of `alignment`.
 
 use lissom_motion::{Matrix3, Vector3, Vector6, skew};
 
+use super::alignment::{Aligned, Alignment};
 use super::attached::Increments;
 use super::centerline::{Centerline, SUPPORT, Support};
-use super::{Build, JointKind};
+use super::{Build, JointKind, Quantity};
+use crate::registry::{Parameter, ParameterType};
 use crate::system::{CoordinateId, Kinematics, NodeId, NodeMotion};
 
 /// Registry entry.
@@ -23,14 +26,22 @@ pub const KIND: JointKind = JointKind {
     name: "slider",
     summary: "A point of the tip slides along a flexible beam or a chain of beams, past the borders of elements.",
     sample: "",
-    parameters: &[],
+    parameters: &[Parameter::optional(
+        "orientation",
+        ParameterType::Choice(&["free", "tangent", "section"]),
+        "",
+        "What the tip turns with: nothing, \"free\" (default); the line's \"tangent\", about which it turns freely; or the beam's \
+         \"section\", as a spline.",
+    )],
     build: Build::AlongBeams,
 };
 
-/// Equations of a slider.
-pub(crate) const EQUATIONS: usize = 3;
+/// Equations that hold the point on the line.
+pub(crate) const ON_LINE: usize = 3;
+/// Most equations of a slider, those of directions included.
+pub(crate) const MOST_EQUATIONS: usize = 6;
 /// The tip among the local nodes.
-const TIP: usize = SUPPORT;
+pub(crate) const TIP: usize = SUPPORT;
 /// The coordinate's local unknown.
 pub(crate) const OWN: usize = 6 * (SUPPORT + 1);
 /// Local unknowns: four nodes of the beam, the tip, the coordinate.
@@ -59,11 +70,22 @@ impl CarriedPoint {
     }
 
     /// Its change of place since the start of a step, without cancellation [m].
-    fn shift(&self, increments: &Increments<'_>) -> Vector3 {
+    pub(super) fn shift(&self, increments: &Increments<'_>) -> Vector3 {
         let change = &increments.nodes[self.node];
         let local = change.shift + change.turn * self.point;
         self.motion(increments.start).frame.rotation.apply(&local)
     }
+}
+
+/// What the tip of a slider turns with.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Orientation {
+    /// Nothing.
+    Free,
+    /// The tangent, about which it turns freely.
+    Tangent,
+    /// The sections, of which each node carries this axis, in its own axes; it is across the line.
+    Section(Vec<Vector3>),
 }
 
 /// A slider with its place in the system.
@@ -78,7 +100,9 @@ pub struct Slider {
     pub tip: CarriedPoint,
     /// Arc length of the undeformed beams up to the point [m].
     pub coordinate: CoordinateId,
-    /// Its first multiplier among all; there are three, the force on the beam in inertial axes [N].
+    /// Directions of the tip that stay across the line or an axis of the sections.
+    pub(crate) alignments: Vec<Alignment>,
+    /// Its first multiplier among all; there are three, the force on the beam in inertial axes [N], and one for each direction.
     pub first_multiplier: usize,
     /// By interval between nodes: local row, local column and position in the tangent's pattern of every entry that is there;
     /// multipliers follow the local unknowns.
@@ -89,10 +113,41 @@ pub struct Slider {
 pub(crate) struct Place {
     /// Between which nodes.
     pub(crate) interval: usize,
-    support: Support,
+    pub(super) support: Support,
+}
+
+impl Place {
+    /// Local nodes of the beam, each with its weight in a derivative by s.
+    pub(super) fn weights(&self, derivative: usize) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let Support { count, weights, .. } = self.support;
+        (0..count).map(move |k| (k, weights[derivative][k]))
+    }
 }
 
 impl Slider {
+    /// How many equations it has.
+    pub fn equations(&self) -> usize {
+        ON_LINE + self.alignments.len()
+    }
+
+    /// What an equation measures.
+    pub(crate) fn quantity(equation: usize) -> Quantity {
+        if equation < ON_LINE { Quantity::Length } else { Quantity::Angle }
+    }
+
+    fn aligned(&self) -> impl Iterator<Item = (usize, Aligned<'_>)> {
+        let all =
+            self.alignments.iter().map(|alignment| Aligned { alignment, nodes: &self.nodes, tip: &self.tip });
+        (ON_LINE..).zip(all)
+    }
+
+    /// Force and moment on the tip's point for given multipliers, in inertial axes [N, N m].
+    pub fn reaction(&self, at: &Kinematics, multipliers: &[f64]) -> [Vector3; 2] {
+        let place = self.place(at);
+        let moments = self.aligned().map(|(e, own)| -own.moment(&place, at, multipliers[e]));
+        [-Vector3::from_column_slice(&multipliers[..ON_LINE]), moments.sum()]
+    }
+
     /// Length of the undeformed beams [m].
     pub fn length(&self) -> f64 {
         self.line.length()
@@ -110,8 +165,7 @@ impl Slider {
 
     /// Local nodes of the beam, each with the factor of its place in a derivative of c by s.
     fn on_beam(place: &Place, derivative: usize) -> impl Iterator<Item = (usize, f64)> {
-        let Support { count, weights, .. } = place.support;
-        (0..count).map(move |k| (k, -weights[derivative][k]))
+        place.weights(derivative).map(|(k, weight)| (k, -weight))
     }
 
     /// The same for c itself, and the tip.
@@ -129,18 +183,30 @@ impl Slider {
         })
     }
 
-    /// Violation, evaluated outright [m].
-    pub fn violation(&self, at: &Kinematics) -> Vector3 {
-        self.tip.place(at) - self.along(&self.place(at), 0, at)
+    /// Violations, evaluated outright [m, rad]; those that it does not have are zero.
+    pub fn violation(&self, at: &Kinematics) -> Vector6 {
+        let place = self.place(at);
+        let beside = self.tip.place(at) - self.along(&place, 0, at);
+        let mut violation = filled(&beside);
+        self.aligned().for_each(|(e, own)| violation[e] = own.violation(&place, at));
+        violation
     }
 
-    /// Change of the violation since the start of the step, without cancellation [m].
-    pub(crate) fn violation_change(&self, increments: &Increments<'_>) -> Vector3 {
+    /// Change of the violations since the start of the step, without cancellation [m, rad].
+    pub(crate) fn violation_change(&self, increments: &Increments<'_>) -> Vector6 {
         let start = increments.start.coordinates[self.coordinate].value;
         let change = increments.coordinates[self.coordinate];
-        let moved = self.line.at(start + change).sum(0, |node| self.nodes[node].shift(increments));
-        let slid = self.line.change(start, change, |node| self.nodes[node].place(increments.start));
-        self.tip.shift(increments) - moved - slid
+        let (s, slide) = (start + change, (start, change));
+        let after = Place { interval: self.line.interval(s), support: self.line.at(s) };
+        let moved = after.support.sum(0, |node| self.nodes[node].shift(increments));
+        let slid = self.line.change(0, slide, |node| self.nodes[node].place(increments.start));
+        let mut violation = filled(&(self.tip.shift(increments) - moved - slid));
+        for (e, own) in self.aligned() {
+            let slid =
+                |derivative: usize, of: &dyn Fn(usize) -> Vector3| self.line.change(derivative, slide, of);
+            violation[e] = own.violation_change(&after, slid, increments);
+        }
+        violation
     }
 
     /// A derivative of x(s) by s.
@@ -149,13 +215,13 @@ impl Slider {
     }
 
     /// B by equation.
-    pub(crate) fn gradient(&self, place: &Place, at: &Kinematics) -> [Row; EQUATIONS] {
-        let mut rows = [[0.0; LOCAL]; EQUATIONS];
+    pub(crate) fn gradient(&self, place: &Place, at: &Kinematics) -> [Row; MOST_EQUATIONS] {
+        let mut rows = [[0.0; LOCAL]; MOST_EQUATIONS];
         for (k, factor) in Self::all(place) {
             let own = self.carried(place, k);
             let axes = own.motion(at).frame.rotation.matrix();
             let turning = -axes * skew(&own.point);
-            for (e, row) in rows.iter_mut().enumerate() {
+            for (e, row) in rows.iter_mut().take(ON_LINE).enumerate() {
                 for i in 0..3 {
                     row[6 * k + i] = factor * axes[(e, i)];
                     row[6 * k + 3 + i] = factor * turning[(e, i)];
@@ -166,12 +232,14 @@ impl Slider {
         for (row, slope) in rows.iter_mut().zip(tangent.iter()) {
             row[OWN] = -slope;
         }
+        self.aligned().for_each(|(e, own)| rows[e] = own.gradient(place, at));
         rows
     }
 
     /// Derivatives of Bᵀ μ at constant multipliers, by row and column of the local unknowns.
-    pub(crate) fn curvature(&self, place: &Place, at: &Kinematics, mu: &Vector3) -> [Row; LOCAL] {
+    pub(crate) fn curvature(&self, place: &Place, at: &Kinematics, multipliers: &Vector6) -> [Row; LOCAL] {
         let mut out = [[0.0; LOCAL]; LOCAL];
+        let mu = &multipliers.fixed_rows::<ON_LINE>(0).into_owned();
         let local_force = |k: usize| {
             let own = self.carried(place, k);
             (own.motion(at).frame.rotation.apply_inverse(mu), own.point)
@@ -199,6 +267,7 @@ impl Slider {
             }
         }
         out[OWN][OWN] = -self.along(place, 2, at).dot(mu);
+        self.aligned().for_each(|(e, own)| own.add_curvature(place, at, multipliers[e], &mut out));
         out
     }
 
@@ -218,10 +287,10 @@ impl Slider {
     pub fn coordinate_acceleration(&self, at: &Kinematics) -> f64 {
         let place = self.place(at);
         let gradient = self.gradient(&place, at);
-        let mut missing = self.acceleration(at);
+        let mut missing = self.acceleration(at).fixed_rows::<ON_LINE>(0).into_owned();
         for (k, _) in Self::all(&place) {
             let acceleration = self.carried(&place, k).motion(at).acceleration;
-            for (e, row) in gradient.iter().enumerate() {
+            for (e, row) in gradient.iter().take(ON_LINE).enumerate() {
                 missing[e] += (0..6).map(|i| row[6 * k + i] * acceleration[i]).sum::<f64>();
             }
         }
@@ -229,8 +298,8 @@ impl Slider {
         tangent.dot(&missing) / tangent.norm_squared()
     }
 
-    /// What c̈ holds besides B v̇ [m/s²].
-    pub(crate) fn acceleration(&self, at: &Kinematics) -> Vector3 {
+    /// What c̈ holds besides B v̇ [m/s², rad/s²].
+    pub(crate) fn acceleration(&self, at: &Kinematics) -> Vector6 {
         let place = self.place(at);
         let rate = at.coordinates[self.coordinate].rate;
         let mut sum = -rate * rate * self.along(&place, 2, at);
@@ -243,6 +312,15 @@ impl Slider {
             let own = self.carried(&place, k);
             sum += 2.0 * rate * factor * own.motion(at).velocity_at(&own.point);
         }
-        sum
+        let mut out = filled(&sum);
+        self.aligned().for_each(|(e, own)| out[e] = own.acceleration(&place, at, rate));
+        out
     }
+}
+
+/// Numbers by equation, of which the first are known.
+fn filled(on_line: &Vector3) -> Vector6 {
+    let mut all = Vector6::zeros();
+    all.fixed_rows_mut::<ON_LINE>(0).copy_from(on_line);
+    all
 }

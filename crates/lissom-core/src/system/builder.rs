@@ -332,6 +332,11 @@ impl Builder {
         &self.coordinates[coordinate].name
     }
 
+    /// Value of a coordinate at the start [m or rad].
+    pub(crate) fn coordinate_start(&self, coordinate: CoordinateId) -> f64 {
+        self.coordinates[coordinate].value
+    }
+
     /// What a coordinate measures.
     pub fn coordinate_quantity(&self, coordinate: CoordinateId) -> Quantity {
         self.coordinates[coordinate].quantity
@@ -535,7 +540,7 @@ impl Builder {
             let mut hosts: Vec<usize> = nodes.chain([first_coordinate + slider.coordinate]).collect();
             hosts.sort_unstable();
             hosts.dedup();
-            groups.push(Group { unknowns: (first..first + 3).collect(), hosts });
+            groups.push(Group { unknowns: (first..first + slider.equations()).collect(), hosts });
         }
         groups
     }

@@ -319,8 +319,8 @@ impl System {
             out[coupling.multiplier] = coupling.violation(at);
         }
         for slider in &self.sliders {
-            let first = slider.first_multiplier;
-            out[first..first + 3].copy_from_slice(slider.violation(at).as_slice());
+            let (first, count) = (slider.first_multiplier, slider.equations());
+            out[first..first + count].copy_from_slice(&slider.violation(at).as_slice()[..count]);
         }
     }
 }

@@ -1,15 +1,14 @@
 //! Sliders along beams in the equations of the whole system: forces, violations and derivatives.
 
-use lissom_motion::Vector3;
+use lissom_motion::Vector6;
 
-use super::assembly::Point;
+use super::assembly::{Augmentation, Point};
 use super::batch::Chart;
 use super::layout::{LOCKED, Layout};
 use super::receiver::Receiver;
 use super::{Kinematics, StepPoint, System};
 use crate::elements::step_stages::STAGES;
-use crate::joints::Quantity;
-use crate::joints::slider::{EQUATIONS, LOCAL, OWN, Row, Slider};
+use crate::joints::slider::{LOCAL, MOST_EQUATIONS, OWN, Row, Slider};
 
 impl System {
     /// All sliders along beams.
@@ -21,8 +20,7 @@ impl System {
     pub(super) fn add_sliders(&self, point: &Point<'_>, out: &mut [f64]) {
         for slider in &self.sliders {
             let violation = violation(slider, point);
-            let weight = point.augmentation.weight * point.augmentation.relative(Quantity::Length);
-            let mu = multipliers(slider, point.multipliers) + weight * violation;
+            let mu = multipliers(slider, point.multipliers) + weighted(&point.augmentation, &violation);
             let place = slider.place(point.at);
             let gradient = slider.gradient(&place, point.at);
             self.add_slider_forces(slider, (place.interval, &gradient), &mu, out);
@@ -30,21 +28,22 @@ impl System {
         }
     }
 
-    fn set_slider_violation(&self, slider: &Slider, violation: &Vector3, out: &mut [f64]) {
+    fn set_slider_violation(&self, slider: &Slider, violation: &Vector6, out: &mut [f64]) {
         let first = self.layout.coordinate_count() + slider.first_multiplier;
-        out[first..first + EQUATIONS].copy_from_slice(violation.as_slice());
+        let count = slider.equations();
+        out[first..first + count].copy_from_slice(&violation.as_slice()[..count]);
     }
 
     fn add_slider_forces(
         &self,
         slider: &Slider,
-        (interval, gradient): (usize, &[Row; EQUATIONS]),
-        mu: &Vector3,
+        (interval, gradient): (usize, &[Row; MOST_EQUATIONS]),
+        mu: &Vector6,
         out: &mut [f64],
     ) {
         for (local, row) in rows_of_slider(slider, interval, &self.layout) {
             if local < LOCAL {
-                out[row] += (0..EQUATIONS).map(|e| gradient[e][local] * mu[e]).sum::<f64>();
+                out[row] += (0..slider.equations()).map(|e| gradient[e][local] * mu[e]).sum::<f64>();
             }
         }
     }
@@ -52,14 +51,15 @@ impl System {
     /// Violations of all sliders at `point`, by multiplier.
     pub(super) fn slider_violations(&self, point: &Point<'_>, out: &mut [f64]) {
         for slider in &self.sliders {
-            let first = slider.first_multiplier;
-            out[first..first + EQUATIONS].copy_from_slice(violation(slider, point).as_slice());
+            let (first, count) = (slider.first_multiplier, slider.equations());
+            out[first..first + count].copy_from_slice(&violation(slider, point).as_slice()[..count]);
         }
     }
 
     /// Hands the derivatives of all sliders to `out`.
     pub(super) fn linearize_sliders(&self, point: &Point<'_>, chart: Chart<'_>, out: &mut Receiver<'_>) {
-        let weight = point.augmentation.relative(Quantity::Length);
+        let weights: [f64; MOST_EQUATIONS] =
+            std::array::from_fn(|e| point.augmentation.relative(Slider::quantity(e)));
         for slider in &self.sliders {
             let place = slider.place(point.at);
             let plain = slider.gradient(&place, point.at);
@@ -77,8 +77,9 @@ impl System {
             for &(i, j, position) in &slider.entries[place.interval] {
                 let parts = match (i.checked_sub(LOCAL), j.checked_sub(LOCAL)) {
                     (None, None) => {
-                        let gram: f64 = (0..EQUATIONS).map(|e| plain[e][i] * charted[e][j]).sum();
-                        [stiffness[i][j], weight * gram, 0.0]
+                        let gram =
+                            (0..slider.equations()).map(|e| weights[e] * plain[e][i] * charted[e][j]).sum();
+                        [stiffness[i][j], gram, 0.0]
                     }
                     (None, Some(e)) => [0.0, 0.0, plain[e][i]],
                     (Some(e), None) => [0.0, 0.0, charted[e][j]],
@@ -97,18 +98,18 @@ impl System {
         for slider in &self.sliders {
             let places = step.stages.map(|at| slider.place(at));
             let gradients = [0, 1].map(|j| slider.gradient(&places[j], step.stages[j]));
-            let rates: [Vector3; STAGES] = [0, 1].map(|j: usize| {
+            let rates: [Vector6; STAGES] = [0, 1].map(|j: usize| {
                 let speeds = slider.speeds(&places[j], step.stages[j]);
-                Vector3::from_fn(|e, _| (0..LOCAL).map(|k| gradients[j][e][k] * speeds[k]).sum())
+                Vector6::from_fn(|e, _| (0..LOCAL).map(|k| gradients[j][e][k] * speeds[k]).sum())
             });
             let missed = slider.violation_change(&point.increments[STAGES]) - step.whole(rates);
             let whole: f64 = step.lasting.iter().sum();
             let before = multipliers(slider, point.violations);
             let behind = (missed + before) / whole;
-            let violations = step.at_stages(Vector3::zeros(), rates.map(|rate| rate + behind));
-            let weight = point.augmentation.weight * point.augmentation.relative(Quantity::Length);
+            let violations = step.at_stages(Vector6::zeros(), rates.map(|rate| rate + behind));
             for j in 0..STAGES {
-                let mu = multipliers(slider, point.multipliers[j]) + weight * violations[j];
+                let added = weighted(&point.augmentation, &violations[j]);
+                let mu = multipliers(slider, point.multipliers[j]) + added;
                 self.add_slider_forces(slider, (places[j].interval, &gradients[j]), &mu, &mut out[j]);
                 self.set_slider_violation(slider, &violations[j], &mut out[j]);
             }
@@ -127,7 +128,7 @@ impl System {
 
 /// Local place and row of the unknowns of a slider in an interval, and of its multipliers, that are there.
 pub(crate) fn rows_of_slider(slider: &Slider, interval: usize, layout: &Layout) -> Vec<(usize, usize)> {
-    let mut rows = Vec::with_capacity(LOCAL + EQUATIONS);
+    let mut rows = Vec::with_capacity(LOCAL + slider.equations());
     for (k, node) in slider.nodes_of(interval).into_iter().enumerate() {
         let Some(node) = node else { continue };
         let own = layout.rows_of_node(node).iter().enumerate().filter(|&(_, &row)| row != LOCKED);
@@ -135,16 +136,21 @@ pub(crate) fn rows_of_slider(slider: &Slider, interval: usize, layout: &Layout) 
     }
     rows.push((OWN, layout.row_of_coordinate(slider.coordinate)));
     let first = layout.coordinate_count() + slider.first_multiplier;
-    rows.extend((0..EQUATIONS).map(|e| (LOCAL + e, first + e)));
+    rows.extend((0..slider.equations()).map(|e| (LOCAL + e, first + e)));
     rows
 }
 
-/// A slider's own of numbers by multiplier.
-fn multipliers(slider: &Slider, all: &[f64]) -> Vector3 {
-    let first = slider.first_multiplier;
-    Vector3::new(all[first], all[first + 1], all[first + 2])
+/// A slider's own of numbers by multiplier; those that it does not have are zero.
+fn multipliers(slider: &Slider, all: &[f64]) -> Vector6 {
+    let own = &all[slider.first_multiplier..][..slider.equations()];
+    Vector6::from_fn(|e, _| own.get(e).copied().unwrap_or(0.0))
 }
 
-fn violation(slider: &Slider, point: &Point<'_>) -> Vector3 {
+/// What the augmented Lagrangian term adds to multipliers.
+fn weighted(augmentation: &Augmentation, violation: &Vector6) -> Vector6 {
+    Vector6::from_fn(|e, _| augmentation.weight * augmentation.relative(Slider::quantity(e)) * violation[e])
+}
+
+fn violation(slider: &Slider, point: &Point<'_>) -> Vector6 {
     multipliers(slider, point.violations) + slider.violation_change(&point.increments)
 }

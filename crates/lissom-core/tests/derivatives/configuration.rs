@@ -310,7 +310,7 @@ pub(crate) fn free(layout: &Layout, node: usize) -> [bool; 6] {
 
 /// Sixth-order central difference of a vector function of one number, at 0.
 pub(crate) fn difference(function: impl Fn(f64) -> Vec<f64>) -> Vec<f64> {
-    let width = 2e-2;
+    let width = 1e-2;
     let weights = [(1.0, 0.75), (2.0, -0.15), (3.0, 1.0 / 60.0)];
     let mut sum: Vec<f64> = Vec::new();
     for (steps, weight) in weights {

@@ -101,7 +101,8 @@ fn sizes_that_are_signals() {
                 Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
                 Attachment::Places => {
                     let order = [nodes[0], nodes[1], builder.ground(), nodes[1], nodes[0]];
-                    Attached::Places(order.map(|node| (node, random.vector())).to_vec())
+                    let drums = two_coordinates(&mut builder);
+                    Attached::Places(order.map(|node| (node, random.vector())).to_vec(), drums)
                 }
                 Attachment::Coordinates => Attached::Coordinates(two_coordinates(&mut builder)),
                 Attachment::Coordinate(_) => Attached::Coordinate(own),
@@ -131,7 +132,8 @@ fn loads_are_in_proportion_to_their_size() {
                 Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
                 Attachment::Places => {
                     let order = [nodes[0], nodes[1], builder.ground(), nodes[1], nodes[0]];
-                    Attached::Places(order.map(|node| (node, random.vector())).to_vec())
+                    let drums = two_coordinates(&mut builder);
+                    Attached::Places(order.map(|node| (node, random.vector())).to_vec(), drums)
                 }
                 Attachment::Coordinates => Attached::Coordinates(two_coordinates(&mut builder)),
                 Attachment::Coordinate(wanted) => {

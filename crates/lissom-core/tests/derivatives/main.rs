@@ -12,7 +12,7 @@ use configuration::{Configuration, Random, difference, sample_parameters};
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
 use lissom_core::joints::derivatives::IncrementTangent;
-use lissom_core::joints::slider::CarriedPoint;
+use lissom_core::joints::slider::{CarriedPoint, Orientation};
 use lissom_core::joints::{self, Build, JointKind, Quantity};
 use lissom_core::registry::{Parameters, Value};
 use lissom_core::system::{
@@ -102,7 +102,7 @@ fn two_bodies(random: &mut Random) -> (Builder, [usize; 2]) {
 }
 
 /// A slider along a line of four nodes that carry their points beside themselves.
-fn along_a_line(builder: &mut Builder, tip: usize, random: &mut Random) {
+fn along_a_line(builder: &mut Builder, tip: usize, turns_with: usize, random: &mut Random) {
     let places: [Vector3; 4] =
         std::array::from_fn(|k| Vector3::new(2.0 * k as f64, 0.0, 0.0) + 0.1 * random.vector());
     let nodes = places.map(|place| {
@@ -113,7 +113,15 @@ fn along_a_line(builder: &mut Builder, tip: usize, random: &mut Random) {
     // Half way between the middle nodes: away from nodes, where third derivatives jump.
     let on_line = (9.0 * (places[1] + places[2]) - places[0] - places[3]) / 16.0;
     let line = (nodes.to_vec(), vec![0.0, 2.0, 4.0, 6.0]);
-    builder.add_slider("slider", line, (tip, on_line)).expect("valid");
+    let orientation = match turns_with {
+        0 => Orientation::Free,
+        1 => Orientation::Tangent,
+        // Axes of a section about the line's: y, as far as nodes go.
+        _ => Orientation::Section(
+            nodes.map(|own| builder.initial_frame(own.node).rotation.apply_inverse(&Vector3::y())).to_vec(),
+        ),
+    };
+    builder.add_slider("slider", line, (tip, on_line), &orientation).expect("valid");
 }
 
 /// Two coordinates that no joint between nodes has.
@@ -146,7 +154,8 @@ fn springs_and_loads() {
                 Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
                 Attachment::Places => {
                     let order = [nodes[0], nodes[1], builder.ground(), nodes[1], nodes[0]];
-                    Attached::Places(order.map(|node| (node, random.vector())).to_vec())
+                    let drums = two_coordinates(&mut builder);
+                    Attached::Places(order.map(|node| (node, random.vector())).to_vec(), drums)
                 }
                 Attachment::Coordinates => Attached::Coordinates(two_coordinates(&mut builder)),
                 Attachment::Coordinate(wanted) => {
@@ -259,7 +268,7 @@ fn all_joints() {
                         .expect("valid");
                     builder.add_drive("drive", kind, coordinates[0], &parameters).expect("valid");
                 }
-                Build::AlongBeams => along_a_line(&mut builder, nodes[1], &mut random),
+                Build::AlongBeams => along_a_line(&mut builder, nodes[1], 0, &mut random),
                 Build::Free(_) => {
                     builder.add_free_coordinates("free", kind, &parameters).expect("valid");
                 }
@@ -274,6 +283,20 @@ fn all_joints() {
             }
             let (system, state) = builder.build(0.0).expect("valid");
             check(kind.name, &system, &state, size, &mut random);
+        }
+    }
+}
+
+#[test]
+fn sliders_whose_tips_turn_with_the_line() {
+    for turns_with in [1, 2] {
+        for size in [0.0, 0.1, 0.5] {
+            let mut random = Random::new(77 + turns_with as u64);
+            let mut builder = Builder::new();
+            let tip = builder.add_node("tip", random.motion(), Freedoms::Full);
+            along_a_line(&mut builder, tip, turns_with, &mut random);
+            let (system, state) = builder.build(0.0).expect("valid");
+            check("slider", &system, &state, size, &mut random);
         }
     }
 }
@@ -329,17 +352,18 @@ fn violation_changes_agree_with_violations() {
 /// Likewise of a slider that passes a node, and its second derivative along a motion.
 #[test]
 fn a_slider_carries_its_violation_past_nodes() {
-    for size in [0.02, 0.2, 3.0] {
+    for (size, turns_with) in [0.02, 0.2, 3.0].into_iter().flat_map(|size| [0, 1, 2].map(|own| (size, own))) {
+        let count = 3 + [0, 2, 3][turns_with];
         let mut random = Random::new(60);
         let mut builder = Builder::new();
         let tip = builder.add_node("tip", random.motion(), Freedoms::Full);
-        along_a_line(&mut builder, tip, &mut random);
+        along_a_line(&mut builder, tip, turns_with, &mut random);
         let (system, state) = builder.build(0.0).expect("valid");
-        let mut violations = vec![0.0; 3];
+        let mut violations = vec![0.0; count];
         system.violations(&state.kinematics, &mut violations);
         assert!(violations.iter().all(|value| value.abs() < 1e-14), "not satisfied at the start");
         let here = Configuration::random(&system, &state, size, &mut random);
-        let (mut carried, mut outright) = (vec![0.0; 3], vec![0.0; 3]);
+        let (mut carried, mut outright) = (vec![0.0; count], vec![0.0; count]);
         system.stage_violations(&here.point(0.0), &mut carried);
         system.violations(&here.at, &mut outright);
         for (a, b) in carried.iter().zip(&outright) {
@@ -348,7 +372,7 @@ fn a_slider_carries_its_violation_past_nodes() {
         if size > 1.0 {
             continue;
         }
-        let mut exact = vec![0.0; 3];
+        let mut exact = vec![0.0; count];
         system.constraint_accelerations(&here.at, &mut exact);
         let moved = |time: f64| {
             let mut at = here.at.clone();
@@ -356,7 +380,7 @@ fn a_slider_carries_its_violation_past_nodes() {
                 node.frame = node.frame * Motion::exponential(&(time * node.twist));
             }
             at.coordinates[0].value += time * at.coordinates[0].rate;
-            let mut out = vec![0.0; 3];
+            let mut out = vec![0.0; count];
             system.violations(&at, &mut out);
             out
         };

@@ -5,7 +5,7 @@ use lissom_motion::{Rotation, Vector3};
 
 use super::connections::Places;
 use super::decode::each_of_kind;
-use super::{Attachment, Component, NodeReference, assembly};
+use super::{Attachment, Component, CoordinateName, NodeReference, assembly};
 use crate::context::Context;
 use crate::keys::Shape;
 use crate::line::are_parallel;
@@ -160,7 +160,11 @@ fn attachment(
                 Some((on, place?))
             };
             let all: Vec<_> = list.iter().enumerate().map(read).collect();
-            Some(Attachment::Places(all.into_iter().collect::<Option<_>>()?))
+            let drums = match reader.node("drums") {
+                Some(node) => coordinates(reader, ("drums", node))?,
+                None => Vec::new(),
+            };
+            Some(Attachment::Places(all.into_iter().collect::<Option<_>>()?, drums))
         }
         ActsOn::JointCoordinate(_) => joint_coordinate(reader, name, registry),
         ActsOn::TwoJointCoordinates => {
@@ -168,7 +172,9 @@ fn attachment(
             Some(Attachment::JointCoordinates { joint: joint?, other: other? })
         }
         ActsOn::NamedCoordinates => Some(Attachment::NamedCoordinates),
-        ActsOn::Coordinates => coordinates(reader),
+        ActsOn::Coordinates => {
+            coordinates(reader, ("coordinates", reader.node("coordinates")?)).map(Attachment::Coordinates)
+        }
         ActsOn::AlongBeams => {
             let context = reader.context;
             let beams = names_of_beams(reader);
@@ -202,9 +208,9 @@ fn names_of_beams(reader: &Reader<'_, '_>) -> Option<Vec<Located<String>>> {
 }
 
 /// Joints, or coordinates of joints, by name.
-fn coordinates(reader: &Reader<'_, '_>) -> Option<Attachment> {
-    let (context, node) = (reader.context, reader.node("coordinates")?);
-    let what = reader.words("coordinates");
+fn coordinates(reader: &Reader<'_, '_>, (key, node): (&str, &Node)) -> Option<Vec<CoordinateName>> {
+    let context = reader.context;
+    let what = reader.words(key);
     let Value::List(list) = &node.value else {
         return context.wrong_type(node, &what, "a list of coordinates of joints");
     };
@@ -230,7 +236,7 @@ fn coordinates(reader: &Reader<'_, '_>) -> Option<Attachment> {
         );
     }
     let all: Vec<_> = list.iter().map(read).collect();
-    Some(Attachment::Coordinates(all.into_iter().collect::<Option<_>>()?))
+    all.into_iter().collect()
 }
 
 /// Where a node is. The ground has its place where the part is that names it.

@@ -198,7 +198,7 @@ fn free_parts(context: &Context<'_>, document: &Document) {
                 groups.join(&beam.value, part_of(&tip.value));
             }
         }
-        if let Attachment::Places(along) = &component.attachment {
+        if let Attachment::Places(along, _) = &component.attachment {
             for pair in along.windows(2) {
                 groups.join(part_of(&pair[0].0.value), part_of(&pair[1].0.value));
             }

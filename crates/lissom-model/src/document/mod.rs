@@ -366,6 +366,9 @@ pub enum NodeReference {
     },
 }
 
+/// A joint, with the word of one of its coordinates, or with all of them.
+pub type CoordinateName = (Located<String>, Option<String>);
+
 /// What a joint, spring or load is attached to.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Attachment {
@@ -400,8 +403,8 @@ pub enum Attachment {
         /// Location at the start [m]; the node's place by default.
         at: Vector3,
     },
-    /// Places one after the other: nodes, and locations on them at the start [m].
-    Places(Vec<(Located<NodeReference>, Vector3)>),
+    /// Places one after the other: nodes, and locations on them at the start [m]; then coordinates of joints, if any.
+    Places(Vec<(Located<NodeReference>, Vector3)>, Vec<CoordinateName>),
     /// The relative coordinate of a joint.
     JointCoordinate {
         /// Name of the joint.
@@ -417,7 +420,7 @@ pub enum Attachment {
     /// The relative coordinates that its expression names.
     NamedCoordinates,
     /// Joints, each with the word of one of its coordinates, or with all of them.
-    Coordinates(Vec<(Located<String>, Option<String>)>),
+    Coordinates(Vec<CoordinateName>),
     /// Beams one after the other, and what slides along them.
     AlongBeams {
         /// Names of the beams.

@@ -372,7 +372,15 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
             keys
         }
         ActsOn::Places => {
-            vec![required("along", Shape::Places, "m", "the places it leads over, from one end to the other")]
+            vec![
+                required("along", Shape::Places, "m", "the places it leads over, from one end to the other"),
+                optional(
+                    "drums",
+                    Shape::Coordinates,
+                    "",
+                    "coordinates of joints that pay it out, as \"drum.angle\"; a joint's name alone means all of its",
+                ),
+            ]
         }
         ActsOn::OneNode => vec![
             required("on", Shape::Node, "", "the node it acts on"),

@@ -12,7 +12,7 @@ use lissom_motion::Vector3;
 
 use super::order::by_name;
 use super::{Names, parameter_problem};
-use crate::document::{Attachment, Component, Document, NodeReference, OnTip};
+use crate::document::{Attachment, Component, CoordinateName, Document, NodeReference, OnTip};
 use crate::functions::Ramp;
 use crate::report::{Located, Problem};
 
@@ -127,7 +127,7 @@ fn joint(
             names.coordinates.insert(name.clone(), coordinates);
             return Ok(());
         }
-        Attachment::Places(_) | Attachment::Coordinates(_) => {
+        Attachment::Places(..) | Attachment::Coordinates(_) => {
             let message = format!("joint `{name}` joins two nodes, not places");
             return Err(Problem::error(component.name.span, message));
         }
@@ -236,7 +236,7 @@ pub(super) fn numbered(
 /// The coordinates that a list of joints and of coordinates of joints means.
 fn all_of(
     component: &Component,
-    listed: &[(Located<String>, Option<String>)],
+    listed: &[CoordinateName],
     builder: &Builder,
     names: &Names,
 ) -> Result<Vec<CoordinateId>, Problem> {
@@ -285,12 +285,13 @@ fn element(
             let node = names.node(on)?;
             Attached::OneNode(node, local(builder, node, at))
         }
-        Attachment::Places(along) => {
+        Attachment::Places(along, drums) => {
             let place = |(on, at): &(Located<NodeReference>, Vector3)| {
                 let node = names.node(on)?;
                 Ok((node, local(builder, node, at)))
             };
-            Attached::Places(along.iter().map(place).collect::<Result<_, Problem>>()?)
+            let places = along.iter().map(place).collect::<Result<_, Problem>>()?;
+            Attached::Places(places, all_of(component, drums, builder, names)?)
         }
         Attachment::TwoPlaces { base, tip, at_base, at_tip } => {
             let nodes = [names.node(base)?, names.node(tip)?];

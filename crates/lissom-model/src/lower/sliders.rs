@@ -1,6 +1,6 @@
 //! Sliders along beams: the nodes of the beams in their order, with arc lengths.
 
-use lissom_core::joints::slider::CarriedPoint;
+use lissom_core::joints::slider::{CarriedPoint, Orientation};
 use lissom_core::system::Builder;
 use lissom_motion::Vector3;
 
@@ -24,6 +24,10 @@ pub(super) fn add(
             .help("place its tip on the beam, and leave out [assembly]"));
     }
     let (mut nodes, mut knots, mut last): (Vec<CarriedPoint>, Vec<f64>, Option<&Beam>) = Default::default();
+    // Axis 2 of the section at each node, in its axes.
+    let mut sections: Vec<Vector3> = Vec::new();
+    let orientation =
+        component.parameters.word("orientation").map_err(|error| parameter_problem(component, &error))?;
     for reference in beams {
         let (Some(beam), Some(line)) = (document.beam(&reference.value), names.lines.get(&reference.value))
         else {
@@ -36,6 +40,12 @@ pub(super) fn add(
         let mut own: Vec<CarriedPoint> =
             points.map(|(&node, offset)| CarriedPoint { node, point: offset.position }).collect();
         let from = knots.last().copied().unwrap_or(0.0);
+        let mut axes: Vec<Vector3> = (line.nodes.iter().zip(&line.places))
+            .map(|(&node, &place)| {
+                let axis = beam.frame(place).column(1).into_owned();
+                builder.initial_frame(node).rotation.apply_inverse(&axis)
+            })
+            .collect();
         let mut lengths: Vec<f64> =
             arc_lengths(beam, &line.places).into_iter().map(|own| from + own).collect();
         if let (Some(before), Some(end)) = (last, nodes.last()) {
@@ -57,16 +67,31 @@ pub(super) fn add(
                 return Err(Problem::error(reference.span, message)
                     .help("round the corner with a curved beam between them"));
             }
+            let [one, other] = [before.frame(1.0), beam.frame(0.0)].map(|own| own.column(1).into_owned());
+            if orientation == Some("section") && one.dot(&other) < SMOOTH {
+                let message = format!(
+                    "the sections of beams `{}` and `{}` are turned against each other where they meet",
+                    before.name.value, reference.value
+                );
+                return Err(Problem::error(reference.span, message).help("give both the same `up` there"));
+            }
             own.remove(0);
             lengths.remove(0);
+            axes.remove(0);
         }
+        sections.extend(axes);
         nodes.extend(own);
         knots.extend(lengths);
         last = Some(beam);
     }
     let tip = names.node(tip)?;
+    let orientation = match orientation {
+        Some("tangent") => Orientation::Tangent,
+        Some("section") => Orientation::Section(sections),
+        _ => Orientation::Free,
+    };
     let coordinate = builder
-        .add_slider(name, (nodes, knots), (tip, *at))
+        .add_slider(name, (nodes, knots), (tip, *at), &orientation)
         .map_err(|error| parameter_problem(component, &error))?;
     names.coordinates.insert(name.clone(), vec![coordinate]);
     Ok(())

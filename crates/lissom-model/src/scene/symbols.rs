@@ -91,7 +91,14 @@ fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Opti
                 given("tip_axis").or_else(|| given("wheel_axis")).or_else(|| given("axle")).unwrap_or(first);
             let at_tip = match component.kind.value.as_str() {
                 // The arm leads from the hinge to the tip's own place, and a wheel's centre lies there.
-                "swing_arm" | "rolling" | "wheel_on_rail" => places.frame(places.node(&tip.value)?).position,
+                "swing_arm" | "rolling" => places.frame(places.node(&tip.value)?).position,
+                // A wheel of a wheelset is beside the tip's place, outwards along the axle.
+                "wheel_on_rail" => {
+                    let centre = places.frame(places.node(&tip.value)?).position;
+                    let outwards = on_tip.normalize() * on_tip.dot(&first).signum();
+                    let above = (at - centre).dot(&outwards);
+                    centre + component.parameters.number_or("offset", above).ok()? * outwards
+                }
                 _ => *at,
             };
             Some(vec![end(base, at, &first, second.as_ref())?, end(tip, &at_tip, &on_tip, second.as_ref())?])
@@ -107,7 +114,9 @@ fn ends(component: &Component, document: &Document, places: &Places<'_>) -> Opti
         Attachment::OneNode { on, at } => {
             Some(vec![end(on, at, &given("axis").unwrap_or_else(Vector3::z), None)?])
         }
-        Attachment::Places(along) => along.iter().map(|(on, at)| end(on, at, &Vector3::z(), None)).collect(),
+        Attachment::Places(along, _) => {
+            along.iter().map(|(on, at)| end(on, at, &Vector3::z(), None)).collect()
+        }
         Attachment::JointCoordinate { joint } => Some(vec![of_joint(&joint.value, document, places)?]),
         Attachment::JointCoordinates { joint, other } => {
             let of = |name: &Located<String>| of_joint(&name.value, document, places);
@@ -185,4 +194,25 @@ pub(super) fn attached(
     };
     let names = [base, tip].map(|end| part_of(&end.value).to_owned());
     Some((names.into(), Some([places.anchor(base, &at_base)?, places.anchor(tip, &at_tip)?])))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Scene;
+    use super::*;
+    use crate::lower::lower;
+    use crate::lower::registry::registry;
+
+    /// Both wheels have the offset 0.1506 m, to both sides.
+    #[test]
+    fn wheels_on_rails_stand_at_their_offset() {
+        let text = include_str!("../../../../examples/wheelset.toml");
+        let document = Document::parse(text, "wheelset.toml", &registry()).expect("it is right");
+        let scene = Scene::of(&document, &lower(&document).expect("it is right"));
+        for (joint, offset) in [("left", 0.1506), ("right", -0.1506)] {
+            let mut wheels = scene.symbols.iter().filter(|own| own.name == joint && own.anchor.node != 0);
+            let place = wheels.next().expect("there is a wheel").anchor.position;
+            assert!((place[0] - offset).abs() < 1e-9 && place[1].abs() + place[2].abs() < 1e-9, "{place:?}");
+        }
+    }
 }

@@ -205,7 +205,7 @@ fn place(acts_on: ActsOn) -> (&'static str, &'static str) {
         }
         ActsOn::TwoPlaces => ("base, tip, at_base, at_tip (default: the nodes' places)", PLACES),
         ActsOn::Places => (
-            "along: the places it leads over, each with `on` and `at`",
+            "along: the places it leads over, each with `on` and `at`; drums: coordinates that pay it out",
             "along = [{ on = \"ground\", at = [0.0, 0.0, 3.0] }, { on = \"my_body\" }]",
         ),
         ActsOn::OneNode => ("on, at (default: the node's place)", "on = \"my_body\""),

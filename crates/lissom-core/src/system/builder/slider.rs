@@ -5,9 +5,11 @@ use lissom_solver::Pattern;
 
 use super::{Builder, Coordinate};
 use crate::joints::Quantity;
-use crate::joints::centerline::Centerline;
-use crate::joints::slider::{CarriedPoint, LOCAL, Slider};
+use crate::joints::alignment::{Across, Alignment};
+use crate::joints::centerline::{Centerline, Support};
+use crate::joints::slider::{CarriedPoint, LOCAL, Orientation, Slider};
 use crate::registry::ParameterError;
+use crate::system::Freedoms;
 use crate::system::layout::Layout;
 use crate::system::places::position_of;
 use crate::system::sliders::rows_of_slider;
@@ -19,15 +21,16 @@ const BESIDE: f64 = 1e-4;
 
 impl Builder {
     /// Adds a slider: a point of the node `tip` that is at `place` at the start slides along the line through `nodes`, which
-    /// are at the arc lengths `knots` [m]. Gives its coordinate, the arc length.
+    /// are at the arc lengths `knots` [m]. Gives its coordinate, the arc length. `orientation` says what the tip turns with.
     ///
     /// # Errors
-    /// If there are too few nodes, the tip is one of them, or the point is not on the line.
+    /// If there are too few nodes, the tip is one of them, the point is not on the line, or the tip should turn and cannot.
     pub fn add_slider(
         &mut self,
         name: &str,
         (nodes, knots): (Vec<CarriedPoint>, Vec<f64>),
         (tip, place): (NodeId, Vector3),
+        orientation: &Orientation,
     ) -> Result<CoordinateId, ParameterError> {
         let unusable = |why: &str| ParameterError::new("beams", why);
         if nodes.len() != knots.len() {
@@ -52,6 +55,7 @@ impl Builder {
             return Err(ParameterError::new("at", problem));
         }
         let point = self.nodes[tip].motion.frame.inverse_transform_point(&on_line);
+        let alignments = self.alignments((&nodes, &line.at(value)), tip, orientation)?;
         self.coordinates.push(Coordinate {
             name: format!("{name}.displacement"),
             value,
@@ -64,16 +68,65 @@ impl Builder {
             self.multipliers.push((name.to_owned(), direction));
             self.multiplier_quantities.push(Quantity::Length);
         }
+        let moments = ["moment 1 across", "moment 2 across", "moment about"];
+        for direction in moments.into_iter().take(alignments.len()) {
+            self.multipliers.push((name.to_owned(), direction));
+            self.multiplier_quantities.push(Quantity::Angle);
+        }
         self.sliders.push(Slider {
             name: name.to_owned(),
             nodes,
             line,
             tip: CarriedPoint { node: tip, point },
             coordinate,
+            alignments,
             first_multiplier,
             entries: Vec::new(),
         });
         Ok(coordinate)
+    }
+
+    /// Directions of the tip that stay across the tangent at the start, and across an axis of the sections.
+    fn alignments(
+        &self,
+        (nodes, support): (&[CarriedPoint], &Support),
+        tip: NodeId,
+        orientation: &Orientation,
+    ) -> Result<Vec<Alignment>, ParameterError> {
+        let fault = |why: &str| Err(ParameterError::new("orientation", why));
+        if *orientation == Orientation::Free {
+            return Ok(Vec::new());
+        }
+        if self.nodes[tip].freedoms != Freedoms::Full {
+            return fault(
+                "needs a tip that can turn freely in space: a body, and no point mass or planar model",
+            );
+        }
+        let frame = |node: NodeId| &self.nodes[node].motion.frame;
+        let tangent = support.sum(1, |k| frame(nodes[k].node).transform_point(&nodes[k].point));
+        let mut alignments = Vec::new();
+        let mut across = |direction: &Vector3, what: Across| {
+            let direction = frame(tip).rotation.apply_inverse(direction);
+            alignments.push(Alignment { direction, across: what });
+        };
+        let sections = match orientation {
+            Orientation::Section(axes) => Some(axes),
+            Orientation::Free | Orientation::Tangent => None,
+        };
+        // Any direction across the tangent will do, but that of the sections where they count.
+        let beside = sections.map_or_else(
+            || Vector3::ith(tangent.iamin(), 1.0),
+            |axes| support.sum(0, |k| frame(nodes[k].node).rotation.apply(&axes[k])),
+        );
+        let Some(first) = tangent.cross(&beside).try_normalize(0.0) else {
+            return fault("finds no axis of the sections across the line at the start");
+        };
+        across(&first, Across::Tangent);
+        across(&tangent.cross(&first).normalize(), Across::Tangent);
+        if let Some(axes) = sections {
+            across(&first, Across::Sections(axes.clone()));
+        }
+        Ok(alignments)
     }
 }
 

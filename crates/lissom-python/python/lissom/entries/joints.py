@@ -733,6 +733,7 @@ class Slider(Joint):
         beams: beams along which it slides, each from the end of the one before; a list of names of parts.
         tip: the node that slides; a node.
         at: location on the beam at the start; default: the tip node's place [m]; a place, or nothing.
+        orientation: What the tip turns with: nothing, "free" (default); the line's "tangent", about which it turns freely; or the beam's "section", as a spline; `"free"`, `"tangent"`, `"section"`, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
         release: the latch lets go where this expression rises through zero; without `latch` it holds from the start; an expression of signals, or nothing.
@@ -744,6 +745,7 @@ class Slider(Joint):
     beams: Names
     tip: str
     at: Place | None = None
+    orientation: Literal["free", "tangent", "section"] | None = None
     friction: Table | None = None
     latch: Table | None = None
     release: Number | None = None

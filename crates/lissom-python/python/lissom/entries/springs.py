@@ -133,24 +133,28 @@ class Rope(Spring):
     Args:
         in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
         along: the places it leads over, from one end to the other [m]; a list of `{ on, at }`, `at` may be left out.
+        drums: coordinates of joints that pay it out, as "drum.angle"; a joint's name alone means all of its; a list of coordinates of joints, as `"arm.angle"`, or of joints: all of theirs, or nothing.
         stiffness: Stiffness of the whole rope; default 0 [N/m]; a number ≥ 0, or nothing.
         damping: Damping of the whole rope; default 0 [N s/m]; a number ≥ 0, or nothing.
         force: Tension over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation` [N]; a number, an expression of `elongation` and `rate`, or a table over `elongation`, or nothing.
         damper_force: Tension over `rate` and `elongation`, in addition to `damping`; a table is over `rate` [N]; a number, an expression of `rate` and `elongation`, or a table over `rate`, or nothing.
         limits: Least and greatest tension; default none [N]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
         length: Free length of the whole rope, over time where a winch changes it; default: the length at the start [m]; a function of time, or nothing.
+        drum_radii: Rope that `drums` pay out, each per rad or m of its coordinate; negative where it winds the rope up [m]; a list of numbers, or nothing.
     """
 
     _form: ClassVar[str] = "rope"
 
     in_: str | None = None
     along: list[Table]
+    drums: Names | None = None
     stiffness: Number | None = None
     damping: Number | None = None
     force: Function | None = None
     damper_force: Function | None = None
     limits: Vector | None = None
     length: Function | None = None
+    drum_radii: Vector | None = None
 
 
 @dataclass(kw_only=True, slots=True)

@@ -317,6 +317,8 @@ entry! {
     new(beams: Vec<Part> = "beams", tip: Node = "tip")
     /// Location on the beam at the start; default: the tip node's place \[m\].
     at: [f64; 3] = "at";
+    /// What the tip turns with: nothing, "free" (default); the line's "tangent", about which it turns freely; or the beam's "section", as a spline.
+    orientation: words::Orientation = "orientation";
 }
 
 entry! {

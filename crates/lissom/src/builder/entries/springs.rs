@@ -66,6 +66,8 @@ entry! {
     ///
     /// - `along`: the places it leads over, from one end to the other \[m\]
     new(along: Vec<(Node, Place)> = "along")
+    /// Coordinates of joints that pay it out, as "drum.angle"; a joint's name alone means all of its.
+    drums: Vec<JointId> = "drums";
     /// Stiffness of the whole rope; default 0 \[N/m\].
     stiffness: f64 = "stiffness";
     /// Damping of the whole rope; default 0 \[N s/m\].
@@ -78,6 +80,8 @@ entry! {
     limits: [f64; 2] = "limits";
     /// Free length of the whole rope, over time where a winch changes it; default: the length at the start \[m\].
     length: Function = "length";
+    /// Rope that `drums` pay out, each per rad or m of its coordinate; negative where it winds the rope up \[m\].
+    drum_radii: Vec<f64> = "drum_radii";
 }
 
 entry! {

@@ -95,6 +95,14 @@ words! {
 }
 
 words! {
+    /// One of `free`, `tangent`, `section`.
+    Orientation;
+    Free = "free";
+    Tangent = "tangent";
+    Section = "section";
+}
+
+words! {
     /// One of `xy`, `yz`, `zx`.
     Plane;
     Xy = "xy";
