@@ -353,21 +353,8 @@ impl Chosen {
         ))
     }
 
-    /// The document of the parts alone: what acts on the interfaces from outside is left out.
-    fn document(&self, whole: &Document) -> Result<Document, ReduceError> {
-        let mut own = whole.clone();
-        let is_in = |name: &String| self.parts.contains(name);
-        own.beams.retain(|beam| is_in(&beam.name.value));
-        own.bodies.retain(|body| is_in(&body.name.value));
-        own.point_masses.retain(|mass| is_in(&mass.name.value));
-        own.superelements.retain(|element| is_in(&element.name.value));
-        own.outputs.clear();
-        own.events.clear();
-        own.signals.clear();
-        own.states.clear();
-        own.inputs.clear();
-        own.initial = None;
-        own.initial_of_parts.clear();
+    /// Refuses beams that hang on something outside otherwise than at interfaces.
+    fn refuse_beams(&self, own: &Document) -> Result<(), ReduceError> {
         for beam in &own.beams {
             if !beam.distributed.is_empty() {
                 return question(format!(
@@ -384,6 +371,25 @@ impl Chosen {
                 }
             }
         }
+        Ok(())
+    }
+
+    /// The document of the parts alone: what acts on the interfaces from outside is left out.
+    fn document(&self, whole: &Document) -> Result<Document, ReduceError> {
+        let mut own = whole.clone();
+        let is_in = |name: &String| self.parts.contains(name);
+        own.beams.retain(|beam| is_in(&beam.name.value));
+        own.bodies.retain(|body| is_in(&body.name.value));
+        own.point_masses.retain(|mass| is_in(&mass.name.value));
+        own.superelements.retain(|element| is_in(&element.name.value));
+        own.outputs.clear();
+        own.events.clear();
+        own.signals.clear();
+        own.states.clear();
+        own.inputs.clear();
+        own.initial = None;
+        own.initial_of_parts.clear();
+        self.refuse_beams(&own)?;
         let mut joints: BTreeSet<String> = BTreeSet::new();
         let keep = |component: &Component, joints: &BTreeSet<String>| -> Result<bool, ReduceError> {
             let nodes: Vec<&NodeReference> = match &component.attachment {
