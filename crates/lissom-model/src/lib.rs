@@ -4,6 +4,7 @@
 //! mistake with its place and a remedy. Results leave as tables, summaries and plots. No physics is done here.
 
 mod accumulated;
+mod channel_components;
 mod channel_derivatives;
 pub mod channels;
 mod context;

@@ -8,7 +8,8 @@ use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector3};
 
 use crate::accumulated::{Actor, AngleAboutAxis, Work};
-use crate::channels::{Channel, Resolver, Source, components, source};
+use crate::channel_components::components;
+use crate::channels::{Channel, Resolver, Source, source};
 use crate::document::{
     AnalysisKind, Document, NodeReference, Output, OutputKind, OutputSource, ReactionAxes, interface_name,
 };
