@@ -73,7 +73,7 @@ pub fn typed_entries(registry: &Registry) -> BTreeMap<&'static str, String> {
 /// The types that `text` names.
 fn imports(text: &str) -> String {
     const KNOWN: [(&str, &[&str]); 4] = [
-        ("ids", &["InputId", "JointId", "MaterialId", "SectionId", "SpringId"]),
+        ("ids", &["BeamId", "InputId", "JointId", "MaterialId", "SectionId", "SpringId", "SuperelementId"]),
         ("entry", &["entry", "keys", "nested"]),
         (
             "values",
@@ -218,13 +218,11 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
         Shape::Choices(known) => return Some(format!("Vec<words::{}>", word_type(key, known, words))),
         Shape::FunctionOf(_) | Shape::Function | Shape::Size | Shape::Force(_) | Shape::Profile => "Function",
         Shape::Equation | Shape::Formula | Shape::Signal => "Expression",
-        Shape::Name(table) => match *table {
-            "materials" => "MaterialId",
-            "sections" => "SectionId",
-            "springs" => "SpringId",
-            "inputs" => "InputId",
-            _ => "JointId",
-        },
+        Shape::Name("inputs") => "InputId",
+        Shape::Name(table) => {
+            let mut known = FILES.iter().flat_map(|(_, _, tables)| *tables);
+            return known.find(|(name, _)| name == table).map(|(_, id)| (*id).to_owned());
+        }
         Shape::PlaceOrNode => "Place",
         Shape::Node => "Node",
         Shape::Curve | Shape::Distribution => "[Expression; 3]",
@@ -250,7 +248,10 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
 
 /// The name of the type that holds the words of a key.
 fn word_type(key: &Key, known: &[&'static str], words: &mut Words) -> String {
-    let mut name = camel(key.name);
+    let mut name = match key.name {
+        "halved" | "doubled" => "StudiedNumber".to_owned(),
+        key => camel(key),
+    };
     if known.contains(&"positive") {
         name.insert_str(0, "Signed");
     }

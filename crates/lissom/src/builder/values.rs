@@ -169,7 +169,7 @@ macro_rules! written_names {
     };
 }
 
-written_names! { MaterialId SectionId JointId SpringId InputId }
+written_names! { MaterialId SectionId JointId SpringId InputId BeamId SuperelementId }
 
 /// The mass of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]

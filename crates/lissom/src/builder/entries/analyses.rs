@@ -109,9 +109,9 @@ keys! {
     /// Mechanisms left out of the search for a step's solution, for studies; default none.
     without: Vec<words::Without> = "without";
     /// Numbers of the search and of the choice of steps to be halved, for studies; default none.
-    halved: Vec<words::Halved> = "halved";
+    halved: Vec<words::StudiedNumber> = "halved";
     /// The same to be doubled; default none.
-    doubled: Vec<words::Doubled> = "doubled";
+    doubled: Vec<words::StudiedNumber> = "doubled";
 }
 
 keys! {

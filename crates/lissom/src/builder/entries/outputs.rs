@@ -4,7 +4,7 @@
 use super::words;
 use crate::builder::entry::{entry, keys};
 use crate::builder::expression::Expression;
-use crate::builder::ids::{JointId, SpringId};
+use crate::builder::ids::{BeamId, JointId, SpringId, SuperelementId};
 use crate::builder::values::{Node, Quantity};
 
 entry! {
@@ -125,7 +125,7 @@ entry! {
     /// With what must be given.
     ///
     /// - `of`: the beam
-    new(of: JointId = "of")
+    new(of: BeamId = "of")
 }
 
 entry! {
@@ -135,7 +135,7 @@ entry! {
     /// With what must be given.
     ///
     /// - `of`: the superelement
-    new(of: JointId = "of")
+    new(of: SuperelementId = "of")
 }
 
 entry! {
@@ -145,7 +145,7 @@ entry! {
     /// With what must be given.
     ///
     /// - `of`: the superelement
-    new(of: JointId = "of")
+    new(of: SuperelementId = "of")
 }
 
 entry! {

@@ -34,56 +34,6 @@ words! {
 }
 
 words! {
-    /// One of `tangent-cost`, `novelty`, `unseen`, `contraction`, `stalled`, `small`, `secant-independence`, `secant-reach`, `secant-credible`, `prediction-fading`, `prediction-credible`, `far`, `largest-correction`, `least-departure`, `safety`, `growth`, `kept`, `share-of-step`, `share-of-first`, `parts-to-grow`.
-    Doubled;
-    TangentCost = "tangent-cost";
-    Novelty = "novelty";
-    Unseen = "unseen";
-    Contraction = "contraction";
-    Stalled = "stalled";
-    Small = "small";
-    SecantIndependence = "secant-independence";
-    SecantReach = "secant-reach";
-    SecantCredible = "secant-credible";
-    PredictionFading = "prediction-fading";
-    PredictionCredible = "prediction-credible";
-    Far = "far";
-    LargestCorrection = "largest-correction";
-    LeastDeparture = "least-departure";
-    Safety = "safety";
-    Growth = "growth";
-    Kept = "kept";
-    ShareOfStep = "share-of-step";
-    ShareOfFirst = "share-of-first";
-    PartsToGrow = "parts-to-grow";
-}
-
-words! {
-    /// One of `tangent-cost`, `novelty`, `unseen`, `contraction`, `stalled`, `small`, `secant-independence`, `secant-reach`, `secant-credible`, `prediction-fading`, `prediction-credible`, `far`, `largest-correction`, `least-departure`, `safety`, `growth`, `kept`, `share-of-step`, `share-of-first`, `parts-to-grow`.
-    Halved;
-    TangentCost = "tangent-cost";
-    Novelty = "novelty";
-    Unseen = "unseen";
-    Contraction = "contraction";
-    Stalled = "stalled";
-    Small = "small";
-    SecantIndependence = "secant-independence";
-    SecantReach = "secant-reach";
-    SecantCredible = "secant-credible";
-    PredictionFading = "prediction-fading";
-    PredictionCredible = "prediction-credible";
-    Far = "far";
-    LargestCorrection = "largest-correction";
-    LeastDeparture = "least-departure";
-    Safety = "safety";
-    Growth = "growth";
-    Kept = "kept";
-    ShareOfStep = "share-of-step";
-    ShareOfFirst = "share-of-first";
-    PartsToGrow = "parts-to-grow";
-}
-
-words! {
     /// One of `x`, `y`, `z`, `rx`, `ry`, `rz`.
     Locked;
     X = "x";
@@ -150,6 +100,31 @@ words! {
     Skyline = "skyline";
     Pivoting = "pivoting";
     Dense = "dense";
+}
+
+words! {
+    /// One of `tangent-cost`, `novelty`, `unseen`, `contraction`, `stalled`, `small`, `secant-independence`, `secant-reach`, `secant-credible`, `prediction-fading`, `prediction-credible`, `far`, `largest-correction`, `least-departure`, `safety`, `growth`, `kept`, `share-of-step`, `share-of-first`, `parts-to-grow`.
+    StudiedNumber;
+    TangentCost = "tangent-cost";
+    Novelty = "novelty";
+    Unseen = "unseen";
+    Contraction = "contraction";
+    Stalled = "stalled";
+    Small = "small";
+    SecantIndependence = "secant-independence";
+    SecantReach = "secant-reach";
+    SecantCredible = "secant-credible";
+    PredictionFading = "prediction-fading";
+    PredictionCredible = "prediction-credible";
+    Far = "far";
+    LargestCorrection = "largest-correction";
+    LeastDeparture = "least-departure";
+    Safety = "safety";
+    Growth = "growth";
+    Kept = "kept";
+    ShareOfStep = "share-of-step";
+    ShareOfFirst = "share-of-first";
+    PartsToGrow = "parts-to-grow";
 }
 
 words! {
