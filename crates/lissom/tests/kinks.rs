@@ -115,3 +115,90 @@ fn drives_that_jump_are_told() {
     }
     assert!(warned > 0);
 }
+
+/// A function of time as part of an expression that depends on the motion too, directly, by signals, and by a straight line
+/// of time that signals name: tables beside the load, and its force. `function` is given what to call the time.
+fn among_motion(function: impl Fn(&str) -> String) -> Vec<(String, String)> {
+    let damped = "(1 - 0.1*rail.velocity)";
+    let of_time = function("t");
+    let signals = |tables: &str| format!("[signals]\n{tables}\n");
+    let whole = signals(&format!("pushing = \"{of_time}*{damped}\""));
+    vec![
+        (String::new(), format!("{of_time}*{damped}")),
+        (signals(&format!("pushing = \"{of_time}\"")), format!("pushing*{damped}")),
+        (whole.clone(), "pushing".to_owned()),
+        (whole, "pushing/4 + 0.75*pushing".to_owned()),
+        (signals("twice = \"2*t\"\nclock = \"twice/2\""), format!("{}*{damped}", function("clock"))),
+    ]
+}
+
+/// What follows from a force of (1 - 0.1 v) N, v the velocity, from `from` on.
+fn after_damped_jump(from: f64) -> [f64; 2] {
+    let [elapsed, gone] = [1.0 - from, 1.0 - (-0.1 * (1.0 - from)).exp()];
+    [10.0 * (elapsed - 10.0 * gone), 10.0 * gone]
+}
+
+#[test]
+fn steps_end_at_jumps_of_expressions_that_depend_on_the_motion_too() {
+    for scheme in SCHEMES {
+        // Without an end there planned steps of 1e-2 s left an error of up to 4e-3 m/s.
+        for (sizes, allowed) in
+            [("step = 1e-2", 1e-6), ("relative_tolerance = 1e-4\noutput_step = 0.1", 1e-6)]
+        {
+            let analysis = format!("scheme = \"{scheme}\"\n{sizes}");
+            for from in [0.5035, 0.5, 0.509_999, 0.3] {
+                for (tables, force) in among_motion(|time| format!("step({time} - {from})")) {
+                    let text = rail::rail(0.0, &format!("{}{tables}", rail::force(&force)), &analysis);
+                    let session = finished(&text);
+                    assert_eq!(session.warnings().count(), 0, "{text}");
+                    let [place, velocity] = after_damped_jump(from);
+                    let missed = [("rail.displacement", place), ("rail.velocity", velocity)]
+                        .map(|(name, wanted)| (session.value(name).unwrap() - wanted).abs());
+                    assert!(missed.iter().all(|error| *error < allowed), "{text}: {missed:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn steps_of_states_end_at_jumps_too() {
+    let state = "[states]\nlevel = { derivative = \"step(t - 0.5035)*(1 + 0*level)\" }\n\
+         [outputs.level]\nkind = \"signal\"\nof = \"level\"\n";
+    for scheme in SCHEMES {
+        for sizes in ["step = 1e-2", "relative_tolerance = 1e-4"] {
+            let session = finished(&rail::rail(0.0, state, &format!("scheme = \"{scheme}\"\n{sizes}")));
+            let error = (session.value("level.value").unwrap() - (1.0 - 0.5035)).abs();
+            assert!(error < 1e-9, "{scheme}, {sizes}: {error}");
+        }
+    }
+}
+
+#[test]
+fn events_find_a_jump_over_time_with_planned_steps() {
+    for scheme in SCHEMES {
+        let event = "[events.reached]\nzero_of = \"step(t - 0.5035)*(1 + 0*rail.velocity) - 0.5\"\n";
+        let session = finished(&rail::rail(0.0, event, &format!("scheme = \"{scheme}\"\nstep = 1e-2")));
+        let occurrences = session.simulation().occurrences();
+        assert_eq!(occurrences.len(), 1, "{scheme}");
+        // At the end of the first millionth of the step behind it; the end of the whole step was 6.5e-3 s late.
+        assert!((occurrences[0].time - 0.5035).abs() < 2e-8, "{scheme}: {}", occurrences[0].time);
+    }
+}
+
+#[test]
+fn jumps_of_what_is_sampled_or_only_recorded_end_no_steps() {
+    let output = "[outputs.pushing]\nkind = \"signal\"\nof = \"pushing\"\n";
+    for (value, force) in [
+        ("\"step(t - 0.5035)*(1 + rail.velocity)\"", "1 + rail.velocity"),
+        ("{ value = \"step(t - 0.5035)*(1 + 0*rail.velocity)\", sample = 0.1 }", "pushing"),
+    ] {
+        let tables = format!("{}[signals]\npushing = {value}\n{output}", rail::force(force));
+        let session = finished(&rail::rail(0.0, &tables, "scheme = \"radau-iia\"\nstep = 1e-2"));
+        assert_eq!(session.simulation().totals().steps, 100, "{value}");
+        assert!(session.value("pushing.value").unwrap() > 0.5);
+        if force == "pushing" {
+            assert!((session.value("rail.velocity").unwrap() - 0.4).abs() < 1e-12);
+        }
+    }
+}

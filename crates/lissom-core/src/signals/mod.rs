@@ -49,8 +49,13 @@ pub trait SignalFunction: Send + Sync + fmt::Debug {
     fn switch_count(&self) -> usize {
         0
     }
-    /// Appends numbers that change their sign where the function has a kink or a jump.
+    /// Appends numbers that change their sign where the function has a kink or a jump; 0 at all times where these are among
+    /// the known [`kinks`](Self::kinks).
     fn switches(&self, _time: f64, _arguments: &[f64], _sides: &[f64], _out: &mut Vec<f64>) {}
+    /// Times at which it is known not to be smooth [s], whatever its arguments. Default: none is known.
+    fn kinks(&self) -> &[f64] {
+        &[]
+    }
 }
 
 /// Where an argument of a signal comes from.
@@ -276,22 +281,34 @@ impl Graph {
 
     /// Measurements that a signal depends on between samples.
     pub(crate) fn measurements_of(&self, root: SignalId) -> BTreeSet<MeasurementId> {
-        let (mut open, mut found, mut seen) = (vec![root], BTreeSet::new(), BTreeSet::new());
+        let reached = self.reached_from(std::iter::once(root));
+        let arguments = reached.iter().flat_map(|&index| &self.signals[index].arguments);
+        let measured = arguments.filter_map(|argument| match *argument {
+            Argument::Measured(measurement) => Some(measurement),
+            Argument::Held(_) | Argument::Signal(_) => None,
+        });
+        measured.collect()
+    }
+
+    /// Times at which signals are known not to be smooth between samples [s], themselves or by those they depend on.
+    pub(crate) fn kinks_of(&self, roots: impl Iterator<Item = SignalId>) -> Vec<f64> {
+        let reached = self.reached_from(roots);
+        reached.iter().flat_map(|&index| self.signals[index].function.kinks()).copied().collect()
+    }
+
+    /// Signals that some depend on between samples, themselves among them.
+    fn reached_from(&self, roots: impl Iterator<Item = SignalId>) -> BTreeSet<SignalId> {
+        let (mut open, mut seen): (Vec<_>, _) = (roots.collect(), BTreeSet::new());
         while let Some(index) = open.pop() {
             if self.signals[index].sampling.is_some() || !seen.insert(index) {
                 continue;
             }
-            for argument in &self.signals[index].arguments {
-                match *argument {
-                    Argument::Held(_) => {}
-                    Argument::Signal(earlier) => open.push(earlier),
-                    Argument::Measured(measurement) => {
-                        found.insert(measurement);
-                    }
-                }
-            }
+            open.extend(self.signals[index].arguments.iter().filter_map(|argument| match *argument {
+                Argument::Signal(earlier) => Some(earlier),
+                Argument::Held(_) | Argument::Measured(_) => None,
+            }));
         }
-        found
+        seen
     }
 
     /// Takes the first samples, at the start, where they are sampled from their values before the first.

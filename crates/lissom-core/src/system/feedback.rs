@@ -368,7 +368,7 @@ impl AnyBatch for Arc<Feedback> {
     }
 
     fn kinks(&self) -> Vec<f64> {
-        Vec::new()
+        self.graph.kinks_of(self.driven.iter().map(|driven| driven.signal))
     }
 
     fn hold_sides(&mut self, _: usize) -> usize {

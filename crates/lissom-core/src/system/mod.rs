@@ -220,11 +220,13 @@ impl System {
         })
     }
 
-    /// Times at which loads and prescribed motions are known not to be smooth [s], in ascending order.
+    /// Times at which loads, prescribed motions, states and the numbers whose zeros are events are known not to be smooth
+    /// [s], in ascending order.
     pub fn kinks(&self) -> Vec<f64> {
         let of_drives = self.drives.iter().flat_map(|drive| drive.prescribed.value.kinks());
-        let mut kinks: Vec<f64> =
-            self.batches.iter().flat_map(|batch| batch.kinks()).chain(of_drives).collect();
+        let of_events = self.signals().kinks_of(self.signals().events().iter().map(|event| event.root));
+        let of_elements = self.batches.iter().flat_map(|batch| batch.kinks());
+        let mut kinks: Vec<f64> = of_elements.chain(of_drives).chain(of_events).collect();
         kinks.sort_by(f64::total_cmp);
         kinks.dedup();
         kinks

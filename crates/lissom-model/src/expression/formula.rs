@@ -6,6 +6,7 @@ use std::ops::Range;
 use lissom_core::signals::SignalFunction;
 
 use super::compile::{compile, fold};
+use super::kinks::{Course, Line};
 use super::{Expression, ExpressionError, Jet, Step, kinks, run, run_continued};
 
 /// A name in an expression that is no parameter.
@@ -76,7 +77,12 @@ impl Formula {
                 other => other,
             })
             .collect();
-        kinks::of(&alone)
+        kinks::of(&alone, &[]).kinks
+    }
+
+    /// What is known of it over time, where arguments are these lines, one for each.
+    pub(super) fn course(&self, arguments: &[Line]) -> Course {
+        kinks::of(&self.steps, arguments)
     }
 
     /// The expression as it was written.

@@ -3,22 +3,40 @@
 use super::{Function, Jet, STACK, Step};
 
 /// a + b x, or none for what is no straight line.
-type Line = Option<(f64, f64)>;
+pub(crate) type Line = Option<(f64, f64)>;
 
-/// Values of the variable at which steps of a stack machine have a kink or a jump, in ascending order.
-pub(super) fn of(steps: &[Step]) -> Vec<f64> {
-    let mut found = Vec::new();
+/// What is known of steps of a stack machine over their variable before they are run.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Course {
+    /// The straight line that they are.
+    pub(crate) line: Line,
+    /// Values of the variable at which they have a kink or a jump, in ascending order.
+    pub(crate) kinks: Vec<f64>,
+    /// Of each switch, in the order of [`switches`], whether its zeros are among these, and none are elsewhere.
+    pub(crate) are_known: Vec<bool>,
+}
+
+/// The course of steps whose arguments are these lines, none for those that are not given.
+pub(super) fn of(steps: &[Step], arguments: &[Line]) -> Course {
+    let (mut kinks, mut are_known) = (Vec::new(), Vec::new());
     let mut stack: [Line; STACK] = [None; STACK];
     let mut top = 0;
     for step in steps {
         let first = top - step.operands().min(top);
         let operands = [0, 1, 2].map(|k| stack[(first + k).min(STACK - 1)]);
-        stack[first] = line(*step, operands, &mut found);
+        if let Step::Call(function) | Step::Call2(function) | Step::Call3(function) = *step {
+            let is_known = operands[..step.operands()].iter().all(Option::is_some);
+            are_known.resize(are_known.len() + switch_count(function), is_known);
+        }
+        stack[first] = match *step {
+            Step::Argument(index) => arguments.get(index).copied().flatten(),
+            step => line(step, operands, &mut kinks),
+        };
         top = first + 1;
     }
-    found.sort_by(f64::total_cmp);
-    found.dedup();
-    found
+    kinks.sort_by(f64::total_cmp);
+    kinks.dedup();
+    Course { line: stack[0], kinks, are_known }
 }
 
 /// Hands out numbers that change their sign where a function has a kink or a jump, given its arguments.

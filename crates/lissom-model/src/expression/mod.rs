@@ -7,6 +7,7 @@ mod compile;
 mod formula;
 mod jet;
 mod kinks;
+mod over_time;
 mod token;
 
 use std::collections::BTreeMap;
@@ -15,6 +16,8 @@ use std::ops::Range;
 pub use formula::{Formula, Name};
 pub(crate) use jet::NAMES as FUNCTION_NAMES;
 pub use jet::{Function, Jet};
+pub(crate) use kinks::Line;
+pub(crate) use over_time::OverTime;
 
 /// Depth of the stack an expression may need.
 const STACK: usize = 32;
@@ -82,7 +85,7 @@ impl Expression {
     /// Values of the variable at which the expression is not smooth, as far as they can be told: where a function that is
     /// not smooth takes an argument that is a straight line of the variable. In ascending order.
     pub fn kinks(&self) -> Vec<f64> {
-        kinks::of(&self.steps)
+        kinks::of(&self.steps, &[]).kinks
     }
 
     /// Value and derivatives at `x`.

@@ -28,7 +28,7 @@ use lissom_core::elements::superelement::Deformation;
 use lissom_core::joints::Quantity;
 use lissom_core::judge::Warning;
 use lissom_core::registry::ParameterError;
-use lissom_core::signals::{Argument, MeasurementId};
+use lissom_core::signals::{Argument, MeasurementId, SignalId};
 use lissom_core::system::{Builder, CoordinateId, ElementId, NodeId, State, System};
 use lissom_motion::Motion;
 use nalgebra::DMatrix;
@@ -104,6 +104,8 @@ pub struct Names {
     pub powers: BTreeMap<String, ElementId>,
     /// Signals, inputs and states.
     pub signals: BTreeMap<String, Argument>,
+    /// Those of the signals that are straight lines of time, a + b t.
+    lines_of_time: BTreeMap<SignalId, (f64, f64)>,
     /// Measurements that signals use, by the names they are written with.
     measured: BTreeMap<String, MeasurementId>,
 }

@@ -13,7 +13,7 @@ use super::Names;
 use super::measurements::measure;
 use super::order::by_name;
 use crate::document::{Document, EventEntry, SignalEntry};
-use crate::expression::{Formula, Name};
+use crate::expression::{Formula, Line, Name, OverTime};
 use crate::report::{Located, Problem};
 use crate::suggest;
 
@@ -143,12 +143,14 @@ fn add_signal(
 ) -> Result<(), Problem> {
     let name = &entry.name.value;
     let own = entry.sampling.map(|(period, start)| Sampling { held: builder.add_held(name, start), period });
-    let signal =
+    let (signal, line) =
         formula(document, builder, names, (name, &entry.value), own.map(|own| (name.as_str(), own.held)))?;
     let signal = builder
         .add_signal(Signal { sampling: own, ..signal })
         .map_err(|error| Problem::error(entry.value.span, error.to_string()))?;
     names.signals.insert(name.clone(), Argument::Signal(signal));
+    // Between samples it is constant, and what it is then is not known beforehand.
+    names.lines_of_time.extend(line.filter(|_| own.is_none()).map(|line| (signal, line)));
     Ok(())
 }
 
@@ -160,18 +162,18 @@ pub(super) fn add_formula(
     name: &str,
     expression: &Located<Formula>,
 ) -> Result<SignalId, Problem> {
-    let signal = formula(document, builder, names, (name, expression), None)?;
+    let (signal, _) = formula(document, builder, names, (name, expression), None)?;
     builder.add_signal(signal).map_err(|error| Problem::error(expression.span, error.to_string()))
 }
 
-/// An expression as a signal; `own` is a sampled signal with its last sample.
+/// An expression as a signal, and the straight line of time that it is; `own` is a sampled signal with its last sample.
 fn formula(
     document: &Document,
     builder: &mut Builder,
     names: &mut Names,
     (name, expression): (&str, &Located<Formula>),
     own: Option<(&str, HeldId)>,
-) -> Result<Signal, Problem> {
+) -> Result<(Signal, Line), Problem> {
     let mut arguments = Vec::new();
     for argument in expression.value.arguments() {
         arguments.push(match own {
@@ -179,13 +181,21 @@ fn formula(
             _ => resolve(document, builder, names, (name, expression), argument)?,
         });
     }
-    Ok(Signal {
+    let line = |argument: &Argument| match argument {
+        Argument::Signal(signal) => names.lines_of_time.get(signal).copied(),
+        Argument::Held(_) | Argument::Measured(_) => None,
+    };
+    let lines: Vec<Line> = arguments.iter().map(line).collect();
+    let function = OverTime::new(expression.value.clone(), &lines);
+    let line = function.line();
+    let signal = Signal {
         name: name.to_owned(),
         text: expression.value.text().to_owned(),
-        function: Arc::new(expression.value.clone()),
+        function: Arc::new(function),
         arguments,
         sampling: None,
-    })
+    };
+    Ok((signal, line))
 }
 
 /// What a name in an expression means.

@@ -1,0 +1,93 @@
+//! A formula in the graph of signals, with the times of its kinks that are known before they are met: those of its parts that
+//! depend on time alone.
+
+use lissom_core::signals::SignalFunction;
+
+use super::Formula;
+use super::kinks::{Course, Line};
+
+/// A formula, and what is known of it over time.
+#[derive(Debug)]
+pub(crate) struct OverTime {
+    formula: Formula,
+    course: Course,
+}
+
+impl OverTime {
+    /// A formula whose arguments are these straight lines of time, none for what depends on more than time.
+    pub(crate) fn new(formula: Formula, arguments: &[Line]) -> Self {
+        let course = formula.course(arguments);
+        Self { formula, course }
+    }
+
+    /// The straight line of time that it is.
+    pub(crate) fn line(&self) -> Line {
+        self.course.line
+    }
+}
+
+impl SignalFunction for OverTime {
+    fn value(&self, time: f64, arguments: &[f64], sides: &[f64]) -> f64 {
+        self.formula.value(time, arguments, sides)
+    }
+
+    fn gradient(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut [f64]) {
+        self.formula.gradient(time, arguments, sides, out);
+    }
+
+    fn switch_count(&self) -> usize {
+        self.formula.switch_count()
+    }
+
+    fn switches(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut Vec<f64>) {
+        let first = out.len();
+        self.formula.switches(time, arguments, sides, out);
+        for (value, is_known) in out[first..].iter_mut().zip(&self.course.are_known) {
+            if *is_known {
+                *value = 0.0;
+            }
+        }
+    }
+
+    fn kinks(&self) -> &[f64] {
+        &self.course.kinks
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use super::*;
+
+    fn over_time(text: &str, arguments: &[Line]) -> OverTime {
+        OverTime::new(Formula::parse(text, &BTreeMap::new()).unwrap(), arguments)
+    }
+
+    #[test]
+    fn kinks_of_parts_that_depend_on_time_alone_are_known_and_no_switches() {
+        let found = over_time("step(t - 2.5)*(1 - abs(rate)) + max(start, 2*t)", &[None, Some((1.0, 0.0))]);
+        assert_eq!(found.kinks(), [0.5, 2.5]);
+        let mut switches = Vec::new();
+        found.switches(7.0, &[-3.0, 1.0], &[], &mut switches);
+        assert_eq!(switches, [0.0, -3.0, 0.0]);
+        assert_eq!(found.line(), None);
+    }
+
+    #[test]
+    fn lines_go_on_through_arguments() {
+        let found = over_time("2*(late - 1)", &[Some((-0.5, 1.0))]);
+        assert_eq!(found.line(), Some((-3.0, 2.0)));
+        assert_eq!(over_time("step(late)*rate", &[found.line(), None]).kinks(), [1.5]);
+        assert_eq!(over_time("late*t", &[found.line()]).line(), None);
+    }
+
+    #[test]
+    fn switches_that_more_than_time_decides_stay() {
+        let found = over_time("clamp(t - 1, 0, most) + step(t^2 - 2) + min(t, rate)", &[None, None]);
+        assert_eq!(found.kinks(), [1.0]);
+        let mut switches = Vec::new();
+        found.switches(2.0, &[3.0, 5.0], &[], &mut switches);
+        assert_eq!(switches, [1.0, -2.0, 2.0, -3.0]);
+    }
+}
