@@ -74,7 +74,7 @@ enum Chore {
     },
     /// Try random mechanisms with several schemes and steps against each other
     Random(random::RandomArguments),
-    /// Read model files that are damaged by chance: each is read or refused with a line
+    /// Read model files and expressions that are damaged by chance: each is read or refused with its place
     Fuzz(fuzz::FuzzArguments),
     /// Break the code on purpose, one place at a time, and tell what no test notices
     Mutants(mutants::MutantsArguments),

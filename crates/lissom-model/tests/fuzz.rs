@@ -1,16 +1,23 @@
 //! Whatever the text, the decoder answers: it reads the model or tells what is wrong, and never breaks down.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
 use lissom_model::Document;
 use proptest::prelude::*;
 
+#[path = "support/answers.rs"]
+mod answers;
 #[path = "support/damage.rs"]
 mod damage;
+#[path = "support/damaged_expressions.rs"]
+mod damaged_expressions;
 mod support;
 
+use answers::Answer;
 use damage::{Damage, STRANGERS, tokens};
+use damaged_expressions::{damaged_expression, expression_words};
 
 fn good_files() -> Vec<String> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/good");
@@ -68,7 +75,20 @@ proptest! {
             };
             damage.apply(&mut tokens, index);
         }
-        answer(&tokens.concat(), &[]);
+        let text = tokens.concat();
+        answer(&text, &[]);
+        let answered = answers::of_model(&text, &support::registry());
+        prop_assert!(!matches!(answered, Answer::Badly(_)), "{answered:?}");
+    }
+
+    #[test]
+    fn damaged_expressions_are_answered(draws in proptest::collection::vec(any::<u16>(), 64)) {
+        let known = ["if(t < 1, -k*(arm.rotation - 0.5*sin(t))^2, max(1e-3, T))", "1.6*(1-cos(2*pi*t/1.6))"];
+        let mut draws = draws.into_iter().cycle();
+        let mut below = |count: usize| draws.next().map_or(0, usize::from) % count;
+        let text = damaged_expression(&known.map(expression_words), &mut below);
+        let answered = answers::of_expression(&text, &BTreeMap::from([("T".to_owned(), 1.6)]));
+        prop_assert!(!matches!(answered, Answer::Badly(_)), "{text}: {answered:?}");
     }
 
     #[test]
