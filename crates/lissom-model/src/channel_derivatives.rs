@@ -102,22 +102,14 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
             let observers = axes.iter().chain(relative_to.iter().map(|(observer, _)| observer));
             touched.nodes.extend(observers.map(|observer| observer.node));
         }
-        Source::Place(Place::Carried { node, .. }, _) => {
-            touched.nodes.insert(*node);
-        }
-        Source::Place(Place::OnBeam { nodes, .. }, _) => touched.nodes.extend(nodes),
+        Source::Place(place, _) => touched.nodes.extend(place.nodes()),
         Source::Joint(index, _) | Source::RelativeMotion(index) | Source::Contact(index) => {
             let joint = &system.joints()[*index];
             touched.nodes.extend(joint.frames.map(|frame| frame.node));
             touched.coordinates.extend(&joint.coordinates);
             touched.multipliers = joint.first_multiplier..joint.first_multiplier + joint.equations();
         }
-        Source::Line(places) => {
-            touched.nodes.extend(places.iter().flat_map(|place| match place {
-                Place::Carried { node, .. } => std::slice::from_ref(node),
-                Place::OnBeam { nodes, .. } => nodes,
-            }));
-        }
+        Source::Line(places) => touched.nodes.extend(places.iter().flat_map(Place::nodes)),
         Source::Modal(unknowns) => touched.coordinates.extend(unknowns.coordinates()),
         Source::Recovered(unknowns, _) => {
             touched.nodes.extend(unknowns.nodes());

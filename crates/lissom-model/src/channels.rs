@@ -63,8 +63,17 @@ pub fn signal_value(system: &System, at: &Kinematics, argument: Argument) -> f64
 /// A point that moves: carried by a node, or at a place in a beam element.
 #[derive(Clone)]
 pub(crate) enum Place {
-    Carried { node: NodeId, offset: Vector3 },
-    OnBeam { probe: Arc<dyn BeamProbe>, xi: f64, point: Vector3, nodes: Vec<NodeId> },
+    Carried {
+        node: NodeId,
+        offset: Vector3,
+    },
+    /// With the element's nodes, and where on each of them the line of sections goes through.
+    OnBeam {
+        probe: Arc<dyn BeamProbe>,
+        xi: f64,
+        point: Vector3,
+        nodes: Vec<(NodeId, Vector3)>,
+    },
 }
 
 /// Where a channel's numbers come from.
@@ -110,6 +119,15 @@ pub(crate) enum Source {
 }
 
 impl Place {
+    /// Nodes that it depends on.
+    pub(crate) fn nodes(&self) -> impl Iterator<Item = NodeId> + '_ {
+        let (one, several) = match self {
+            Self::Carried { node, .. } => (Some(*node), &[][..]),
+            Self::OnBeam { nodes, .. } => (None, nodes.as_slice()),
+        };
+        one.into_iter().chain(several.iter().map(|(node, _)| *node))
+    }
+
     pub(crate) fn frame(&self, at: &Kinematics) -> Motion {
         match self {
             Self::Carried { node, offset } => at.nodes[*node].frame * Motion::translation(*offset),
@@ -138,21 +156,26 @@ impl Place {
         Seen { frame: self.frame(at), velocity, angular_velocity, acceleration: self.acceleration(at) }
     }
 
-    /// Acceleration in global axes; between a beam's nodes, interpolated from theirs.
+    /// Acceleration in global axes; between a beam's nodes, those of the line and of its turning are interpolated from theirs.
     fn acceleration(&self, at: &Kinematics) -> Vector3 {
         match self {
             Self::Carried { node, offset } => at.nodes[*node].acceleration_at(offset),
-            Self::OnBeam { xi, nodes, .. } => {
+            Self::OnBeam { probe, xi, point, nodes } => {
                 let weights: Vec<f64> = match nodes.len() {
                     2 => lagrange::<2>(*xi).0.to_vec(),
                     3 => lagrange::<3>(*xi).0.to_vec(),
                     _ => lagrange::<4>(*xi).0.to_vec(),
                 };
-                nodes
-                    .iter()
-                    .zip(weights)
-                    .map(|(&node, weight)| weight * at.nodes[node].acceleration_at(&Vector3::zeros()))
-                    .sum()
+                let (mut line, mut turning) = (Vector3::zeros(), Vector3::zeros());
+                for ((node, offset), weight) in nodes.iter().zip(weights) {
+                    let node = &at.nodes[*node];
+                    line += weight * node.acceleration_at(offset);
+                    turning += weight * node.frame.rotation.apply(&rotation_part(&node.acceleration));
+                }
+                let rotation = probe.frame_at(at, *xi).rotation;
+                let arm = rotation.apply(point);
+                let spin = rotation.apply(&rotation_part(&probe.twist_at(at, *xi)));
+                line + turning.cross(&arm) + spin.cross(&spin.cross(&arm))
             }
         }
     }
@@ -480,7 +503,9 @@ fn place(
                 probe: Arc::clone(probe),
                 xi,
                 point: point.map_or_else(Vector3::zeros, |point| frame.inverse_transform_point(point)),
-                nodes: line.nodes[first..first + gauss_lobatto(line.order + 1).len()].to_vec(),
+                nodes: (first..first + gauss_lobatto(line.order + 1).len())
+                    .map(|index| (line.nodes[index], line.offsets[index].position))
+                    .collect(),
             })
         }
     }
