@@ -395,6 +395,21 @@ axis = [0, 0, 1]
     assert!(moved(&assembly, "one").1 > 0.1 && moved(&assembly, "two").0 > 0.1, "{assembly:?}");
 }
 
+/// A body that turns about its own reference point has moved as well.
+#[test]
+fn a_part_that_only_turns_is_told() {
+    let text = PAIR
+        .replace("\"spherical\"", "\"revolute\"")
+        .replace("position = [1, 0, 0]", "")
+        .replace("at_tip = [1, 0, 0]", "at_tip = [0, 0, 0]\naxis = [0, 0, 1]\naxis_at_tip = [0, 0.3, 1]");
+    let found = assembly(&format!("{text}fixed = [\"a\"]\n{ANALYSIS}"));
+    assert_eq!(found.moved.len(), 1, "{found:?}");
+    let (distance, turn) = moved(&found, "b");
+    assert!(distance < 1e-12 && (turn - 0.3_f64.atan()).abs() < 1e-9, "{found:?}");
+    assert!(found.words().starts_with("moved `b` by "), "{}", found.words());
+    assert!(found.words().contains(" m and 2.915e-1 rad"), "{}", found.words());
+}
+
 #[test]
 fn joints_do_not_close_with_axes_that_point_opposite_ways() {
     let text = ARM.replace(

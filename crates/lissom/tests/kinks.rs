@@ -5,7 +5,8 @@ mod rail;
 #[path = "support/sessions.rs"]
 mod sessions;
 
-use lissom::Session;
+use lissom::{Model, Session};
+use lissom_model::lower::lower;
 use sessions::{finished, session};
 
 const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
@@ -200,5 +201,32 @@ fn jumps_of_what_is_sampled_or_only_recorded_end_no_steps() {
         if force == "pushing" {
             assert!((session.value("rail.velocity").unwrap() - 0.4).abs() < 1e-12);
         }
+    }
+}
+
+/// Prescribed motions whose place or speed jumps are told before they run; those whose acceleration alone jumps are not, however long
+/// the run is.
+#[test]
+fn prescribed_motions_that_jump_are_told_at_once() {
+    for (motion, end, is_told) in [
+        ("max(t - 0.5, 0)", "1", true),
+        ("t + 1e-3*step(t - 0.5)", "1", true),
+        ("t + step(t - 0.5)", "1e6", true),
+        ("t + 0.5*max(t - 0.5, 0)^2", "1", false),
+        ("5*max(t - 1, 0)^2", "1e6", false),
+        ("sin(3*t)", "1e6", false),
+    ] {
+        let drive = format!(
+            "[joints.drive]\nkind = \"prescribed_displacement\"\njoint = \"rail\"\ndisplacement = \"{motion}\"\n"
+        );
+        let text = rail::rail(0.0, &drive, "step = 1e-2");
+        let document =
+            Model::from_text("model.toml", &text).document(&[("analysis.end".to_owned(), end.to_owned())]);
+        let lowered = document
+            .and_then(|document| lower(&document))
+            .unwrap_or_else(|report| panic!("{}", report.render(false)));
+        let told =
+            lowered.warnings.iter().any(|warning| warning.to_string().contains("jumps in place or speed"));
+        assert_eq!(told, is_told, "{motion}: {:?}", lowered.warnings);
     }
 }

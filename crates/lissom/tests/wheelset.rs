@@ -201,7 +201,19 @@ fn what_the_model_does_not_know_is_told() {
         ("velocity = [0, 0, \"speed\"]", "velocity = [1, 0, \"speed\"]", "must go along the rail"),
         ("head_radius = 0.06", "rail_profile = \"0.1 - y^2\"", "must be 0 at y = 0"),
         ("head_radius = 0.06", "head_radius = 0.06\nrail_profile = \"-y^2\"", "leave one of them out"),
+        ("axle = [\"cos(yaw)*cos(roll)\", \"sin(roll)\"", "axle = [0.57, 1", "within 60 degrees"),
+        ("axle = [\"cos(yaw)*cos(roll)\", \"sin(roll)\"", "axle = [-0.57, 1", "within 60 degrees"),
+        ("axle = [\"cos(yaw)*cos(roll)\", \"sin(roll)\"", "axle = [0, 1", "within 60 degrees"),
+        ("cone_angle = \"cone\"", "cone_angle = 1.01", "between -1 and 1 rad"),
+        ("cone_angle = \"cone\"", "cone_angle = -1.01", "between -1 and 1 rad"),
+        ("cone_angle = \"cone\"", "cone_angle = \"cone\"\ncant = -1.01", "between -1 and 1 rad"),
+        ("head_radius = 0.06", "head_radius = 0.06\ntread = [0.01, 0.02]", "hold the nominal circle"),
+        ("head_radius = 0.06", "head_radius = 0.06\ntread = [-0.02, -0.01]", "hold the nominal circle"),
+        ("kalker = [4.72772197,", "kalker = [-4.72772197,", "must not be negative"),
+        ("poisson_number = 0.28", "poisson_number = 0.51", "must not be larger than 0.5"),
+        ("ellipse = [1.3537956, 0.7115218]", "ellipse = [1.3537956, 0]", "two positive numbers"),
     ] {
+        assert!(MODEL.contains(from), "{from}");
         let started = Model::from_text("wheelset.toml", &MODEL.replace(from, to)).session(&[]).map(|_| ());
         let Err(SessionError::Model(report)) = started else { panic!("{wanted}") };
         let text = report.render(false).split_whitespace().collect::<Vec<_>>().join(" ");

@@ -383,6 +383,23 @@ mod tests {
         assert!((saturated.energy(2.0) - 1.25).abs() < 1e-8, "{}", saturated.energy(2.0));
     }
 
+    /// Pieces of a cubic are integrated exactly, so that a kink on the way costs no digits, and others do nothing.
+    #[test]
+    fn integrals_stop_at_kinks() {
+        let (kink, other) = (0.3_f64, -0.37_f64);
+        let bent = |x: f64| x * x + 5.0 * (x - kink).max(0.0) - 7.0 * (other - x).max(0.0);
+        let places = [kink, other, -3.0, 2.0];
+        for (end, wanted) in [
+            (0.2, 0.2_f64.powi(3) / 3.0),
+            (1.1, 1.1_f64.powi(3) / 3.0 + 2.5 * (1.1 - kink).powi(2)),
+            (-0.2, -(0.2_f64.powi(3)) / 3.0),
+            (-1.1, 3.5 * (other + 1.1).powi(2) - 1.1_f64.powi(3) / 3.0),
+        ] {
+            let found = integral(&bent, end, &places);
+            assert!((found - wanted).abs() < 1e-14, "{end}: {found:e}, {wanted:e}");
+        }
+    }
+
     #[test]
     fn what_puts_energy_in_is_counted_as_a_load() {
         for (name, by_rate, active) in [

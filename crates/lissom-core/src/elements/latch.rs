@@ -103,3 +103,17 @@ impl Element for Latch {
         Some([own.value, own.rate, impulse.rate])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::holds;
+
+    #[test]
+    fn inputs_above_one_half_hold() {
+        for (input, wanted) in
+            [(0.0, false), (0.5, false), (0.5_f64.next_up(), true), (1.0, true), (f64::NAN, false)]
+        {
+            assert_eq!(holds(input), wanted, "{input}");
+        }
+    }
+}

@@ -424,3 +424,56 @@ pub static SPRINGS: &[ElementKind] = &[
 /// Loads, one line each.
 pub static LOADS: &[ElementKind] =
     &[force::KIND, moment::KIND, joint_load::TORQUE, joint_load::FORCE, gyrostat::KIND];
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Forces, their derivatives and energy, and nothing else.
+    #[derive(Debug)]
+    struct Bare;
+
+    impl Element for Bare {
+        fn nodes(&self) -> &[NodeId] {
+            &[]
+        }
+        fn forces(&self, _: &Kinematics, _: &mut [f64]) {}
+        fn linearize(&self, _: &Kinematics, _: &mut Tangents) {}
+        fn energy(&self, _: &Kinematics) -> Energy {
+            Energy::default()
+        }
+    }
+
+    #[test]
+    fn energies_add_up_part_by_part() {
+        let mut sum = Energy { kinetic: 1.0, strain: 2.0, potential: -4.0 };
+        sum += Energy { kinetic: 8.0, strain: 16.0, potential: -32.0 };
+        assert_eq!(sum, Energy { kinetic: 9.0, strain: 18.0, potential: -36.0 });
+        assert_eq!(sum.total(), -9.0);
+    }
+
+    #[test]
+    fn an_element_has_only_what_it_says() {
+        let at = &Kinematics {
+            time: 0.0,
+            elapsed: 0.0,
+            nodes: Vec::new(),
+            coordinates: Vec::new(),
+            held: Vec::new(),
+            multipliers: Vec::new(),
+        };
+        assert!(Bare.coordinates().is_empty() && Bare.multipliers().is_empty() && !Bare.is_load());
+        assert!(Bare.kinks().is_empty() && Bare.switch_count() == 0);
+        assert!(<Bare as Element>::blocks(&[Bare]).is_none() && Bare::derivative(&[(&Bare, 1.0)]).is_none());
+        assert_eq!(Bare.deformation_rate(at), None);
+        assert_eq!(Bare.spring_motion(at), None);
+        assert_eq!(Bare.least_aligned(at), None);
+        for limit in LinearLimit::ALL {
+            assert_eq!(Bare.linear_range(limit, at), None);
+        }
+        let mut out = Vec::new();
+        Bare.switches(at, &mut out);
+        Bare.mass(at, &mut out);
+        assert!(out.is_empty());
+    }
+}

@@ -222,6 +222,23 @@ mod tests {
         }
     }
 
+    /// A straight line is met by two nodes as by more, at its arc length and with its tangent.
+    #[test]
+    fn straight_lines_of_two_and_more_nodes_are_met_exactly() {
+        for knots in [vec![0.4, 1.7], vec![0.4, 1.0, 1.7], vec![0.4, 0.7, 1.1, 1.7]] {
+            let line = Centerline::new(knots.clone()).expect("ascending");
+            for s in [0.3, 0.4, 0.6, 1.05, 1.7, 1.9] {
+                let support = line.at(s);
+                let expected = [3.0 - 2.0 * s, -2.0, 0.0, 0.0];
+                for (weights, expected) in support.weights.iter().zip(expected) {
+                    let weights = weights[..support.count].iter().enumerate();
+                    let sum: f64 = weights.map(|(k, w)| w * (3.0 - 2.0 * knots[support.first + k])).sum();
+                    assert!((sum - expected).abs() < 1e-12, "{knots:?} {s}: {sum}, {expected}");
+                }
+            }
+        }
+    }
+
     #[test]
     fn place_tangent_and_curvature_go_on_across_nodes() {
         let line = line();

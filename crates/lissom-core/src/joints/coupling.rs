@@ -209,6 +209,47 @@ mod tests {
         }
     }
 
+    /// q₀² - 10¹², 10⁶ sin(q₀ - 10⁶), 10⁶ + sin q₀, and sin t.
+    #[derive(Debug)]
+    enum Rounded {
+        Argument,
+        Slope,
+        Offset,
+        Late,
+    }
+
+    impl Relation for Rounded {
+        fn jet(&self, (time, q): RelationPoint<'_>, (of_time, v): RelationPoint<'_>) -> [f64; 3] {
+            let (sine, cosine) = match self {
+                Self::Argument => return [q[0] * q[0] - 1e12, 2.0 * q[0] * v[0], 2.0 * v[0] * v[0]],
+                Self::Slope => (1e6 * (q[0] - 1e6).sin(), 1e6 * (q[0] - 1e6).cos()),
+                Self::Offset => q[0].sin_cos(),
+                Self::Late => {
+                    let (sine, cosine) = time.sin_cos();
+                    return [sine, cosine * of_time, -sine * of_time * of_time];
+                }
+            };
+            let value = if matches!(self, Self::Offset) { 1e6 + sine } else { sine };
+            [value, cosine * v[0], -sine * v[0] * v[0]]
+        }
+    }
+
+    /// Values and arguments that are large round much more than the change is.
+    #[test]
+    fn changes_keep_their_digits_whatever_rounds() {
+        let width: f64 = 3e-9;
+        let late: f64 = 1e6;
+        for (relation, time, start, wanted) in [
+            (Rounded::Argument, 0.0, 1e6, width * (2e6 + width)),
+            (Rounded::Slope, 0.0, 1e6, 1e6 * width),
+            (Rounded::Offset, 0.0, 0.3, 0.3_f64.cos() * width),
+            (Rounded::Late, late, 0.3, late.cos() * width),
+        ] {
+            let found = relation.change((time, &[start]), width, &[width]);
+            assert!((found / wanted - 1.0).abs() < 1e-8, "{relation:?}: {found:e}, {wanted:e}");
+        }
+    }
+
     #[test]
     fn derivatives_of_jets() {
         let coupling = Coupling {

@@ -2,6 +2,7 @@
 
 mod configuration;
 mod departures;
+mod energies;
 mod feedback;
 mod joint_lanes;
 mod locks;
@@ -144,10 +145,12 @@ fn joint_with(wanted: Quantity) -> &'static JointKind {
 fn springs_and_loads() {
     for (seed, kind) in SPRINGS.iter().chain(LOADS).enumerate() {
         for flag in [false, true] {
-            let mut random = Random::new(seed as u64 + 1);
+            let mut random = Random::new(seed as u64 + 3);
             let (mut builder, nodes) = two_bodies(&mut random);
             // What latches are engaged by.
             builder.add_held("input", if flag { 1.0 } else { 0.0 });
+            // So that the first of all coordinates is not what it acts on.
+            two_coordinates(&mut builder);
             let parameters = sample_parameters(kind.parameters, flag, &mut random);
             let attached = match kind.attachment {
                 Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),
@@ -282,9 +285,21 @@ fn all_joints() {
                 }
             }
             let (system, state) = builder.build(0.0).expect("valid");
+            check_names(kind.name, &system);
             check(kind.name, &system, &state, size, &mut random);
         }
     }
+}
+
+/// Every equation has words of its own.
+fn check_names(kind: &str, system: &System) {
+    let layout = system.layout();
+    let mut names: Vec<String> = layout.multiplier_rows().map(|own| layout.name_of(own)).collect();
+    assert!(names.iter().all(|name| !name.contains("()")), "{kind}: {names:?}");
+    let count = names.len();
+    names.sort();
+    names.dedup();
+    assert_eq!(names.len(), count, "{kind}: {names:?}");
 }
 
 #[test]

@@ -5,6 +5,7 @@ use lissom_core::elements::superelement::{
     Damping, GeometricMatrices, InterfacePlace, ReducedMatrices, Superelement, SuperelementDescription,
     add_superelement,
 };
+use lissom_core::elements::{Element, LinearLimit};
 use lissom_core::system::{Builder, Freedoms, State, System};
 use lissom_motion::{Motion, Vector3};
 use nalgebra::{DMatrix, DVector};
@@ -167,6 +168,65 @@ fn inertial_forces_change_both(is_geometric: bool) {
     for (found, expected) in found.iter().zip(expected) {
         assert!((found - expected).abs() < 1e-6 * (1.0 + expected.abs()), "{found}, expected {expected}");
     }
+}
+
+/// Three interfaces, undeformed and somewhere in space; the second carries the floating frame, and the third is the farthest: 5 m.
+fn three_interfaces() -> (Superelement, State) {
+    let mut random = Random::new(12);
+    let places = [Vector3::new(2.0, 0.0, 0.0), Vector3::zeros(), Vector3::new(0.0, 4.0, 3.0)];
+    let mut builder = Builder::new();
+    let part = random.motion();
+    let nodes: Vec<_> = (places.iter())
+        .map(|place| builder.add_node("interface", part * Motion::translation(*place), Freedoms::Full))
+        .collect();
+    let matrices = ReducedMatrices {
+        mass: positive(18, &mut random),
+        stiffness: positive(18, &mut random),
+        damping: Damping::None,
+        preload: Vec::new(),
+        geometric: None,
+    };
+    let gravity = Gravity::constant(Vector3::zeros());
+    let element = Superelement::new((nodes, Vec::new()), (1, &places), matrices, gravity);
+    builder.add_element(element.clone());
+    let (_, state) = builder.build(0.0).expect("valid");
+    (element, state)
+}
+
+/// Velocity relative to the floating frame over the size of the part, and angular velocity, of the interface with the largest sum.
+#[test]
+fn rates_of_deformation_are_those_of_the_fastest_interface() {
+    let (element, state) = three_interfaces();
+    let mut at = state.kinematics;
+    let spatial = Random::new(13).screw();
+    for node in &mut at.nodes[1..] {
+        node.twist = node.frame.adjoint_inverse_times(&spatial);
+    }
+    let (rate, _) = element.deformation_rate(&at).expect("it bends");
+    assert!(rate < 1e-13, "as a rigid body: {rate:e}");
+    at.nodes[1].twist += lissom_motion::screw(&Vector3::new(0.3, 0.0, 0.4), &Vector3::zeros());
+    let (rate, node) = element.deformation_rate(&at).expect("it bends");
+    assert!((rate - 0.5 / 5.0).abs() < 1e-13 && node == 1, "{rate} of node {node}");
+    at.nodes[3].twist += lissom_motion::screw(&Vector3::new(0.0, 12.0, 0.0), &Vector3::new(0.0, 0.0, -0.7));
+    let (rate, node) = element.deformation_rate(&at).expect("it bends");
+    assert!((rate - (12.0 / 5.0 + 0.7)).abs() < 1e-12 && node == 3, "{rate} of node {node}");
+}
+
+/// Displacements count by the size of the part, rotations by the angle, and each has its limit of 0.3.
+#[test]
+fn the_linear_range_is_that_of_the_interface_that_deforms_most() {
+    let (element, state) = three_interfaces();
+    let at = state.kinematics;
+    let used = |at: &_| element.linear_range(LinearLimit::Deformation, at).expect("it is linear");
+    assert!(used(&at).part < 1e-13);
+    let mut moved = at.clone();
+    moved.nodes[1].frame = moved.nodes[1].frame * Motion::translation(Vector3::new(0.0, -0.6, 0.8));
+    assert!((used(&moved).part - 1.0 / 1.5).abs() < 1e-13 && used(&moved).node == 1, "{:?}", used(&moved));
+    let turn = Motion::exponential(&lissom_motion::screw(&Vector3::zeros(), &Vector3::new(0.0, 0.0, -0.24)));
+    moved.nodes[3].frame = moved.nodes[3].frame * turn;
+    assert!((used(&moved).part - 0.8).abs() < 1e-13 && used(&moved).node == 3, "{:?}", used(&moved));
+    let (cosine, pair) = element.least_aligned(&moved).expect("it turns");
+    assert!((cosine.abs() - 0.12_f64.cos()).abs() < 1e-14 && pair == [2, 3], "{cosine} {pair:?}");
 }
 
 /// What a rigid motion of the whole changes: nothing in the axes of the nodes.

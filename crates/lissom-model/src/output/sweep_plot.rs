@@ -277,6 +277,7 @@ mod tests {
         let axes: Vec<_> = [first, second, third].map(|x| [[x, top], [x, bottom]]).into();
         assert_eq!(lines(&svg, "1.2"), axes);
         for (words, x, y) in [
+            ("Pendulum: 3 members", second, 28.0),
             ("mass", first, 52.0),
             ("100", first, 69.0),
             ("1", first, 440.0),

@@ -225,6 +225,22 @@ fn a_wheel_that_does_not_touch_is_refused() {
     assert!(error.to_string().contains("rolling"), "{error}");
 }
 
+/// A disc that lies on the plane cannot roll; a ball has no axis that could.
+#[test]
+fn a_wheel_that_lies_flat_is_refused() {
+    let model = Precession::new(0.2, 1.1, 3.0).model("step = 1e-3");
+    let axis = model.lines().find(|line| line.starts_with("wheel_axis")).expect("a wheel");
+    let flat = model.replace(axis, "wheel_axis = [0, 0, 1]");
+    let said = told(&flat.replace("radius = 0.2", ""));
+    assert!(said.contains("lies flat"), "{said}");
+    let leaning = format!("wheel_axis = [{}, 0, 1]", 2e-3);
+    let session = |model: &str| lissom::Model::from_text("wheel.toml", model).session(&[]).map(|_| ());
+    session(&model.replace(axis, &leaning).replace("radius = 0.2", "")).expect("it stands on its rim");
+    let height = 0.2 * 1.1_f64.sin();
+    let ball = format!("radius = 0\nrim = {height}");
+    session(&flat.replace("radius = 0.2", &ball)).expect("a ball has no lying side");
+}
+
 /// A disc that needs more friction than there is, and one that the plane would have to hold down, are told.
 #[test]
 fn a_wheel_that_would_slide_or_lift_is_told() {

@@ -1,5 +1,7 @@
 //! Sliders that hold the tangent of a beam, or its sections.
 
+use lissom::{Model, SessionError};
+
 use super::{SCHEMES, column, run, session};
 
 /// A stiff quarter of a circle of 2 m about the origin, and a body on it at 30 degrees with 1.5 m/s that turns with it.
@@ -223,5 +225,42 @@ step = 1e-3
             let places = column(&record, "slide", "displacement");
             assert!(places[places.len() - 1] < 0.6, "{orientation} {scheme}: it slides past nodes");
         }
+    }
+}
+
+/// Two beams of one line: a slider that turns with their sections needs them to agree where the beams meet.
+#[test]
+fn sections_that_are_turned_against_each_other_are_refused() {
+    let text = |up: &str, orientation: &str| {
+        let first = "from = [0, 0, 0]\nto = [0, 3, 0]\nup = [0, 0, 1]";
+        ARC.replace("ORIENTATION", orientation)
+            .replace("curve = [\"2*cos(s*pi/2)\", \"2*sin(s*pi/2)\", \"0\"]", first)
+            .replace("tip = \"arc.end\"", "tip = \"more.end\"")
+            .replace("beams = [\"arc\"]", "beams = [\"arc\", \"more\"]")
+            .replace("position = [\"2*cos(begin)\", \"2*sin(begin)\", 0]", "position = [0, 0.4, 0]")
+            + &format!(
+                "[beams.more]\nsection = \"bar\"\nfrom = \"arc.end\"\nto = [0, 5, 0]\nup = {up}\nelements = 4\norder = 3\n"
+            )
+    };
+    // By 1 and by 3 degrees; 2 are allowed.
+    for (up, orientation, is_refused) in [
+        ("[0, 0, 1]", "section", false),
+        ("[0.01745, 0, 1]", "section", false),
+        ("[0.05241, 0, 1]", "section", true),
+        ("[1, 0, 0]", "section", true),
+        ("[1, 0, 0]", "tangent", false),
+        ("[1, 0, 0]", "free", false),
+    ] {
+        let said = match Model::from_text("slider.toml", &text(up, orientation)).session(&[]) {
+            Ok(_) => String::new(),
+            Err(SessionError::Model(report)) => report.render(false),
+            Err(error) => error.to_string(),
+        };
+        assert_eq!(
+            said.contains("are turned against each other where they meet"),
+            is_refused,
+            "{up}: {said}"
+        );
+        assert_eq!(said.is_empty(), !is_refused, "{up} {orientation}: {said}");
     }
 }

@@ -117,3 +117,66 @@ impl Superelement {
         of(0).max(of(1))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use lissom_motion::{Motion, screw};
+    use nalgebra::DMatrix;
+
+    use super::*;
+    use crate::elements::inertia::Gravity;
+    use crate::elements::superelement::{Damping, ReducedMatrices};
+    use crate::system::{Kinematics, NodeMotion};
+
+    /// Three interfaces that go straight on at the first stage and turn about the floating frame, the second of them, at the other:
+    /// the longer way counts, with turns as arcs of the size of the part, 5 m.
+    #[test]
+    fn the_way_of_a_step_is_that_of_all_interfaces() {
+        let places = [Vector3::new(2.0, 0.0, 0.0), Vector3::zeros(), Vector3::new(0.0, 4.0, 3.0)];
+        let matrices = ReducedMatrices {
+            mass: DMatrix::identity(18, 18),
+            stiffness: DMatrix::identity(18, 18),
+            damping: Damping::None,
+            preload: Vec::new(),
+            geometric: None,
+        };
+        let gravity = Gravity::constant(Vector3::zeros());
+        let element = Superelement::new((vec![0, 1, 2], Vec::new()), (1, &places), matrices, gravity);
+        let moving = |spatial: [Vector3; 2]| Kinematics {
+            time: 0.0,
+            elapsed: 0.0,
+            nodes: (places.iter())
+                .map(|place| {
+                    let frame = Motion::translation(*place);
+                    let twist = frame.adjoint_inverse_times(&screw(&spatial[0], &spatial[1]));
+                    NodeMotion { twist, ..NodeMotion::at_rest(frame) }
+                })
+                .collect(),
+            coordinates: Vec::new(),
+            held: Vec::new(),
+            multipliers: Vec::new(),
+        };
+        let straight = moving([Vector3::new(-0.6, 0.0, 0.8), Vector3::zeros()]);
+        let turning = moving([Vector3::zeros(), Vector3::new(-0.1, 0.0, 0.0)]);
+        let by_stage = [3.0_f64.sqrt(), (0.25_f64 + 3.0 * 0.25).sqrt()];
+        for lasting in [[0.1, 0.1], [0.1, 0.3], [-0.2, 0.1], [0.1, -0.4]] {
+            let step = StepStages {
+                start: &straight,
+                stages: [&straight, &turning],
+                end: &turning,
+                changes: &[],
+                durations: [[0.0; STAGES]; STAGES],
+                lasting,
+                reached: [0.0; STAGES],
+                length: 1.0,
+            };
+            let mut stages = [Room::default(), Room::default()];
+            for (room, at) in stages.iter_mut().zip(step.stages) {
+                room.enter(&element, at);
+            }
+            let wanted = (by_stage[0] * lasting[0].abs()).max(by_stage[1] * lasting[1].abs());
+            let found = element.way(&step, &stages);
+            assert!((found - wanted).abs() < 1e-14, "{lasting:?}: {found}, {wanted}");
+        }
+    }
+}

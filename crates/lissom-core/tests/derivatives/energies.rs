@@ -1,0 +1,149 @@
+//! Every registered spring: its forces at rest are the gradient of its energy, and what it tells of its motion belongs to them.
+
+use lissom_core::elements::{Attached, Attachment, ElementKind, SPRINGS};
+use lissom_core::joints::Quantity;
+use lissom_core::registry::{ParameterType, Parameters, Value};
+use lissom_core::system::{ElementId, Kinematics, Placement, State, System};
+use lissom_motion::Motion;
+use nalgebra::DMatrix;
+
+use crate::configuration::{Configuration, Random, Unknown, difference, sample_parameters, unknown};
+use crate::{joint_with, two_bodies, two_coordinates};
+
+/// It holds what moves, and stores nothing.
+const STORES_NOTHING: [&str; 2] = ["axial_latch", "torsional_latch"];
+
+/// Those whose forces are no single force over one elongation.
+const WITHOUT_MOTION: [&str; 2] = ["bushing", "coordinate_dynamics"];
+
+/// A spring of a kind alone between two bodies, and which element it is. Laws that may depend on the rate, and so have no energy, are
+/// given where `is_damped`.
+fn with_spring(
+    kind: &ElementKind,
+    is_damped: bool,
+    random: &mut Random,
+) -> (System, State, Option<ElementId>) {
+    let (mut builder, nodes) = two_bodies(random);
+    builder.add_held("input", if is_damped { 1.0 } else { 0.0 });
+    let given: Vec<_> = (kind.parameters.iter())
+        .filter(|parameter| is_damped || !matches!(parameter.holds, ParameterType::Force(_)))
+        .copied()
+        .collect();
+    let mut parameters = sample_parameters(&given, false, random);
+    if kind.name == "coordinate_dynamics" && !is_damped {
+        // What is not symmetric has no energy.
+        let symmetric = DMatrix::from_row_slice(2, 2, &[2.0, -0.7, -0.7, 1.1]);
+        parameters.insert("stiffness", Value::SquareMatrix(symmetric));
+    }
+    if kind.name == "rolling_contact" {
+        // So that it is pressed.
+        parameters.insert("radius", Value::Number(3.0));
+    }
+    let attached = match kind.attachment {
+        Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),
+        Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
+        Attachment::Places => {
+            let order = [nodes[0], nodes[1], builder.ground(), nodes[1]];
+            let drums = two_coordinates(&mut builder);
+            Attached::Places(order.map(|node| (node, random.vector())).to_vec(), drums)
+        }
+        Attachment::Coordinates => Attached::Coordinates(two_coordinates(&mut builder)),
+        Attachment::Coordinate(wanted) => {
+            two_coordinates(&mut builder);
+            let (at, axis) = (random.vector(), Some(random.vector()));
+            let placement = Placement { nodes, at, at_tip: None, axis, second_axis: None };
+            let joint = builder.add_joint("joint", joint_with(wanted), &placement, &Parameters::new());
+            Attached::Coordinate(joint.expect("valid")[0])
+        }
+    };
+    (kind.build)(&mut builder, attached, &parameters).expect("valid");
+    let element = builder.take_last_element();
+    let (system, state) = builder.build(0.0).expect("valid");
+    (system, state, element)
+}
+
+/// Friction has a bristle besides the coordinate: force on the coordinate at rest is the derivative of the energy by the bristle.
+#[test]
+fn forces_of_springs_at_rest_are_the_gradient_of_their_energy() {
+    for (seed, kind) in SPRINGS.iter().enumerate() {
+        let mut random = Random::new(seed as u64 + 70);
+        let (system, state, _) = with_spring(kind, false, &mut random);
+        let mut here = Configuration::random(&system, &state, 0.3, &mut random);
+        here.multipliers.fill(0.0);
+        for node in &mut here.at.nodes {
+            node.twist.fill(0.0);
+            node.acceleration.fill(0.0);
+        }
+        for coordinate in &mut here.at.coordinates {
+            (coordinate.rate, coordinate.acceleration) = (0.0, 0.0);
+        }
+        let stored = system.energy(&here.at).total();
+        assert_eq!(stored != 0.0, !STORES_NOTHING.contains(&kind.name), "{}: {stored} J", kind.name);
+        let forces = here.residual(&system, 0.0);
+        let energy = |row| {
+            difference(|step| vec![system.energy(&here.displaced(&system, row, step, false).at).total()])[0]
+        };
+        let rows = system.layout().coordinate_count();
+        let mut slopes: Vec<f64> = (0..rows).map(energy).collect();
+        if kind.name.ends_with("friction") {
+            // The bristle is the last row, and the joint's coordinate the one before.
+            slopes.swap(rows - 1, rows - 2);
+        }
+        for (row, (force, slope)) in forces.iter().zip(slopes).enumerate() {
+            let name = system.layout().name_of(row);
+            assert!(
+                (force - slope).abs() < 1e-8 * (1.0 + force.abs()),
+                "{}, {name}: {force}, but the energy grows by {slope}",
+                kind.name
+            );
+        }
+    }
+}
+
+/// The force that a spring tells, times the rate that it tells, is the power of its forces, and so its motion is of the joint or
+/// of the places that it acts on.
+#[test]
+fn springs_tell_the_motion_that_their_forces_work_on() {
+    for (seed, kind) in SPRINGS.iter().enumerate() {
+        let mut random = Random::new(seed as u64 + 90);
+        let (system, state, element) = with_spring(kind, true, &mut random);
+        let mut here = Configuration::random(&system, &state, 0.3, &mut random);
+        here.multipliers.fill(0.0);
+        let motion = |at: &Kinematics| element.and_then(|element| system.spring_motion(element, at));
+        let told = motion(&here.at);
+        assert_eq!(told.is_some(), !WITHOUT_MOTION.contains(&kind.name), "{}: {told:?}", kind.name);
+        let Some([value, rate, force]) = told else { continue };
+        let forces = here.residual(&system, 0.0);
+        let power: f64 = (forces.iter().enumerate())
+            .map(|(row, force)| match unknown(system.layout(), row) {
+                Unknown::Node(node, k) => force * here.at.nodes[node].twist[k],
+                Unknown::Coordinate(own) if system.layout().coordinate_quantity(own) == Quantity::State => {
+                    0.0
+                }
+                Unknown::Coordinate(own) => force * here.at.coordinates[own].rate,
+                Unknown::Multiplier(_) => 0.0,
+            })
+            .sum();
+        // A contact tells what pushes apart.
+        let force = if kind.name == "rolling_contact" { -force } else { force };
+        assert!(
+            (force * rate - power).abs() < 1e-12 * (1.0 + power.abs()),
+            "{}: {told:?} {power}",
+            kind.name
+        );
+        // The rate is that of the value.
+        let along = |time: f64| {
+            let mut at = here.at.clone();
+            for node in &mut at.nodes {
+                node.frame = node.frame * Motion::exponential(&(time * node.twist));
+            }
+            for coordinate in &mut at.coordinates {
+                coordinate.value += time * coordinate.rate;
+            }
+            at.time += time;
+            vec![motion(&at).expect("as before")[0] - value]
+        };
+        let slope = difference(along)[0];
+        assert!((rate - slope).abs() < 1e-8 * (1.0 + rate.abs()), "{}: {rate} {slope}", kind.name);
+    }
+}
