@@ -24,6 +24,10 @@ pub trait TimeFunction: Send + Sync + fmt::Debug {
     fn kinks(&self) -> Vec<f64> {
         Vec::new()
     }
+    /// Bounds of the value between two times [s]. Default: none are known.
+    fn bounds(&self, _from: f64, _to: f64) -> Option<[f64; 2]> {
+        None
+    }
     /// Whether the value is the same at all times. Default: it is not.
     fn is_constant(&self) -> bool {
         false

@@ -20,6 +20,9 @@ impl TimeFunction for Expression {
     fn kinks(&self) -> Vec<f64> {
         Self::kinks(self)
     }
+    fn bounds(&self, from: f64, to: f64) -> Option<[f64; 2]> {
+        Some(Self::bounds(self, from, to))
+    }
 }
 
 /// An expression as a shared function of time; one that does not depend on time becomes a [`Constant`].
@@ -50,6 +53,10 @@ impl TimeFunction for Ramp {
     }
     fn second_derivative(&self, _: f64) -> f64 {
         0.0
+    }
+    fn bounds(&self, from: f64, to: f64) -> Option<[f64; 2]> {
+        let [one, other] = [from, to].map(|time| self.value(time));
+        Some([one.min(other), one.max(other)])
     }
 }
 

@@ -128,6 +128,43 @@ impl Table {
         }
     }
 
+    /// Bounds of the value between two arguments: those at their ends and at the rows between, and by how much cubic
+    /// polynomials depart from straight lines, h²/8 times the largest curvature.
+    fn bounds(&self, from: f64, to: f64) -> [f64; 2] {
+        let mut bounds = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut include = |value: f64| bounds = [bounds[0].min(value), bounds[1].max(value)];
+        for end in [from, to] {
+            include(self.evaluate(end)[0]);
+        }
+        let last = self.arguments.len() - 1;
+        let [first, end] = [from, to]
+            .map(|argument| self.arguments.partition_point(|row| *row <= argument).clamp(1, last) - 1);
+        for i in first..=end {
+            let span = [self.arguments[i].max(from), self.arguments[i + 1].min(to)];
+            if span[0] >= span[1] {
+                continue;
+            }
+            let h = self.arguments[i + 1] - self.arguments[i];
+            let curvature = match &self.between {
+                Between::Lines => 0.0,
+                Between::Curvatures(curvatures) => curvatures[i].abs().max(curvatures[i + 1].abs()),
+                Between::Slopes(slopes) => {
+                    let slope = (self.values[i + 1] - self.values[i]) / h;
+                    let (p, q) = (slopes[i] - slope, slopes[i + 1] - slope);
+                    (4.0 * p + 2.0 * q).abs().max((2.0 * p + 4.0 * q).abs()) / h
+                }
+            };
+            let beyond = 0.125 * (span[1] - span[0]).powi(2) * curvature;
+            for at in span {
+                // Within the interval, whose end belongs to the next one.
+                let value = self.evaluate(at)[0];
+                include(value - beyond);
+                include(value + beyond);
+            }
+        }
+        bounds
+    }
+
     /// Inner rows, and the end rows beyond which the slope is another.
     fn rows_with_kinks(&self) -> Vec<f64> {
         if self.between != Between::Lines {
@@ -155,6 +192,9 @@ impl TimeFunction for Table {
     }
     fn kinks(&self) -> Vec<f64> {
         self.rows_with_kinks()
+    }
+    fn bounds(&self, from: f64, to: f64) -> Option<[f64; 2]> {
+        Some(self.bounds(from, to))
     }
 }
 

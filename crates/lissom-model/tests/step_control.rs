@@ -218,7 +218,8 @@ fn steps_end_where_loads_have_kinks() {
         simulation.step_watched(1.0, &mut lissom_core::analysis::Unwatched).expect("it has a solution");
         times.push(simulation.state().kinematics.time);
     }
-    assert!(times.contains(&0.3333_f64.next_down()) && times.contains(&0.7_f64.next_down()), "{times:?}");
+    // Behind the jump, and before the kink.
+    assert!(times.contains(&0.3333) && times.contains(&0.7_f64.next_down()), "{times:?}");
     // The motion between kinks is a polynomial that the scheme has exactly.
     let place = simulation.state().kinematics.nodes[1].frame.position.x;
     let impulse = [(1.0_f64 - 0.3333).powi(2) / 2.0, 0.3_f64.powi(3) / 6.0];

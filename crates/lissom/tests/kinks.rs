@@ -81,14 +81,103 @@ fn rows_keep_their_times_and_steps_their_number() {
 }
 
 #[test]
-fn a_jump_that_no_expression_tells_of_costs_at_most_a_step_of_the_force() {
-    // The root of t² - 0.2534 is no straight line: its time is not known beforehand.
-    let from = 0.2534_f64.sqrt();
+fn steps_end_at_jumps_that_no_line_of_time_tells_of() {
+    // The root of t² - 0.2534 is no straight line, and jumps of the others have no argument with a root.
+    let [from, angle] = [0.2534_f64.sqrt(), 40.0_f64];
+    let to_and_fro = |end: f64| {
+        let (mut time, mut place, mut velocity, mut force) = (0.0, 0.0, 0.0, 1.0);
+        let mut turn = 0.0;
+        while time < end {
+            turn += std::f64::consts::PI / angle;
+            let step = turn.min(end) - time;
+            place += velocity * step + 0.5 * force * step * step;
+            velocity += force * step;
+            (time, force) = (turn, -force);
+        }
+        [place, velocity]
+    };
+    let saw = [(1..=10).map(|k| (0.05 * f64::from(10 - k) + 0.1 / 6.0) * 0.01).sum::<f64>(), 0.05];
     for scheme in SCHEMES {
-        let text = rail("step(t^2 - 0.2534)", &format!("scheme = \"{scheme}\"\nstep = 1e-3"));
-        let session = finished(&text);
-        let error = (session.value("rail.velocity").unwrap() - (1.0 - from)).abs();
-        assert!(error < 1e-3, "{scheme}: at most a step of the force: {error}");
+        for steps in ["step = 1e-3", "relative_tolerance = 1e-6"] {
+            let analysis = format!("scheme = \"{scheme}\"\n{steps}");
+            for (force, exact) in [
+                ("step(t^2 - 0.2534)", after_jump(from)),
+                ("sign(sin(40*t))", to_and_fro(1.0)),
+                ("mod(t, 0.1)", saw),
+            ] {
+                let found = errors(force, &analysis, exact);
+                assert!(found.iter().all(|error| *error < 2e-6), "{scheme}, {steps}, {force}: {found:?}");
+                let session = finished(&rail(force, &analysis));
+                let ledger = session.simulation().ledger();
+                let surplus = ledger.surplus;
+                assert!(
+                    surplus.abs() < 1e-5,
+                    "{scheme}, {steps}, {force}: work is that behind the jump, not {surplus}"
+                );
+            }
+        }
+    }
+}
+
+/// The pulse 1000 exp(-((t - 0.5003)/1e-4)²) N: 0.1 √π N s.
+const PULSE: &str = "1000*exp(-((t - 0.5003)/1e-4)^2)";
+const IMPULSE: f64 = 0.177_245_385_090_551_6;
+
+#[test]
+fn chosen_steps_see_pulses_far_shorter_than_they_are() {
+    for scheme in SCHEMES {
+        let analysis = format!("scheme = \"{scheme}\"\nrelative_tolerance = 1e-6");
+        for (force, more) in [(PULSE.to_owned(), 0.0), (format!("1 + {PULSE}"), 1.0)] {
+            let exact = [IMPULSE * (1.0 - 0.5003) + 0.5 * more, IMPULSE + more];
+            let found = errors(&force, &analysis, exact);
+            assert!(found.iter().all(|error| *error < 1e-4), "{scheme}, {force}: {found:?}");
+        }
+    }
+}
+
+#[test]
+fn planned_steps_that_do_not_see_what_a_load_does_are_told() {
+    let told = |force: &str, step: f64| {
+        let session = finished(&rail(force, &format!("scheme = \"generalized-alpha\"\nstep = {step}")));
+        let told: Vec<String> = session
+            .warnings()
+            .filter(|warning| warning.code() == "function-unseen")
+            .map(ToString::to_string)
+            .collect();
+        told
+    };
+    // The first two have the step as their period, or lie between the stages of steps.
+    for force in ["sin(2000*pi*t + 0.5)", "1 + sin(2000*pi*t + 0.5)", PULSE] {
+        let found = told(force, 1e-3);
+        assert!(found.len() == 1 && found[0].contains("load `"), "{force}: {found:?}");
+        assert!(told(force, 2e-5).is_empty(), "{force}");
+    }
+    for force in [
+        "sin(200*pi*t)",
+        "exp(-t) + 0.001*sin(2000*pi*t)",
+        "smoothstep((t - 0.5)/1e-4)",
+        "t*sin(20*t)/(1 + t^2)",
+    ] {
+        assert!(told(force, 1e-3).is_empty(), "{force}");
+    }
+}
+
+#[test]
+fn runs_with_jumps_that_were_found_go_on_from_a_snapshot_to_the_last_bit() {
+    for steps in ["step = 1e-3", "relative_tolerance = 1e-5"] {
+        let text =
+            rail(&format!("sign(sin(40*t)) + {PULSE}"), &format!("scheme = \"generalized-alpha\"\n{steps}"));
+        let mut whole = session(&text);
+        let mut parts = session(&text);
+        for end in [0.07, 0.35, 0.5, 1.0] {
+            let reach = |session: &mut Session| session.step_to(end).expect("it has a solution");
+            reach(&mut whole);
+            reach(&mut parts);
+            let snapshot = parts.snapshot();
+            parts = session(&text);
+            parts.restore(&snapshot).expect("it is of this model");
+            assert_eq!(whole.simulation().state(), parts.simulation().state(), "{steps}, {end} s");
+        }
     }
 }
 

@@ -23,7 +23,7 @@ use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Coupling, Scheme};
 use crate::stepping::kinks::{self, Kink};
 use crate::stepping::{
-    Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, StepControl, Watch,
+    Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, StepControl, TimeFunctions, Watch,
 };
 use crate::system::{Kinematics, Linearization, MotionChange, State, System, Threads};
 
@@ -112,6 +112,8 @@ pub struct Simulation {
     pub(crate) impacts: Impacts,
     /// Whether steps of planned size resolve the motion.
     pub(crate) resolution: Resolution,
+    /// What is known of functions of time.
+    pub(crate) time_functions: TimeFunctions,
     /// What is accumulated along the way.
     pub(crate) accumulation: Accumulation,
     /// Whether the workspace still holds the step that led to the state.
@@ -131,7 +133,9 @@ impl Simulation {
         state: State,
         settings: Settings,
     ) -> Result<Self, InitialError> {
-        Self::start(system.into(), state, settings, None)
+        let mut simulation = Self::start(system.into(), state, settings, None)?;
+        simulation.begin_behind_jumps()?;
+        Ok(simulation)
     }
 
     /// As [`new`](Self::new); with `known` representative values, where they are not those of `state`.
@@ -162,8 +166,7 @@ impl Simulation {
             let doubts = judge::start::velocities(&system, &representative, &given, &state.kinematics)?;
             warnings.extend(doubts);
             settle(&system, &mut state, &mut initial, &settings)?;
-            let may_jump = !(state.kinematics.held.is_empty() && system.kinks().is_empty());
-            held_values = may_jump.then_some(initial);
+            held_values = may_jump(&system, &state).then_some(initial);
         } else {
             equilibrium::hold_start(&system, &mut state, settings.solver);
         }
@@ -209,6 +212,7 @@ impl Simulation {
         Ok(Self {
             impacts: if is_planned { Impacts::new(&system, &state.kinematics) } else { Impacts::default() },
             resolution: Resolution::new(if is_planned { system.layout().coordinate_count() } else { 0 }),
+            time_functions: TimeFunctions::default(),
             origin: state.kinematics.clone(),
             previous: state.clone(),
             next: state.clone(),
@@ -566,6 +570,12 @@ fn yielding(system: &System, singular: &SingularPositions) -> Option<(Compliance
     let multiplier = singular.first_repeating()?;
     let count = system.layout().coordinate_count();
     Some((Compliance::new(&system.structure().pattern, count), count + multiplier))
+}
+
+/// Whether accelerations may jump: with values that are held, and where functions of time do.
+fn may_jump(system: &System, state: &State) -> bool {
+    let changes = system.functions.iter().any(|(_, function)| !function.is_constant());
+    changes || !state.kinematics.held.is_empty() || !system.kinks().is_empty()
 }
 
 fn layout_has_constraints(system: &System) -> bool {

@@ -146,6 +146,20 @@ pub enum Warning {
         /// By how much it ran round in the first such step [rad].
         angle: f64,
     },
+    /// A function of time changes within a step of planned size in a way that its ends do not tell.
+    #[error(
+        "around t = {time:.6e} s {function} does something within a step of {step:.3e} s that its values and slopes at the ends do not tell, \
+         such as a pulse or an oscillation: the step sees little of it, or takes it for something else; take smaller steps, or set \
+         `relative_tolerance` instead of `step`"
+    )]
+    FunctionUnseen {
+        /// Where it was first found [s].
+        time: f64,
+        /// The function, in words.
+        function: String,
+        /// Size of the step [s].
+        step: f64,
+    },
     /// A wheel on a rail touches where its model means nothing.
     #[error("at t = {time:.6e} s the wheel of `{joint}` {doubt}")]
     RailContact {
@@ -298,6 +312,7 @@ impl Warning {
             Self::Unresolved { .. } => "unresolved-motion",
             Self::ConstraintsYield { .. } => "constraints-yield",
             Self::ContactRunsRound { .. } => "contact-runs-round",
+            Self::FunctionUnseen { .. } => "function-unseen",
             Self::WheelLifts { .. } => "wheel-lifts",
             Self::WheelSlides { .. } => "wheel-slides",
             Self::RailContact { .. } => "rail-contact",

@@ -25,6 +25,13 @@ pub(crate) struct Kink {
     jumps: bool,
 }
 
+impl Kink {
+    /// A jump at `time` [s].
+    pub(crate) fn jump(time: f64) -> Self {
+        Self { time, jumps: true }
+    }
+}
+
 /// Where a step ends because of a kink.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Landing {
@@ -84,7 +91,8 @@ impl Simulation {
         }
         let aside = ROUNDINGS * f64::EPSILON * kink.time.abs().max(now.abs());
         let is_end = (kink.time - limit).abs() <= near;
-        let clock = if is_end { limit } else { kink.time.next_down() };
+        // The work of the next step begins with the loads behind the jump.
+        let clock = if is_end { limit } else { kink.time };
         Some(Landing { end: kink.time.min(limit) - aside, clock, jump: Some(kink.time) })
     }
 

@@ -17,6 +17,7 @@ mod parts;
 mod resolution;
 mod samples;
 mod snapshot;
+mod time_functions;
 mod watch;
 
 pub(crate) use arc::ArcControl;
@@ -29,6 +30,7 @@ pub(crate) use method_memory::MethodMemory;
 pub(crate) use parts::Parts;
 pub(crate) use resolution::Resolution;
 pub use snapshot::{Snapshot, SnapshotError};
+pub(crate) use time_functions::TimeFunctions;
 pub(crate) use watch::{Watch, Watched};
 
 use crate::analysis::{Phase, Simulation, StepError, StepReport, Stopwatch, Unwatched, cause};
@@ -247,12 +249,15 @@ impl Simulation {
         // A step across a kink of a load would see it late, and estimate its error from the wrong side of it. It ends as
         // close before it as numbers allow, so that its last stage does not see a jump either.
         let now = self.state.kinematics.time + self.state.time_remainder;
+        self.look_at_time_functions(now);
         // Where it must end anyway at a kink, or has begun at one, nothing is to be gained by another tiny step.
         let landing = self.landing(now, limit, control.max_step);
         let limit = landing.map_or(limit, |landing| landing.end);
         let rest = limit - now;
+        let told = self.told_by_its_ends(now, controller.size().min(control.max_step).min(rest));
         let located = loop {
             let size = controller.propose(rest).min(control.max_step).min(self.turning_limit());
+            let size = size.min(told);
             // What would be left is round-off, over which velocities cannot be told.
             let size = if (rest - size).abs() <= NEAR * size { rest } else { size };
             let error = match self.attempt(size, watch) {

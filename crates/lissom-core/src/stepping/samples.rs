@@ -24,6 +24,18 @@ impl Simulation {
         report: &mut StepReport,
     ) -> Result<(), StepError> {
         let whole = self.settings.step_size;
+        self.look_at_time_functions(self.now());
+        let outcome = self.sampled_pieces(whole, watch, report);
+        self.note_hidden();
+        outcome
+    }
+
+    fn sampled_pieces(
+        &mut self,
+        whole: f64,
+        watch: &mut dyn Stopwatch,
+        report: &mut StepReport,
+    ) -> Result<(), StepError> {
         if !self.system.signals().has_samples() && self.watch.is_empty() && self.kinks.is_empty() {
             return self.planned_step(whole, watch, report);
         }

@@ -3,6 +3,7 @@
 //! The usual precedence holds: `-t^2` is `-(t^2)` and `2^3^2` is `2^(3^2)`. A compiled expression is a flat list
 //! of steps on a small stack, run on second-order jets: no allocation in a call. Knows no files.
 
+mod bounds;
 mod compile;
 mod formula;
 mod jet;
@@ -86,6 +87,11 @@ impl Expression {
     /// not smooth takes an argument that is a straight line of the variable. In ascending order.
     pub fn kinks(&self) -> Vec<f64> {
         kinks::of(&self.steps, &[]).kinks
+    }
+
+    /// Bounds of the value where the variable is between `from` and `to`.
+    pub fn bounds(&self, from: f64, to: f64) -> [f64; 2] {
+        bounds::of(&self.steps, from, to)
     }
 
     /// Value and derivatives at `x`.

@@ -1,0 +1,447 @@
+//! Whether steps see functions of time as they are. A pulse between the stages of a step, or an oscillation with the step as
+//! its period, is in no residual and in no estimate of what a step misses: it would be left out, or taken for something else,
+//! and nobody would know. Nor is a jump that no line of time under `step` or `sign` tells of.
+//!
+//! A function is told by the ends of an interval if the cubic through values and slopes there gives its values between:
+//!
+//! ```text
+//! |f(t) - H(t)| ≤ DEPARTURE · max |f|
+//! ```
+//!
+//! It is looked at where an interval is halved, as often as its bounds leave room for more than is seen. What cannot be told by
+//! the ends of any interval, however short, is a jump: a step ends there, as at those that are known, see `kinks`. Chosen steps
+//! are so short that their ends tell the rest; of planned ones it is told that they do not.
+
+use std::sync::Arc;
+
+use super::NEAR;
+use super::kinks::Kink;
+use crate::analysis::{InitialError, Simulation, warn};
+use crate::judge::Warning;
+use crate::registry::TimeFunction;
+use crate::system::System;
+
+/// A function that departs by more than this part of its largest value from what the ends of a step tell is not resolved: a
+/// sine with 4.4 steps a period.
+const DEPARTURE: f64 = 0.01;
+/// Where bounds are narrower than this part of the largest value, nothing hides between the instants looked at.
+const NARROW: f64 = 0.1;
+/// Intervals looked at within one step at most, and in the search for the largest value.
+const MOST_LOOKS: usize = 256;
+/// Of them so many wait at a time: an interval is halved no more often.
+const MOST_OPEN: usize = 64;
+/// Halvings of an interval after which what remains is a jump.
+const MOST_HALVINGS: usize = 30;
+/// Halvings of a step in which jumps beside fast motions are looked for.
+const FURTHER: i32 = 6;
+/// Intervals looked at in a block at most.
+const MOST_IN_BLOCK: usize = 16 * MOST_LOOKS;
+/// Values and slopes at the ends are taken by this part of the interval inside: a jump at an end belongs to the neighbour.
+const INSIDE: f64 = 1e-6;
+/// Blocks begin by this part of a step before one of them: the golden section, that no simple part of a step is.
+const ASIDE: f64 = 0.381_966;
+/// Planned steps that are looked at together; chosen ones are as many of the longest.
+const BLOCK: [f64; 2] = [64.0, 1.0];
+/// Blocks for which the largest value is found together.
+const WINDOW: f64 = 64.0;
+
+/// What is known of the functions of a system. All of it follows from the time the motion began and the size of steps.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct TimeFunctions {
+    /// Largest size of each function since the beginning, up to the end of each window.
+    sizes: Vec<Vec<f64>>,
+    /// The block looked at last, from when to when [s].
+    block: Option<[f64; 2]>,
+    /// Where in it the first interval is that the ends of a step do not tell [s], with the function's index.
+    hidden: Option<(f64, usize)>,
+}
+
+/// What is found within an interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Found {
+    /// Nothing but what its ends tell.
+    Nothing,
+    /// Something that the ends of shorter intervals tell.
+    Hidden,
+    /// A jump, at the first number behind it [s].
+    Jump(f64),
+}
+
+/// What is found within a block.
+#[derive(Debug, Default)]
+struct Scan {
+    looks: usize,
+    hidden: Option<f64>,
+    jumps: Vec<f64>,
+}
+
+impl TimeFunctions {
+    /// Sizes of the functions of a motion that began at `origin` [s], as far as two windows of this length beyond `time`.
+    fn sizes(&mut self, system: &System, origin: f64, time: f64, window: f64) -> &[f64] {
+        let index = ((time - origin) / window).max(0.0) as usize;
+        while self.sizes.len() < index + 2 {
+            let from = origin + self.sizes.len() as f64 * window;
+            let before = self.sizes.last();
+            let largest = system.functions.iter().enumerate().map(|(k, (_, function))| {
+                largest(&**function, from, from + window).max(before.map_or(0.0, |sizes| sizes[k]))
+            });
+            let largest = largest.collect();
+            self.sizes.push(largest);
+        }
+        &self.sizes[index + 1]
+    }
+
+    /// Looks at the block around a step of `step` [s] from `from` on, unless it has been looked at last; gives the jumps in it.
+    fn look_ahead(&mut self, system: &System, origin: f64, from: f64, [step, length]: [f64; 2]) -> Vec<f64> {
+        let from = from + NEAR * step;
+        if self.block.is_some_and(|[first, last]| first <= from && from + (1.0 + 0.5 * ASIDE) * step <= last)
+        {
+            return Vec::new();
+        }
+        let first = origin + ((from - origin) / length).floor() * length;
+        // Jumps often are at ends of steps, and are seen within the intervals looked at. A step that lies in two blocks is looked
+        // at in the earlier one.
+        let block = [(first - ASIDE * step).max(origin), first + length + (1.0 + ASIDE) * step];
+        let sizes = self.sizes(system, origin, from, WINDOW * length).to_vec();
+        let (mut hidden, mut jumps) = (None, Vec::new());
+        for (index, ((_, function), size)) in system.functions.iter().zip(sizes).enumerate() {
+            let mut scan = Scan::default();
+            scan.look(&**function, block, step, size);
+            let sooner = |time: &f64| hidden.is_none_or(|(known, _)| *time < known);
+            hidden = scan.hidden.filter(sooner).map(|time| (time, index)).or(hidden);
+            // A part that a drive takes to another place at once is told, see `judge::drives`, not helped.
+            if !system.drives().iter().any(|drive| Arc::ptr_eq(&drive.prescribed.value, function)) {
+                jumps.append(&mut scan.jumps);
+            }
+        }
+        (self.block, self.hidden) = (Some(block), hidden);
+        jumps
+    }
+
+    /// The longest step of `size` [s] or less, halved, from `from` on whose ends tell what the functions do within it, but for
+    /// jumps.
+    fn told(
+        &mut self,
+        system: &System,
+        origin: f64,
+        (from, size): (f64, f64),
+        part: f64,
+        window: f64,
+    ) -> f64 {
+        let sizes = self.sizes(system, origin, from, window);
+        let mut longest = size;
+        for ((_, function), &largest) in system.functions.iter().zip(sizes) {
+            for _ in 0..MOST_HALVINGS {
+                if found(&**function, [from, from + longest], largest, part) != Found::Hidden {
+                    break;
+                }
+                longest *= 0.5;
+            }
+        }
+        longest
+    }
+}
+
+impl Scan {
+    /// Looks at a block of steps, between the kinks that are known.
+    fn look(&mut self, function: &dyn TimeFunction, [from, to]: [f64; 2], step: f64, size: f64) {
+        if function.is_constant() || size == 0.0 {
+            return;
+        }
+        let kinks = function.kinks();
+        let inside = kinks.iter().copied().filter(|kink| *kink > from && *kink < to);
+        let mut begin = from;
+        for end in inside.chain([to]) {
+            self.look_between(function, [begin, end], step, size);
+            begin = end;
+        }
+    }
+
+    fn look_between(&mut self, function: &dyn TimeFunction, [from, to]: [f64; 2], step: f64, size: f64) {
+        self.looks += 1;
+        let length = to - from;
+        if self.looks > MOST_IN_BLOCK || length <= NEAR * step {
+            return;
+        }
+        let is_told = || {
+            let part = [from, to];
+            is_narrow(function, part, size) && departure(function, part, part) <= DEPARTURE * size
+        };
+        let mut middle = 0.5 * (from + to);
+        if length > (1.0 + NEAR) * step {
+            if is_told() {
+                return;
+            }
+        } else {
+            match found(function, [from, to], size, DEPARTURE) {
+                Found::Nothing => return,
+                Found::Hidden => {
+                    // Between two kinks a step is shorter, and what it misses counts for less.
+                    let part = DEPARTURE * (step / length).max(1.0);
+                    if found(function, [from, to], size, part) == Found::Hidden {
+                        self.hidden = Some(self.hidden.map_or(middle, |known| known.min(middle)));
+                    }
+                    if length < step * 0.5_f64.powi(FURTHER) {
+                        return;
+                    }
+                }
+                Found::Jump(time) => {
+                    // At an end it is a known one.
+                    if (time - from).min(to - time) <= NEAR * step {
+                        return;
+                    }
+                    self.jumps.push(time);
+                    middle = time;
+                }
+            }
+        }
+        self.look_between(function, [from, middle], step, size);
+        self.look_between(function, [middle, to], step, size);
+    }
+}
+
+/// The largest size of a function between two times, within a factor of two where it has bounds.
+fn largest(function: &dyn TimeFunction, from: f64, to: f64) -> f64 {
+    if function.is_constant() {
+        return 0.0;
+    }
+    let size = |time: f64| {
+        let value = function.value(time).abs();
+        if value.is_finite() { value } else { 0.0 }
+    };
+    let part = (to - from) / MOST_LOOKS as f64;
+    let mut found = (0..=MOST_LOOKS).map(|k| size(from + k as f64 * part)).fold(0.0, f64::max);
+    let most = |[from, to]: [f64; 2]| {
+        let [low, high] = function.bounds(from, to)?;
+        Some(high.max(-low))
+    };
+    let mut open: Vec<(f64, [f64; 2])> =
+        most([from, to]).into_iter().map(|most| (most, [from, to])).collect();
+    for _ in 0..MOST_LOOKS {
+        let Some(index) = (0..open.len()).max_by(|&a, &b| open[a].0.total_cmp(&open[b].0)) else { break };
+        let (bound, [from, to]) = open.swap_remove(index);
+        if bound <= 2.0 * found {
+            break;
+        }
+        let middle = 0.5 * (from + to);
+        found = found.max(size(middle));
+        let halves = [[from, middle], [middle, to]];
+        open.extend(halves.into_iter().filter_map(|half| Some((most(half)?, half))));
+    }
+    found
+}
+
+/// Whether bounds show that a function does not leave a narrow range between two times; also where it has none.
+fn is_narrow(function: &dyn TimeFunction, [from, to]: [f64; 2], size: f64) -> bool {
+    let inside = INSIDE * (to - from);
+    function.bounds(from + inside, to - inside).is_none_or(|[low, high]| high - low <= NARROW * size)
+}
+
+/// What a function does between two times that its values and slopes there do not tell to `part` of its largest value.
+fn found(function: &dyn TimeFunction, whole: [f64; 2], size: f64, part: f64) -> Found {
+    if function.is_constant() || size == 0.0 {
+        return Found::Nothing;
+    }
+    let mut open = [whole; MOST_OPEN];
+    let (mut last, mut looks) = (1, 0);
+    while last > 0 {
+        last -= 1;
+        let within = open[last];
+        looks += 1;
+        if departure(function, whole, within) > part * size {
+            return jump(function, whole, size).map_or(Found::Hidden, Found::Jump);
+        }
+        if looks < MOST_LOOKS && last + 2 <= MOST_OPEN && !is_narrow(function, within, size) {
+            let middle = 0.5 * (within[0] + within[1]);
+            (open[last], open[last + 1]) = ([middle, within[1]], [within[0], middle]);
+            last += 2;
+        }
+    }
+    Found::Nothing
+}
+
+/// The first number behind a jump: where some part of an interval is told by the ends of no interval, however short.
+fn jump(function: &dyn TimeFunction, [mut from, mut to]: [f64; 2], size: f64) -> Option<f64> {
+    for _ in 0..MOST_HALVINGS {
+        let middle = 0.5 * (from + to);
+        let is_told = |half: [f64; 2]| departure(function, half, half) <= DEPARTURE * size;
+        if !is_told([from, middle]) {
+            to = middle;
+        } else if !is_told([middle, to]) {
+            from = middle;
+        } else {
+            return None;
+        }
+    }
+    let value = |time: f64| function.value(time);
+    while from.next_up() < to {
+        let middle = 0.5 * (from + to);
+        if (value(middle) - value(from)).abs() > (value(to) - value(middle)).abs() {
+            to = middle;
+        } else {
+            from = middle;
+        }
+    }
+    Some(to)
+}
+
+/// By how much a function departs, at three instants of `part`, from the cubic through its values and slopes at the ends of
+/// `whole`.
+fn departure(function: &dyn TimeFunction, [from, to]: [f64; 2], part: [f64; 2]) -> f64 {
+    let inside = INSIDE * (to - from);
+    let (from, to) = (from + inside, to - inside);
+    let length = to - from;
+    let [one, other] =
+        [from, to].map(|time| (function.value(time), length * function.first_derivative(time)));
+    let departure = |share: f64| {
+        let time = part[0] + share * (part[1] - part[0]);
+        let x = ((time - from) / length).clamp(0.0, 1.0);
+        let y = 1.0 - x;
+        let cubic = y * y * (1.0 + 2.0 * x) * one.0
+            + x * x * (1.0 + 2.0 * y) * other.0
+            + x * y * (y * one.1 - x * other.1);
+        (function.value(time) - cubic).abs()
+    };
+    // A value that is no number is told elsewhere.
+    [0.25, 0.5, 0.75].map(departure).into_iter().fold(0.0, f64::max)
+}
+
+impl Simulation {
+    /// Looks at functions of time before a step from the time `now` [s]: jumps that are found end steps.
+    pub(super) fn look_at_time_functions(&mut self, now: f64) {
+        if self.system.functions.is_empty() || !self.settings.scheme.dynamic {
+            return;
+        }
+        let sizes = self.sizes_of_blocks();
+        for time in self.time_functions.look_ahead(&self.system, self.origin.time, now, sizes) {
+            let place = self.kinks.partition_point(|kink| kink.time < time);
+            let near = |kink: &Kink| (kink.time - time).abs() <= NEAR * sizes[0];
+            if !self.kinks[place.saturating_sub(1)..].iter().take(2).any(near) {
+                self.kinks.insert(place, Kink::jump(time));
+            }
+        }
+    }
+
+    /// At the start: accelerations are those behind jumps of functions at that very instant.
+    ///
+    /// # Errors
+    /// If there are no consistent accelerations there.
+    pub(crate) fn begin_behind_jumps(&mut self) -> Result<(), InitialError> {
+        let now = self.state.kinematics.time;
+        let [step, length] = self.sizes_of_blocks();
+        let behind = now + NEAR * step;
+        let sizes = self.time_functions.sizes(&self.system, now, now, WINDOW * length);
+        let jumps = self.system.functions.iter().zip(sizes).any(|((_, function), size)| {
+            (function.value(behind) - function.value(now)).abs() > DEPARTURE * size
+        });
+        if jumps && self.settings.scheme.dynamic { self.jump_between(now, behind) } else { Ok(()) }
+    }
+
+    /// The longest planned or chosen step, and the length of a block [s].
+    fn sizes_of_blocks(&self) -> [f64; 2] {
+        match self.settings.control {
+            Some(control) => [control.max_step, BLOCK[1] * control.max_step],
+            None => [self.settings.step_size, BLOCK[0] * self.settings.step_size],
+        }
+    }
+
+    /// Tells, after a step of planned size, that it has passed something that its ends do not tell.
+    pub(super) fn note_hidden(&mut self) {
+        let Some((time, index)) = self.time_functions.hidden else { return };
+        if time < self.state.kinematics.time {
+            let function = self.system.functions[index].0.clone();
+            let step = self.settings.step_size;
+            warn(&mut self.warnings, Warning::FunctionUnseen { time, function, step });
+        }
+    }
+
+    /// The longest step of `size` [s] or less within which no function of time does what its ends do not tell.
+    pub(super) fn told_by_its_ends(&mut self, now: f64, size: f64) -> f64 {
+        let window = WINDOW * self.sizes_of_blocks()[1];
+        // The square root of what a step of third order may miss.
+        let tolerance = self.settings.control.map_or(1.0, |control| control.relative_tolerance);
+        let part = tolerance.powf(2.0 / 3.0).min(DEPARTURE);
+        self.time_functions.told(&self.system, self.origin.time, (now, size), part, window)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A function by its value and slope, with bounds if `wide` gives half their width about nothing.
+    #[derive(Debug)]
+    struct By {
+        value: fn(f64) -> f64,
+        slope: fn(f64) -> f64,
+        bounds: fn(f64, f64) -> [f64; 2],
+    }
+
+    impl TimeFunction for By {
+        fn value(&self, time: f64) -> f64 {
+            (self.value)(time)
+        }
+        fn first_derivative(&self, time: f64) -> f64 {
+            (self.slope)(time)
+        }
+        fn second_derivative(&self, _: f64) -> f64 {
+            0.0
+        }
+        fn bounds(&self, from: f64, to: f64) -> Option<[f64; 2]> {
+            Some((self.bounds)(from, to))
+        }
+    }
+
+    /// exp(-((t - 1)/1e-4)²).
+    const PULSE: By = By {
+        value: |t| (-((t - 1.0) / 1e-4).powi(2)).exp(),
+        slope: |t| -2.0 * (t - 1.0) / 1e-8 * (-((t - 1.0) / 1e-4).powi(2)).exp(),
+        bounds: |from, to| {
+            let of = |t: f64| (-((t - 1.0) / 1e-4).powi(2)).exp();
+            let high = if from < 1.0 && to > 1.0 { 1.0 } else { of(from).max(of(to)) };
+            [of(from).min(of(to)), high]
+        },
+    };
+    /// 1000 periods a second.
+    const FAST: By = By {
+        value: |t| (std::f64::consts::TAU * 1e3 * t + 0.5).sin(),
+        slope: |t| std::f64::consts::TAU * 1e3 * (std::f64::consts::TAU * 1e3 * t + 0.5).cos(),
+        bounds: |_, _| [-1.0, 1.0],
+    };
+    const JUMP: By = By {
+        value: |t| f64::from(u8::from(t > 0.3)),
+        slope: |_| 0.0,
+        bounds: |from, to| [f64::from(u8::from(from > 0.3)), f64::from(u8::from(to > 0.3))],
+    };
+
+    fn scanned(function: &By, block: [f64; 2], step: f64) -> Scan {
+        let mut scan = Scan::default();
+        scan.look(function, block, step, 1.0);
+        scan
+    }
+
+    #[test]
+    fn a_pulse_between_the_stages_of_a_step_is_found() {
+        assert!(largest(&PULSE, 0.0, 3.0) > 0.5);
+        assert_eq!(found(&PULSE, [0.0, 1.7], 1.0, DEPARTURE), Found::Hidden);
+        assert_eq!(found(&PULSE, [0.0, 0.999], 1.0, DEPARTURE), Found::Nothing);
+        assert_eq!(found(&PULSE, [0.99998, 1.00001], 1.0, DEPARTURE), Found::Nothing);
+        let Scan { hidden, jumps, .. } = scanned(&PULSE, [0.0, 64e-3 * 40.0], 1e-3);
+        assert!((hidden.expect("it is there") - 1.0).abs() < 2e-3, "{hidden:?}");
+        assert!(jumps.is_empty(), "{jumps:?}");
+        assert_eq!(scanned(&PULSE, [0.9, 0.9 + 64e-2], 1e-5).hidden, None);
+    }
+
+    #[test]
+    fn an_oscillation_with_the_step_as_its_period_is_found() {
+        assert!(scanned(&FAST, [0.0, 64e-3], 1e-3).hidden.is_some());
+        assert_eq!(scanned(&FAST, [0.0, 64e-4], 1e-4).hidden, None);
+    }
+
+    #[test]
+    fn jumps_are_found_to_the_last_bit() {
+        assert_eq!(found(&JUMP, [0.0, 1.0], 1.0, DEPARTURE), Found::Jump(0.3_f64.next_up()));
+        let Scan { hidden, jumps, .. } = scanned(&JUMP, [0.0, 6.37], 0.1);
+        assert_eq!((hidden, jumps.as_slice()), (None, &[0.3_f64.next_up()][..]));
+    }
+}

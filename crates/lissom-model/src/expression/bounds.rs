@@ -1,0 +1,198 @@
+//! Bounds of an expression over an interval of its variable, by interval arithmetic [Moore 1966]: never too narrow but for
+//! round-off, and wider than they need be where the variable stands in several places.
+
+use std::f64::consts::{PI, TAU};
+
+use super::{Function, Jet, STACK, Step};
+
+/// Lower and upper bound.
+type Interval = [f64; 2];
+
+const ALL: Interval = [f64::NEG_INFINITY, f64::INFINITY];
+const TRUTH: Interval = [0.0, 1.0];
+
+/// Bounds of the value that steps leave where the variable is between `from` and `to`.
+pub(super) fn of(steps: &[Step], from: f64, to: f64) -> Interval {
+    let mut stack = [ALL; STACK];
+    let mut top = 0;
+    for step in steps {
+        let first = top - step.operands().min(top);
+        let [u, v, w] = [0, 1, 2].map(|k| stack[(first + k).min(STACK - 1)]);
+        let found = match *step {
+            Step::Constant(value) => [value; 2],
+            Step::Variable => [from, to],
+            Step::Argument(_) => ALL,
+            Step::Negate => [-u[1], -u[0]],
+            Step::Add => [u[0] + v[0], u[1] + v[1]],
+            Step::Subtract => [u[0] - v[1], u[1] - v[0]],
+            Step::Multiply => product(u, v),
+            Step::Divide => product(u, inverse(v)),
+            Step::Power => power(u, v),
+            Step::Call(function) => of_one(function, u),
+            Step::Call2(function) => of_two(function, u, v),
+            Step::Call3(Function::If) if u == [0.0; 2] => w,
+            Step::Call3(Function::If) if u[0] > 0.0 || u[1] < 0.0 => v,
+            Step::Call3(Function::If) => [v[0].min(w[0]), v[1].max(w[1])],
+            Step::Call3(_) => {
+                let larger = of_two(Function::Max, u, v);
+                of_two(Function::Min, larger, w)
+            }
+        };
+        // What is not a number bounds nothing.
+        stack[first] = if found[0] <= found[1] { found } else { ALL };
+        top = first + 1;
+    }
+    stack[0]
+}
+
+/// The narrowest interval with these values; all numbers if one is none.
+fn hull(values: &[f64]) -> Interval {
+    if values.iter().any(|value| value.is_nan()) {
+        return ALL;
+    }
+    values
+        .iter()
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &value| [low.min(value), high.max(value)])
+}
+
+fn product(u: Interval, v: Interval) -> Interval {
+    // Nothing times what has no bound is nothing.
+    let of = |a: f64, b: f64| if a == 0.0 || b == 0.0 { 0.0 } else { a * b };
+    hull(&[of(u[0], v[0]), of(u[0], v[1]), of(u[1], v[0]), of(u[1], v[1])])
+}
+
+fn inverse(u: Interval) -> Interval {
+    if u[0] > 0.0 || u[1] < 0.0 { [1.0 / u[1], 1.0 / u[0]] } else { ALL }
+}
+
+fn power(base: Interval, exponent: Interval) -> Interval {
+    let [n, other] = exponent;
+    if n != other {
+        let logarithm = of_one(Function::Ln, base);
+        return of_one(Function::Exp, product(exponent, logarithm));
+    }
+    if n < 0.0 {
+        return inverse(power(base, [-n; 2]));
+    }
+    let ends = base.map(|value| value.powf(n));
+    let is_even = n % 2.0 == 0.0;
+    match base {
+        // Even powers, and 0 of an exponent that is no whole number, are smallest there.
+        [low, high] if is_even && low < 0.0 && high > 0.0 => [0.0, ends[0].max(ends[1])],
+        _ => hull(&ends),
+    }
+}
+
+/// The value of a function of one number.
+fn at(function: Function, value: f64) -> f64 {
+    function.of(Jet::constant(value)).value
+}
+
+fn of_one(function: Function, [low, high]: Interval) -> Interval {
+    let ends = [at(function, low), at(function, high)];
+    match function {
+        Function::Sin => wave([low, high]),
+        Function::Cos => wave([low + 0.5 * PI, high + 0.5 * PI]),
+        // Between two poles it ascends.
+        Function::Tan if ((low / PI + 0.5).floor() - (high / PI + 0.5).floor()).abs() > 0.0 => ALL,
+        Function::Abs | Function::Cosh if low < 0.0 && high > 0.0 => {
+            [at(function, 0.0), ends[0].max(ends[1])]
+        }
+        // The others ascend, or descend, wherever they are defined.
+        _ => hull(&ends),
+    }
+}
+
+/// Of the sine.
+fn wave([low, high]: Interval) -> Interval {
+    if !(low.is_finite() && high.is_finite()) || high - low >= TAU {
+        return [-1.0, 1.0];
+    }
+    // Whether a point `peak` + 2π k lies between.
+    let has = |peak: f64| ((high - peak) / TAU).floor() > ((low - peak) / TAU).floor();
+    let [from, to] = hull(&[low.sin(), high.sin()]);
+    [if has(-0.5 * PI) { -1.0 } else { from }, if has(0.5 * PI) { 1.0 } else { to }]
+}
+
+fn of_two(function: Function, u: Interval, v: Interval) -> Interval {
+    let decided = |is_true: bool, is_false: bool| match (is_true, is_false) {
+        (true, _) => [1.0; 2],
+        (_, true) => [0.0; 2],
+        _ => TRUTH,
+    };
+    match function {
+        Function::Min => [u[0].min(v[0]), u[1].min(v[1])],
+        Function::Max => [u[0].max(v[0]), u[1].max(v[1])],
+        Function::Less => decided(u[1] < v[0], u[0] >= v[1]),
+        Function::LessOrEqual => decided(u[1] <= v[0], u[0] > v[1]),
+        Function::Greater => decided(u[0] > v[1], u[1] <= v[0]),
+        Function::GreaterOrEqual => decided(u[0] >= v[1], u[1] < v[0]),
+        Function::Hypot => {
+            let [a, b] = [u, v].map(|side| of_one(Function::Abs, side));
+            [a[0].hypot(b[0]), a[1].hypot(b[1])]
+        }
+        Function::Atan2 => [-PI, PI],
+        Function::Mod if v[0] == v[1] && (u[0] / v[0]).floor() == (u[1] / v[0]).floor() => {
+            hull(&u.map(|value| value.rem_euclid(v[0])))
+        }
+        Function::Mod => [0.0, v[0].abs().max(v[1].abs())],
+        _ => ALL,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeMap;
+
+    use proptest::prelude::*;
+
+    use super::super::Expression;
+
+    fn bounds(text: &str, from: f64, to: f64) -> [f64; 2] {
+        Expression::parse(text, Some("t"), &BTreeMap::new()).unwrap().bounds(from, to)
+    }
+
+    #[test]
+    fn bounds_are_those_of_the_function_where_the_variable_stands_once() {
+        for (text, from, to, wanted) in [
+            ("3 - 2*t", 0.0, 2.0, [-1.0, 3.0]),
+            ("t^2", -1.0, 2.0, [0.0, 4.0]),
+            ("t^3", -1.0, 2.0, [-1.0, 8.0]),
+            ("t^-2", 1.0, 2.0, [0.25, 1.0]),
+            ("2/t", -1.0, 1.0, [f64::NEG_INFINITY, f64::INFINITY]),
+            ("sin(t)", 0.0, 2.0, [0.0, 1.0]),
+            ("cos(t)", 3.0, 3.5, [-1.0, 3.5_f64.cos()]),
+            ("sin(t)", 0.0, 100.0, [-1.0, 1.0]),
+            ("tan(t)", 1.0, 2.0, [f64::NEG_INFINITY, f64::INFINITY]),
+            ("abs(t)", -1.0, 0.5, [0.0, 1.0]),
+            ("step(t - 1)", 0.0, 0.9, [0.0, 0.0]),
+            ("mod(t, 1)", 2.25, 2.5, [0.25, 0.5]),
+            ("mod(t, 1)", 2.25, 3.5, [0.0, 1.0]),
+            ("clamp(t, -1, 1)", -3.0, 0.5, [-1.0, 0.5]),
+            ("if(t > 1, 5, 2)", 0.0, 0.5, [2.0, 2.0]),
+            ("if(t > 1, 5, 2)", 0.0, 1.5, [2.0, 5.0]),
+            ("hypot(3, t)", -4.0, 1.0, [3.0, 5.0]),
+            ("0*exp(t)", 0.0, 1e4, [0.0, 0.0]),
+            ("exp(-((t - 1)/1e-4)^2)", 0.0, 2.0, [0.0, 1.0]),
+        ] {
+            assert_eq!(bounds(text, from, to), wanted, "{text}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn no_value_is_beyond_them(from in -4.0_f64..4.0, size in 0.0_f64..3.0, part in 0.0_f64..1.0) {
+            for text in [
+                "t*sin(3*t) - cos(t^2)/(2 + sin(t))", "exp(-t^2)*t", "abs(t - 1)^1.5", "2^t - t^3 + 1/t", "atan2(t, 1 - t)",
+                "mod(t, 0.7)*sign(t)", "sqrt(t) + ln(t + 5)", "hypot(t, 1 - t)", "acos(t/8)*cosh(t) - tanh(t)", "t^t",
+                "smoothstep(t)*clamp(t, 0, 2) + min(t, t^2) - max(t, 1/t)", "if(t < 1, t, 3 - t)", "tan(t)*floor(3*t)",
+            ] {
+                let expression = Expression::parse(text, Some("t"), &BTreeMap::new()).unwrap();
+                let value = expression.jet(from + part * size).value;
+                let [low, high] = expression.bounds(from, from + size);
+                let slack = 1e-12 * (1.0 + value.abs());
+                prop_assert!(value.is_nan() || (low - slack <= value && value <= high + slack), "{text}: {low} {value} {high}");
+            }
+        }
+    }
+}
