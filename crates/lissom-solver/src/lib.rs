@@ -34,7 +34,6 @@ mod pattern;
 mod pivoting;
 mod refinement;
 mod report;
-#[cfg(feature = "samples")]
 pub mod samples;
 mod scalar;
 mod singular_values;

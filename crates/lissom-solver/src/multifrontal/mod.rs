@@ -240,7 +240,7 @@ impl<S: Scalar> pulp::WithSimd for Backward<'_, S> {
     }
 }
 
-#[cfg(all(test, feature = "samples"))]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::samples::{Model, Sample, backward_error, chain, grid, right_hand_side, spherical_chain};

@@ -1,6 +1,6 @@
 //! Times of a refactorisation and of a solve beside those of other solvers, as a table.
 //!
-//! `cargo bench -p lissom-solver --bench comparison` compares with `faer`; `--features klu` with KLU as well, for
+//! `cargo bench --manifest-path benches/kernels/Cargo.toml --bench comparison` compares with `faer`; `--features klu` with KLU as well, for
 //! which `libsuitesparse-dev` must be installed. `LISSOM_BENCH_LARGE=1` adds 200 000 unknowns.
 
 mod contenders;

@@ -1,17 +1,38 @@
-//! The schema accepts every good model file and refuses what a schema can refuse.
+//! The schema accepts every good model file and every example, and refuses what a schema can refuse. `LISSOM_PROGRAM` names the
+//! program that prints it; without it what `cargo build --release` has built is taken.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 
+use jsonschema::Validator;
 use serde_json::{Value, json};
 
-mod support;
+/// The folder of the project.
+fn project() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
+}
 
-fn folder(name: &str) -> Vec<(String, String)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests").join(name);
-    fs::read_dir(folder)
+/// What judges by the schema that users see.
+fn validator() -> Validator {
+    let program = std::env::var_os("LISSOM_PROGRAM")
+        .map_or_else(|| project().join("target/release/lissom"), PathBuf::from);
+    let printed = Command::new(&program).arg("schema").output().unwrap_or_else(|error| {
+        panic!(
+            "{}: {error}: build it by `cargo build --release`, or name another in LISSOM_PROGRAM",
+            program.display()
+        )
+    });
+    assert!(printed.status.success(), "{}", String::from_utf8_lossy(&printed.stderr));
+    jsonschema::validator_for(&serde_json::from_slice(&printed.stdout).unwrap()).unwrap()
+}
+
+/// Names and texts of the model files of a folder.
+fn folder(path: &str) -> Vec<(String, String)> {
+    fs::read_dir(project().join(path))
         .unwrap()
         .map(|entry| entry.unwrap().path())
+        .filter(|path| path.extension().is_some_and(|end| end == "toml"))
         .map(|path| {
             (path.file_stem().unwrap().to_str().unwrap().to_owned(), fs::read_to_string(path).unwrap())
         })
@@ -37,9 +58,8 @@ fn json_of(text: &str) -> Option<Value> {
 
 #[test]
 fn good_files_fit_the_schema() {
-    let schema = lissom_model::schema(&support::registry());
-    let validator = jsonschema::validator_for(&schema).unwrap();
-    for (name, text) in folder("good") {
+    let validator = validator();
+    for (name, text) in folder("crates/lissom-model/tests/good").into_iter().chain(folder("examples")) {
         let errors: Vec<String> = validator
             .iter_errors(&json_of(&text).unwrap())
             .map(|error| format!("{}: {error}", error.instance_path()))
@@ -50,8 +70,7 @@ fn good_files_fit_the_schema() {
 
 #[test]
 fn typical_mistakes_do_not_fit_the_schema() {
-    let schema = lissom_model::schema(&support::registry());
-    let validator = jsonschema::validator_for(&schema).unwrap();
+    let validator = validator();
     // What is wrong with these shows in one value alone, without looking anything up.
     let seen = [
         "unknown_",
@@ -95,7 +114,7 @@ fn typical_mistakes_do_not_fit_the_schema() {
         "missing_section",
     ];
     let mut checked = 0;
-    for (name, text) in folder("bad") {
+    for (name, text) in folder("crates/lissom-model/tests/bad") {
         if hidden.contains(&name.as_str()) || !seen.iter().any(|start| name.starts_with(start)) {
             continue;
         }

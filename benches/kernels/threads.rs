@@ -1,6 +1,6 @@
 //! What two threads make of a refactorisation and of a solve, as a table: time of one thread over that of two, run in turn.
 //!
-//! `cargo bench -p lissom-solver --bench threads`; `LISSOM_BENCH_LARGE=1` adds 200 000 unknowns.
+//! `cargo bench --manifest-path benches/kernels/Cargo.toml --bench threads`; `LISSOM_BENCH_LARGE=1` adds 200 000 unknowns.
 
 use std::time::{Duration, Instant};
 
