@@ -32,7 +32,8 @@ const SCALE: f64 = 1.0;
 
 #[test]
 fn energy_never_increases_for_any_step() {
-    for (step, end) in [("1e-4", "2.0"), ("1e-3", "2.0"), ("1e-2", "2.0"), ("3e-2", "2.0"), ("0.1", "2.0")] {
+    // The shortest steps see the beam buckle and swing back, at a quarter of the cost.
+    for (step, end) in [("1e-4", "0.5"), ("1e-3", "2.0"), ("1e-2", "2.0"), ("3e-2", "2.0"), ("0.1", "2.0")] {
         let (mut simulation, steps) = start(&[("analysis.step", step), ("analysis.end", end)]);
         let first = total(&simulation);
         let mut before = first;

@@ -1,5 +1,6 @@
 //! Sliders along flexible beams: Coriolis force, a moving mass, energy and momentum, ends, restarts.
 
+mod flying;
 mod oriented;
 
 use std::f64::consts::PI;
@@ -225,15 +226,16 @@ fn a_mass_that_crosses_a_bridge_follows_the_series() {
     let text = text.replace("gravity = [0, 0, -0.01]", "gravity = [0, 0, 0]");
     let weight = "[loads.weight]\nkind = \"force\"\non = \"car\"\nvector = [0, 0, -0.2]\n[analysis]";
     let text = text.replace("[analysis]", weight);
+    // Every twentieth of the steps, which are the same with all schemes.
+    let times: Vec<f64> = (0..19).map(|sample| 2e-3 * f64::from(1 + 20 * sample)).collect();
+    let series = moving_mass(0.01, &times);
     for (scheme, tolerance) in
         [("radau-iia", 0.004), ("energy-decaying", 0.004), ("generalized-alpha", 0.006), ("hht", 0.006)]
     {
         let record = run(&text, &[("analysis.scheme", scheme)]);
-        let times: Vec<f64> = record.times.iter().copied().filter(|time| *time > 0.0).step_by(20).collect();
-        let series = moving_mass(0.01, &times);
         let most = series.iter().fold(0.0_f64, |most, own| most.max(own[0].abs()));
         for (time, [middle, below, _]) in times.iter().zip(&series) {
-            let row = record.times.iter().position(|known| known == time).unwrap();
+            let row = record.times.iter().position(|known| (known - time).abs() < 1e-9).unwrap();
             let found = [-column(&record, "middle", "u3")[row], -column(&record, "car", "z")[row]];
             for (found, wanted) in found.iter().zip([middle, below]) {
                 assert!(
@@ -265,75 +267,6 @@ fn energy_stays_while_a_car_rolls_over_the_bridge() {
     }
     // More than four of six elements were passed, alike with all schemes.
     assert!(ends.iter().all(|end| (3.0..3.6).contains(end) && (end - ends[0]).abs() < 2e-4), "{ends:?}");
-}
-
-/// Beam and bead fly freely: momentum and angular momentum stay to the last digits, two beams in a row are one.
-#[test]
-fn momentum_stays_on_a_beam_that_flies() {
-    let text = |beams: &str, names: &str| {
-        format!(
-            r#"
-lissom = 1
-gravity = [0, 0, 0]
-[sections.bar]
-shape = "general"
-stiffness = [1e5, 4e4, 4e4, 50, 40, 60]
-mass = {{ per_length = 0.8, inertia = [2e-3, 1e-3, 1e-3] }}
-{beams}
-[point_masses.bead]
-mass = 0.5
-position = [0.75, 0, 0]
-[joints.slide]
-kind = "slider"
-beams = [{names}]
-tip = "bead"
-[initial]
-velocity = [0.3, -0.2, 0.1]
-angular_velocity = [0.5, 1, 3]
-about = [1, 0, 0]
-[outputs.slide]
-kind = "relative"
-of = "slide"
-[outputs.momentum]
-kind = "momentum"
-[outputs.energy]
-kind = "energy"
-[analysis]
-kind = "dynamics"
-end = 0.5
-step = 1e-3
-"#
-        )
-    };
-    let beam = |name: &str, from: &str, to: &str, elements: usize| {
-        format!(
-            "[beams.{name}]\nsection = \"bar\"\nfrom = {from}\nto = {to}\nelements = {elements}\norder = 2\n"
-        )
-    };
-    let one = text(&beam("one", "[0, 0, 0]", "[2, 0, 0]", 8), "\"one\"");
-    let halves =
-        [beam("one", "[0, 0, 0]", "[1, 0, 0]", 4), beam("two", "\"one.end\"", "[2, 0, 0]", 4)].concat();
-    let chain = text(&halves, "\"one\", \"two\"");
-    for scheme in SCHEMES {
-        let record = run(&one, &[("analysis.scheme", scheme)]);
-        for component in ["p1", "p2", "p3", "l1", "l2", "l3"] {
-            let values = column(&record, "momentum", component);
-            let most = values.iter().fold(0.0_f64, |most, value| most.max((value - values[0]).abs()));
-            let is_radau = scheme == "radau-iia" || scheme == "energy-decaying";
-            let allowed = if component.starts_with('p') && is_radau { 1e-8 } else { 2e-4 };
-            assert!(most < allowed, "{scheme} {component}: {most}");
-        }
-        let energy = column(&record, "energy", "total");
-        let last = energy[energy.len() - 1];
-        assert!((last / energy[0] - 1.0).abs() < 1e-3, "{scheme}: {} {last}", energy[0]);
-        let other = run(&chain, &[("analysis.scheme", scheme)]);
-        let ends = [&record, &other].map(|record| {
-            let places = column(record, "slide", "displacement");
-            places[places.len() - 1]
-        });
-        assert!((0.1..0.6).contains(&ends[0]), "it slides past nodes: {ends:?}");
-        assert!((ends[0] - ends[1]).abs() < 1e-7, "{scheme}: {ends:?}");
-    }
 }
 
 #[test]

@@ -281,7 +281,7 @@ fn errors_follow_the_tolerance() {
         let record = ran(&model, &[set("analysis.relative_tolerance", tolerance)]);
         ["x", "y"].map(|component| last(&record, "tip", component))
     };
-    let exact = end("1e-9");
+    let exact = end("1e-8");
     for (tolerance, allowed) in [("1e-4", 1e-4), ("1e-6", 1e-6)] {
         let found = end(tolerance);
         let error = (found[0] - exact[0]).hypot(found[1] - exact[1]);
