@@ -1,55 +1,20 @@
 //! Branches of equilibrium paths against closed forms and independent solutions.
 
-use lissom::path::{PathEnd, PathReport, PathSession};
-use lissom::{Model, Record};
+#[path = "support/paths.rs"]
+mod paths;
+#[path = "support/truss.rs"]
+mod truss;
+
+use lissom::Model;
+use lissom::path::PathEnd;
 use lissom_core::analysis::path::CriticalKind;
+use paths::{follow, near};
+use truss::truss;
 
-fn follow(text: &str, overrides: &[(&str, &str)]) -> (Record, PathReport) {
-    let overrides: Vec<(String, String)> =
-        overrides.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
-    let model = Model::from_text("model.toml", text);
-    PathSession::new(&model, &overrides).unwrap_or_else(|error| panic!("{error}")).record()
+/// A truss that buckles sideways before it snaps through.
+fn high_truss() -> String {
+    truss(3, -1, "[analysis]\nkind = \"path\"\nend = 400\nstep = 50\n")
 }
-
-fn near(found: f64, exact: f64, tolerance: f64) {
-    assert!(
-        (found - exact).abs() <= tolerance * exact.abs(),
-        "{found} for {exact}: {:e}",
-        found / exact - 1.0
-    );
-}
-
-/// Two springs of rate 1000 N/m lean on each other, 3 m high, under a load of 1 N.
-const TRUSS: &str = r#"
-lissom = 1
-[point_masses.top]
-mass = 1.0
-position = [0, 3, 0]
-plane = "xy"
-[springs.left]
-kind = "point"
-base = "ground"
-at_base = [-1, 0, 0]
-tip = "top"
-stiffness = 1000.0
-[springs.right]
-kind = "point"
-base = "ground"
-at_base = [1, 0, 0]
-tip = "top"
-stiffness = 1000.0
-[loads.down]
-kind = "force"
-on = "top"
-vector = [0, -1, 0]
-[outputs.top]
-kind = "position"
-of = "top"
-[analysis]
-kind = "path"
-end = 400
-step = 50
-"#;
 
 /// Forces of the truss's springs on its top at (x, y), to the right and up.
 fn truss_forces([x, y]: [f64; 2]) -> [f64; 2] {
@@ -67,7 +32,7 @@ fn truss_forces([x, y]: [f64; 2]) -> [f64; 2] {
 fn a_steep_truss_goes_sideways_on_its_branch_in_either_sense() {
     let mut ends = Vec::new();
     for (branch, sense) in [("1", 1.0), ("-1", -1.0)] {
-        let (record, report) = follow(TRUSS, &[("analysis.branch", branch)]);
+        let (record, report) = follow(&high_truss(), &[("analysis.branch", branch)]);
         assert!(matches!(report.end, PathEnd::Reached), "{:?}", report.end);
         assert_eq!(report.critical[0].kind, CriticalKind::Bifurcation);
         let column = |name: &str, part: &str| record.column(name, part).unwrap();
@@ -231,10 +196,11 @@ fn a_right_angle_frame_goes_over_to_its_lateral_branch() {
 
 #[test]
 fn a_branch_that_is_not_there_is_refused() {
-    let (_, report) = follow(TRUSS, &[("analysis.branch", "9"), ("analysis.steps", "400")]);
+    let (_, report) = follow(&high_truss(), &[("analysis.branch", "9"), ("analysis.steps", "400")]);
     let PathEnd::Failed(error) = &report.end else { panic!("{:?}", report.end) };
     let words = error.to_string();
     assert!(words.contains("bifurcation(s), not the 9"), "{words}");
-    let half = Model::from_text("model.toml", TRUSS).document(&[("analysis.branch".into(), "0.5".into())]);
+    let half =
+        Model::from_text("model.toml", &high_truss()).document(&[("analysis.branch".into(), "0.5".into())]);
     assert!(half.unwrap_err().render(false).contains("whole number"), "refused");
 }

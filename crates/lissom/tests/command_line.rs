@@ -45,6 +45,8 @@ mod study;
 mod support;
 #[path = "command_line/sweep.rs"]
 mod sweep;
+#[path = "support/truss.rs"]
+mod truss;
 #[path = "command_line/view.rs"]
 mod view;
 

@@ -1,66 +1,27 @@
 //! Equilibrium paths against closed forms and independent solutions.
 
-use lissom::path::{PathEnd, PathReport, PathSession};
-use lissom::{Model, Record};
+#[path = "support/paths.rs"]
+mod paths;
+#[path = "support/truss.rs"]
+mod truss;
+
+use lissom::Model;
+use lissom::path::{PathEnd, PathSession};
 use lissom_core::analysis::path::CriticalKind;
+use paths::{follow, near};
+use truss::truss;
 
-fn follow(text: &str, overrides: &[(&str, &str)]) -> (Record, PathReport) {
-    let overrides: Vec<(String, String)> =
-        overrides.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
-    let model = Model::from_text("model.toml", text);
-    PathSession::new(&model, &overrides).unwrap_or_else(|error| panic!("{error}")).record()
-}
-
-fn near(found: f64, exact: f64, tolerance: f64) {
-    assert!(
-        (found - exact).abs() <= tolerance * exact.abs(),
-        "{found} for {exact}: {:e}",
-        found / exact - 1.0
-    );
-}
-
-/// Two springs of rate 1000 N/m lean on each other under a load of 1 N.
-fn truss(height: f64, end: f64) -> String {
-    format!(
-        r#"
-lissom = 1
-[point_masses.top]
-mass = 1.0
-position = [0, {height}, 0]
-plane = "xy"
-[springs.left]
-kind = "point"
-base = "ground"
-at_base = [-1, 0, 0]
-tip = "top"
-stiffness = 1000.0
-[springs.right]
-kind = "point"
-base = "ground"
-at_base = [1, 0, 0]
-tip = "top"
-stiffness = 1000.0
-[loads.down]
-kind = "force"
-on = "top"
-vector = [0, -1, 0]
-[outputs.top]
-kind = "position"
-of = "top"
-[outputs.energy]
-kind = "energy"
-[analysis]
-kind = "path"
-end = {end}
-"#
-    )
+/// The truss under a load of 1 N, with its energy, along its load.
+fn along_load(height: f64, end: f64) -> String {
+    let rest = format!("[outputs.energy]\nkind = \"energy\"\n[analysis]\nkind = \"path\"\nend = {end}\n");
+    truss(height, -1, &rest)
 }
 
 #[test]
 fn a_shallow_truss_snaps_through() {
     let height = 0.3_f64;
     let free = (1.0 + height * height).sqrt();
-    let (record, report) = follow(&truss(height, 60.0), &[]);
+    let (record, report) = follow(&along_load(height, 60.0), &[]);
     assert!(matches!(report.end, PathEnd::Reached), "{:?}", report.end);
     let factors = record.column("load_factor", "").unwrap();
     let heights = record.column("top", "y").unwrap();
@@ -88,7 +49,7 @@ fn a_shallow_truss_snaps_through() {
 #[test]
 fn a_steep_truss_bifurcates_before_its_limit() {
     let free = 10.0_f64.sqrt();
-    let (_, report) = follow(&truss(3.0, 1.0), &[("analysis.end", "12000"), ("analysis.step", "50")]);
+    let (_, report) = follow(&along_load(3.0, 1.0), &[("analysis.end", "12000"), ("analysis.step", "50")]);
     assert!(matches!(report.end, PathEnd::Reached), "{:?}", report.end);
     // Sideways: ℓ³ - ℓ₀ ℓ² + ℓ₀ = 0, the larger root.
     let mut length = 3.0_f64;
@@ -329,7 +290,7 @@ step = 50
 
 #[test]
 fn gravity_counts_as_a_load() {
-    let text = truss(0.3, 60.0).replace("lissom = 1\n", "lissom = 1\ngravity = [0, -1, 0]\n");
+    let text = along_load(0.3, 60.0).replace("lissom = 1\n", "lissom = 1\ngravity = [0, -1, 0]\n");
     let start = text.find("[loads.down]").unwrap();
     let end = text.find("[outputs.top]").unwrap();
     let text = [&text[..start], &text[end..]].concat();
@@ -350,11 +311,11 @@ fn a_path_that_cannot_be_is_refused() {
     let start = |text: &str| {
         PathSession::new(&Model::from_text("model.toml", text), &[]).map(|_| ()).unwrap_err().to_string()
     };
-    let idle = truss(0.3, 1.0).replace("vector = [0, -1, 0]", "vector = [0, -1, 0]\nscale = \"t\"");
+    let idle = along_load(0.3, 1.0).replace("vector = [0, -1, 0]", "vector = [0, -1, 0]\nscale = \"t\"");
     assert!(start(&idle).contains("load factor changes nothing"));
-    let (record, report) = follow(&truss(0.3, 1.0), &[("analysis.steps", "3"), ("analysis.end", "1e6")]);
+    let (record, report) = follow(&along_load(0.3, 1.0), &[("analysis.steps", "3"), ("analysis.end", "1e6")]);
     assert!(matches!(report.end, PathEnd::Failed(_)));
     assert_eq!(record.times.len(), 4);
-    let wrong = Model::from_text("model.toml", &truss(0.3, 0.0)).document(&[]).unwrap_err();
+    let wrong = Model::from_text("model.toml", &along_load(0.3, 0.0)).document(&[]).unwrap_err();
     assert!(wrong.render(false).contains("load factor 0"), "{}", wrong.render(false));
 }

@@ -1,66 +1,26 @@
 //! Equilibrium paths along a number of the model against closed forms.
 
-use lissom::path::{PathEnd, PathReport, PathSession, PathSessionError};
-use lissom::{Model, Record};
+#[path = "support/paths.rs"]
+mod paths;
+#[path = "support/truss.rs"]
+mod truss;
+
+use lissom::path::PathEnd;
 use lissom_core::analysis::path::CriticalKind;
-
-fn start(text: &str, overrides: &[(&str, &str)]) -> Result<PathSession, String> {
-    let overrides: Vec<(String, String)> =
-        overrides.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
-    PathSession::new(&Model::from_text("model.toml", text), &overrides).map_err(|error| match error {
-        PathSessionError::Model(report) => report.render(false),
-        other => other.to_string(),
-    })
-}
-
-fn follow(text: &str, overrides: &[(&str, &str)]) -> (Record, PathReport) {
-    start(text, overrides).unwrap_or_else(|error| panic!("{error}")).record()
-}
-
-fn near(found: f64, exact: f64, tolerance: f64) {
-    let missed = (found - exact).abs();
-    assert!(missed <= tolerance * exact.abs(), "{found} for {exact}: {:e}", found / exact - 1.0);
-}
+use paths::{follow, near, start};
+use truss::truss;
 
 /// Two springs lean on each other under a load. They are as long as they are drawn, so that their height is a geometry.
-const TRUSS: &str = r#"
-lissom = 1
-[parameters]
-height = 0.3
-stiffness = 1000.0
-force = 0.0
-[point_masses.top]
-mass = 1.0
-position = [0, "height", 0]
-plane = "xy"
-[springs.left]
-kind = "point"
-base = "ground"
-at_base = [-1, 0, 0]
-tip = "top"
-stiffness = "stiffness"
-[springs.right]
-kind = "point"
-base = "ground"
-at_base = [1, 0, 0]
-tip = "top"
-stiffness = "stiffness"
-[loads.down]
-kind = "force"
-on = "top"
-vector = [0, "-force", 0]
-[outputs.top]
-kind = "position"
-of = "top"
-[analysis]
-kind = "path"
-vary = "parameters.force"
-end = 60
-"#;
+fn given_truss() -> String {
+    let rest = "[analysis]\nkind = \"path\"\nvary = \"parameters.force\"\nend = 60\n";
+    truss("\"height\"", "\"-force\"", rest)
+        .replace("lissom = 1\n", "lissom = 1\n[parameters]\nheight = 0.3\nstiffness = 1000.0\nforce = 0.0\n")
+        .replace("stiffness = 1000.0\n[", "stiffness = \"stiffness\"\n[")
+}
 
 #[test]
 fn a_force_is_a_number_like_the_load_factor() {
-    let (record, report) = follow(TRUSS, &[]);
+    let (record, report) = follow(&given_truss(), &[]);
     assert!(matches!(report.end, PathEnd::Reached), "{:?}", report.end);
     assert_eq!(report.name, "parameters.force");
     let forces = record.column("parameters.force", "").unwrap();
@@ -91,7 +51,7 @@ fn a_geometry_has_a_limit_point() {
         ("analysis.end", "0.05"),
         ("analysis.steps", "60"),
     ];
-    let (record, report) = follow(TRUSS, &set);
+    let (record, report) = follow(&given_truss(), &set);
     let PathEnd::Failed(error) = &report.end else { panic!("{:?}", report.end) };
     assert!(error.to_string().contains("parameters.height"), "{error}");
     let limit = ((1.0 + (20.0_f64 / 2000.0).powf(2.0 / 3.0)).powi(3) - 1.0).sqrt();
@@ -242,7 +202,7 @@ fn the_range_that_a_drive_can_reach_ends_at_limit_points() {
 
 #[test]
 fn numbers_that_cannot_be_varied_are_refused() {
-    let refuse = |set: &[(&str, &str)]| start(TRUSS, set).err().unwrap_or_default();
+    let refuse = |set: &[(&str, &str)]| start(&given_truss(), set).err().unwrap_or_default();
     let words = refuse(&[("analysis.vary", "parameters.heigt")]);
     assert!(words.contains("says nothing at `parameters.heigt`"), "{words}");
     let words = refuse(&[("analysis.vary", "analysis.steps")]);
@@ -258,7 +218,7 @@ fn numbers_that_cannot_be_varied_are_refused() {
         ("analysis.vary", "springs.left.stiffness"),
         ("analysis.end", "-100"),
     ];
-    let (record, report) = follow(TRUSS, &set);
+    let (record, report) = follow(&given_truss(), &set);
     let PathEnd::Failed(error) = &report.end else { panic!("{:?}", report.end) };
     assert!(error.to_string().contains("no meaning beyond"), "{error}");
     assert!(record.times.len() > 5);

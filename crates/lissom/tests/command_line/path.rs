@@ -3,42 +3,17 @@
 use lissom::ResultFolder;
 
 use super::support::{Folder, lissom, summary};
+use super::truss::truss;
 
 /// Two springs lean on each other, and snap through under a load.
-const TRUSS: &str = r#"
-lissom = 1
-[point_masses.top]
-mass = 1.0
-position = [0, 0.3, 0]
-plane = "xy"
-[springs.left]
-kind = "point"
-base = "ground"
-at_base = [-1, 0, 0]
-tip = "top"
-stiffness = 1000.0
-[springs.right]
-kind = "point"
-base = "ground"
-at_base = [1, 0, 0]
-tip = "top"
-stiffness = 1000.0
-[loads.down]
-kind = "force"
-on = "top"
-vector = [0, -1, 0]
-[outputs.top]
-kind = "position"
-of = "top"
-[analysis]
-kind = "path"
-end = 60
-"#;
+fn shallow_truss() -> String {
+    truss(0.3, -1, "[analysis]\nkind = \"path\"\nend = 60\n")
+}
 
 #[test]
 fn a_path_leaves_its_load_factor_and_its_limits() {
     let folder = Folder::new("path");
-    folder.write("truss.toml", TRUSS);
+    folder.write("truss.toml", &shallow_truss());
     let run = lissom(&["run", "truss.toml"], folder.path());
     assert_eq!((run.code, run.errors.as_str()), (0, ""));
     assert!(run.output.contains("limit        load factor"), "{}", run.output);
@@ -61,7 +36,7 @@ fn a_path_leaves_its_load_factor_and_its_limits() {
 #[test]
 fn a_path_that_ends_early_has_an_exit_code() {
     let folder = Folder::new("short-path");
-    folder.write("truss.toml", TRUSS);
+    folder.write("truss.toml", &shallow_truss());
     let run = lissom(&["run", "truss.toml", "--set", "analysis.steps=4", "--quiet"], folder.path());
     assert_eq!((run.code, run.output.as_str()), (3, ""));
     assert!(run.errors.contains("has not come to 60"), "{}", run.errors);
@@ -78,7 +53,7 @@ fn a_path_that_ends_early_has_an_exit_code() {
 #[test]
 fn a_path_is_seen_by_its_load_factors() {
     let folder = Folder::new("path-seen");
-    folder.write("truss.toml", TRUSS);
+    folder.write("truss.toml", &shallow_truss());
     let view = lissom(&["view", "truss.toml", "--quiet"], folder.path());
     assert_eq!(view.code, 0, "{}", view.errors);
     let out = folder.path().join("out/truss");
@@ -103,7 +78,7 @@ fn a_path_is_seen_by_its_load_factors() {
     let drawn = std::fs::read_to_string(out.join("snapshot.svg")).unwrap();
     assert!(drawn.contains("load factor 0") && drawn.contains("load factor 60"), "{drawn}");
     // Along another number loads may be of any size: none is drawn.
-    let along = TRUSS.replace("end = 60", "end = 2000\nvary = \"springs.left.stiffness\"");
+    let along = shallow_truss().replace("end = 60", "end = 2000\nvary = \"springs.left.stiffness\"");
     folder.write("stiffer.toml", &along);
     let view = lissom(&["view", "stiffer.toml", "--quiet"], folder.path());
     assert_eq!(view.code, 0, "{}", view.errors);

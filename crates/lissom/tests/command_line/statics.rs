@@ -1,41 +1,17 @@
 //! What the program tells of load steps: limit points, and the stability of every equilibrium.
 
 use super::support::{Folder, lissom, summary};
+use super::truss::truss;
 
 /// A shallow truss of two springs that snaps through at 9.95 N.
-const TRUSS: &str = r#"
-lissom = 1
-[point_masses.top]
-mass = 1.0
-position = [0, 0.3, 0]
-plane = "xy"
-[springs.left]
-kind = "point"
-base = "ground"
-at_base = [-1, 0, 0]
-tip = "top"
-stiffness = 1000.0
-[springs.right]
-kind = "point"
-base = "ground"
-at_base = [1, 0, 0]
-tip = "top"
-stiffness = 1000.0
-[loads.down]
-kind = "force"
-on = "top"
-vector = [0, -40, 0]
-[outputs.top]
-kind = "position"
-of = "top"
-[analysis]
-kind = "statics"
-"#;
+fn shallow_truss() -> String {
+    truss(0.3, -40, "[analysis]\nkind = \"statics\"\n")
+}
 
 #[test]
 fn chosen_load_steps_end_at_a_limit_point_and_say_so() {
     let folder = Folder::new("statics-limit");
-    folder.write("truss.toml", TRUSS);
+    folder.write("truss.toml", &shallow_truss());
     let run = lissom(&["run", "truss.toml", "--out", "out", "--no-plots"], folder.path());
     assert_eq!(run.code, 3, "{}", run.errors);
     assert!(run.errors.contains("limit"), "{}", run.errors);

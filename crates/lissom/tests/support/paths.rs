@@ -1,0 +1,23 @@
+//! Follows the equilibrium paths of models.
+
+use lissom::path::{PathReport, PathSession, PathSessionError};
+use lissom::{Model, Record};
+
+pub(crate) fn start(text: &str, overrides: &[(&str, &str)]) -> Result<PathSession, String> {
+    let overrides: Vec<(String, String)> =
+        overrides.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect();
+    PathSession::new(&Model::from_text("model.toml", text), &overrides).map_err(|error| match error {
+        PathSessionError::Model(report) => report.render(false),
+        other => other.to_string(),
+    })
+}
+
+pub(crate) fn follow(text: &str, overrides: &[(&str, &str)]) -> (Record, PathReport) {
+    start(text, overrides).unwrap_or_else(|error| panic!("{error}")).record()
+}
+
+/// A relative error within the tolerance.
+pub(crate) fn near(found: f64, exact: f64, tolerance: f64) {
+    let missed = (found - exact).abs();
+    assert!(missed <= tolerance * exact.abs(), "{found} for {exact}: {:e}", found / exact - 1.0);
+}
