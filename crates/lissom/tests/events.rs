@@ -95,6 +95,44 @@ fn roots_are_located_to_a_part_in_ten_thousand_million_of_the_step() {
     }
 }
 
+/// What jumps where another number passes through zero, from either side and to a small value or a large one, has its event there; what
+/// only touches zero has none.
+#[test]
+fn numbers_that_jump_are_located_like_those_that_pass() {
+    let spring = force("-40*rail.displacement - 300*rail.displacement^3");
+    let times = |zero_of: &str, analysis: &str| {
+        let event = format!("[events.passage]\nzero_of = \"{zero_of}\"\n");
+        let session = finished(&rail(&format!("{spring}{event}"), analysis));
+        session.events().map(|(_, time)| time).collect::<Vec<f64>>()
+    };
+    for scheme in SCHEMES {
+        for (analysis, step) in [("step = 0.03", 0.03), ("relative_tolerance = 1e-5", 0.1)] {
+            let analysis = format!("{analysis}\nscheme = \"{scheme}\"");
+            let wanted = times("rail.displacement - 0.03", &analysis);
+            assert!(wanted.len() >= 2, "{wanted:?}");
+            for zero_of in [
+                "sign(rail.displacement - 0.03)",
+                "sign(rail.displacement - 0.03) + 0.2",
+                "if(rail.displacement > 0.03, 1, -1e-3)",
+                "if(rail.displacement > 0.03, 1e-3, -1)",
+                "step(rail.displacement - 0.03) - 0.5 + 0.1*rail.displacement",
+            ] {
+                let found = times(zero_of, &analysis);
+                assert_eq!(found.len(), wanted.len(), "{zero_of}, {analysis}: {found:?}, not {wanted:?}");
+                // The first: later ones follow other steps, since events end steps.
+                assert!(
+                    (found[0] - wanted[0]).abs() < 1e-9 * step,
+                    "{zero_of}, {analysis}: {found:?}, not {wanted:?}"
+                );
+            }
+            for zero_of in ["max(rail.displacement - 0.03, 0)", "abs(rail.displacement - 0.03)"] {
+                let found = times(zero_of, &analysis);
+                assert!(found.is_empty(), "{zero_of}, {analysis}: {found:?}");
+            }
+        }
+    }
+}
+
 /// Uniform motion and even steps: every root is at the end of a step but for round-off, which hides its sign.
 #[test]
 fn roots_at_ends_of_steps_happen_there_and_once() {

@@ -69,10 +69,13 @@ impl Graph {
         &self.events
     }
 
-    /// Appends the values whose crossings of zero are events, in the order of the events.
+    /// Appends the values whose crossings of zero are events, in the order of the events: as they are, since one that is continued
+    /// from a side never jumps, and passes through zero where it only touches it.
     pub(crate) fn event_values(&self, at: &Kinematics, out: &mut Vec<f64>) {
         if !self.events.is_empty() {
-            self.evaluate(at, |values| out.extend(self.events.iter().map(|event| values[event.root])));
+            self.evaluate_as_they_are(at, |values| {
+                out.extend(self.events.iter().map(|event| values[event.root]))
+            });
         }
     }
 

@@ -153,13 +153,27 @@ impl Graph {
         self.signals.iter().any(|signal| signal.sampling.is_some())
     }
 
-    /// Calls `with` with the values of all signals at a configuration.
+    /// Calls `with` with the values of all signals at a configuration, continued from the sides of their switches.
     pub fn evaluate<T>(&self, at: &Kinematics, with: impl FnOnce(&[f64]) -> T) -> T {
+        self.evaluate_with(at, |signal| self.sides(signal, at), with)
+    }
+
+    /// The same, each switch on the side where its number is.
+    pub(crate) fn evaluate_as_they_are<T>(&self, at: &Kinematics, with: impl FnOnce(&[f64]) -> T) -> T {
+        self.evaluate_with(at, |_| &[], with)
+    }
+
+    fn evaluate_with<'k, T>(
+        &self,
+        at: &'k Kinematics,
+        sides: impl Fn(SignalId) -> &'k [f64],
+        with: impl FnOnce(&[f64]) -> T,
+    ) -> T {
         with_room(self.signals.len(), |values| {
             for index in 0..self.signals.len() {
                 values[index] = match self.signals[index].sampling {
                     Some(Sampling { held, .. }) => at.held[held],
-                    None => self.compute(index, at, values),
+                    None => self.compute(index, at, values, sides(index)),
                 };
             }
             with(values)
@@ -177,11 +191,11 @@ impl Graph {
     }
 
     /// The expression of a signal, evaluated whether it is sampled or not.
-    fn compute(&self, index: SignalId, at: &Kinematics, values: &[f64]) -> f64 {
+    fn compute(&self, index: SignalId, at: &Kinematics, values: &[f64], sides: &[f64]) -> f64 {
         let signal = &self.signals[index];
         let mut arguments = [0.0; MOST_ARGUMENTS];
         self.gather(signal, at, values, &mut arguments);
-        signal.function.value(at.time, &arguments[..signal.arguments.len()], self.sides(index, at))
+        signal.function.value(at.time, &arguments[..signal.arguments.len()], sides)
     }
 
     /// Held values at the start: inputs, samples, and the sides of the switches of signals, which are not known.
@@ -338,7 +352,7 @@ impl Graph {
         for (index, signal) in self.signals.iter().enumerate() {
             values[index] = match signal.sampling {
                 Some(Sampling { held, period }) if !is_due(elapsed / period) => at.held[held],
-                _ => self.compute(index, at, &values),
+                _ => self.compute(index, at, &values, self.sides(index, at)),
             };
             if let Some(Sampling { held, .. }) = signal.sampling {
                 at.held[held] = values[index];

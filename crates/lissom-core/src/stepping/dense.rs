@@ -15,9 +15,17 @@ pub(crate) fn interpolate(from: &State, to: &State, time: f64, out: &mut State) 
     let (start, end) = (&from.kinematics, &to.kinematics);
     let duration = end.time - start.time;
     let x = if duration > 0.0 { ((time - start.time) / duration).clamp(0.0, 1.0) } else { 1.0 };
+    at_share(from, to, x, out);
+    out.kinematics.time = time;
+}
+
+/// The state at `x` of the step between two states, 1 at its end, and beyond: on the same curves.
+pub(crate) fn at_share(from: &State, to: &State, x: f64, out: &mut State) {
+    let (start, end) = (&from.kinematics, &to.kinematics);
+    let duration = end.time - start.time;
     out.kinematics.held.clone_from(&start.held);
     let between = |a: f64, b: f64| a + x * (b - a);
-    out.kinematics.time = time;
+    out.kinematics.time = start.time + x * duration;
     out.kinematics.elapsed = 0.0;
     for ((node, a), b) in out.kinematics.nodes.iter_mut().zip(&start.nodes).zip(&end.nodes) {
         let whole = (a.frame.inverse() * b.frame).logarithm();

@@ -6,6 +6,9 @@
 //!               t* ← t* - g/ġ with the step to t* solved anew, to 1e-10 of the step
 //! ```
 //!
+//! A number that jumps, as sign(x), has no slope there: the step to t* is asked by bisection on its own cubics, which go on
+//! beyond its end, whether the jump is where it ends.
+//!
 //! A root at the end of a step shows no change of sign there, or one that is lost in round-off: it is where the tangent at the end
 //! meets zero, if the step has come from a clear value. The step that begins there could take it only as late as its first
 //! millionth.
@@ -67,6 +70,8 @@ pub(crate) struct Located {
     whole: f64,
     /// What passes through zero.
     pub(crate) who: Vec<usize>,
+    /// Whether it jumps there instead.
+    is_jump: bool,
     refinements: usize,
 }
 
@@ -150,11 +155,14 @@ impl Watch {
     }
 
     fn at(&mut self, system: &System, (from, to): (&State, &State), share: f64) {
-        if share >= 1.0 {
-            return values_at(system, to, self.has_switches, &mut self.values);
-        }
         let (start, end) = (from.kinematics.time, to.kinematics.time);
-        dense::interpolate(from, to, start + share * (end - start), &mut self.between);
+        if share == 1.0 {
+            return values_at(system, to, self.has_switches, &mut self.values);
+        } else if share < 1.0 {
+            dense::interpolate(from, to, start + share * (end - start), &mut self.between);
+        } else {
+            dense::at_share(from, to, share, &mut self.between);
+        }
         values_at(system, &self.between, self.has_switches, &mut self.values);
     }
 
@@ -183,7 +191,9 @@ impl Watch {
                 after if after > 1.0 - ACCURACY => 1.0,
                 after => after.max(CLOSE),
             };
-            return Some(Located { size: share * size, whole: size, who, refinements: 0 });
+            // A smooth number is not beyond its noise yet.
+            let is_jump = self.values[who[0]].abs() > CLOSE * self.known.largest[who[0]];
+            return Some(Located { size: share * size, whole: size, who, is_jump, refinements: 0 });
         }
         self.root_at_end(system, step, size)
     }
@@ -223,7 +233,7 @@ impl Watch {
         }
         let share = roots.iter().map(|root| root.1).reduce(f64::min)?;
         let who = roots.iter().filter(|root| root.1 <= share + ACCURACY).map(|root| root.0).collect();
-        Some(Located { size: share * size, whole: size, who, refinements: 0 })
+        Some(Located { size: share * size, whole: size, who, is_jump: false, refinements: 0 })
     }
 
     /// The forces switch at the start of the step already.
@@ -238,6 +248,14 @@ impl Watch {
     pub(crate) fn is_met(&mut self, system: &System, step: (&State, &State), located: &mut Located) -> bool {
         let first = located.who[0];
         located.refinements += 1;
+        if located.is_jump {
+            let size = located.size * self.jump(system, step, first, located);
+            let is_there = size == located.size || located.refinements > MOST_REFINEMENTS;
+            if !is_there {
+                located.size = size.clamp(CLOSE * located.whole, located.whole);
+            }
+            return is_there;
+        }
         self.at(system, step, 1.0 - 1e-3);
         let earlier = self.values[first];
         self.at(system, step, 1.0);
@@ -251,6 +269,35 @@ impl Watch {
         let is_moved = size != located.size;
         located.size = size;
         !is_moved
+    }
+
+    /// Where number `which` jumps near the end of a step, as a part of it: 1 if it does so within the accuracy before the end.
+    fn jump(&mut self, system: &System, step: (&State, &State), which: usize, located: &Located) -> f64 {
+        let events = system.signals().events();
+        let unit = located.whole / located.size;
+        let (accuracy, most) = (2.0 * ACCURACY * unit, unit - 1.0);
+        let passes = |watch: &mut Self, share: f64| {
+            watch.at(system, step, share);
+            watch.has_passed(events, which)
+        };
+        let is_early = !passes(self, 1.0);
+        // Doubles the distance from the end until the jump is between.
+        let (mut near, mut far) = (0.0, accuracy);
+        let share = |distance: f64| if is_early { 1.0 + distance } else { 1.0 - distance };
+        let bound = if is_early { most } else { 1.0 };
+        while far < bound && passes(self, share(far)) != is_early {
+            (near, far) = (far, 2.0 * far);
+        }
+        if !is_early && near == 0.0 {
+            return 1.0;
+        }
+        let mut far = far.min(bound);
+        while far - near > 0.25 * accuracy {
+            let middle = 0.5 * (near + far);
+            if passes(self, share(middle)) == is_early { far = middle } else { near = middle }
+        }
+        // Where it has passed.
+        share(if is_early { far } else { near })
     }
 
     /// Takes note of the end of a step that was accepted, and of what passed through zero there. Gives the events that
