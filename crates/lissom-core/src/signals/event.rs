@@ -74,7 +74,7 @@ impl Graph {
     pub(crate) fn event_values(&self, at: &Kinematics, out: &mut Vec<f64>) {
         if !self.events.is_empty() {
             self.evaluate_as_they_are(at, |values| {
-                out.extend(self.events.iter().map(|event| values[event.root]))
+                out.extend(self.events.iter().map(|event| values[event.root]));
             });
         }
     }
