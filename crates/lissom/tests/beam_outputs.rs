@@ -111,3 +111,86 @@ fn places_within_elements_move_with_the_body_that_the_beam_is_fixed_to() {
         }
     }
 }
+
+/// A straight cantilever and an arc that sag under their weight, and one that swings: section forces at the clamp are what the
+/// clamp holds, with few elements as well, and moments between the Gauss points follow the weight.
+#[test]
+fn section_forces_at_a_clamp_are_its_reaction() {
+    let text = |beam: &str, analysis: &str| {
+        format!(
+            r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[sections.bar]
+shape = "general"
+stiffness = [1e7, 1e6, 1e6, 1e4, 2e4, 4e4]
+mass = {{ per_length = 5, inertia = [1e-3, 5e-4, 5e-4] }}
+[beams.bar]
+section = "bar"
+up = [0, 0, 1]
+{beam}
+[joints.clamp]
+kind = "clamp"
+base = "ground"
+tip = "bar.start"
+[outputs.held]
+kind = "reaction"
+of = "clamp"
+axes = "tip"
+[outputs.force]
+kind = "section_force"
+of = "bar@0"
+[outputs.moment]
+kind = "section_moment"
+of = "bar@0"
+[outputs.middle]
+kind = "section_moment"
+of = "bar@0.5"
+{analysis}
+"#
+        )
+    };
+    let weight = 5.0 * 9.81;
+    let straight = "from = [0, 0, 0]\nto = [2, 0, 0]";
+    let arc = "curve = [\"2*sin(s)\", \"2 - 2*cos(s)\", \"0.3*s\"]";
+    let statics = "[analysis]\nkind = \"statics\"\nsteps = 1";
+    for (beam, order, elements, allowed) in [
+        (straight, 1, 1, 2e-3),
+        (straight, 2, 1, 2e-3),
+        (straight, 3, 1, 2e-3),
+        (straight, 1, 8, 1e-3),
+        (straight, 2, 8, 1e-4),
+        (arc, 2, 4, 1e-3),
+        (arc, 3, 4, 1e-4),
+    ] {
+        let record = run(&text(&format!("{beam}\norder = {order}\nelements = {elements}"), statics));
+        let row = record.times.len() - 1;
+        let held = vector(&record, "held", ["m1", "m2", "m3"], row);
+        let found = vector(&record, "moment", ["m1", "m2", "m3"], row);
+        // The arc's sections are not in the axes of the clamp.
+        let missed = if beam == arc { held.norm() - found.norm() } else { (held + found).norm() };
+        assert!(
+            missed.abs() < allowed * held.norm(),
+            "order {order}, {elements} elements of {beam}: {held} {found}"
+        );
+        if beam == straight {
+            let middle = record.column("middle", "m2").unwrap()[row];
+            // Half way the moment is a quarter of that at the clamp. Between two nodes alone it is a straight line.
+            let exact = if (order, elements) == (1, 1) { 0.5 } else { 0.25 } * 2.0 * weight;
+            assert!(
+                (middle / exact - 1.0).abs() < 5e-3,
+                "order {order}, {elements} elements: {middle} {exact}"
+            );
+        }
+    }
+    let thrown = "[analysis]\nkind = \"dynamics\"\nend = 0.2\nrelative_tolerance = 1e-6\noutput_step = 0.01";
+    let record = run(&text(&format!("{straight}\norder = 2\nelements = 6"), thrown));
+    let most = (0..record.times.len())
+        .map(|row| vector(&record, "held", ["m1", "m2", "m3"], row).norm())
+        .fold(0.0_f64, f64::max);
+    for row in 0..record.times.len() {
+        let held = vector(&record, "held", ["m1", "m2", "m3"], row);
+        let found = vector(&record, "moment", ["m1", "m2", "m3"], row);
+        assert!((held + found).norm() < 0.01 * most, "t = {}: {held} {found}", record.times[row]);
+    }
+}

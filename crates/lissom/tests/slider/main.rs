@@ -334,7 +334,7 @@ fn what_makes_no_sense_is_refused() {
 #[test]
 fn sections_beside_a_slider_err_as_the_warning_says() {
     let (force, length) = (0.1, 4.0);
-    for (order, elements, share) in [(1, 8, 0.30), (2, 8, 0.13), (3, 8, 0.07), (3, 4, 0.07)] {
+    for (order, elements, share) in [(1, 8, 0.19), (2, 8, 0.07), (3, 8, 0.07), (3, 4, 0.07)] {
         let element = length / f64::from(elements);
         let place = 2.0 + 0.5 * element;
         let sections: String = (0..40)
@@ -377,7 +377,9 @@ fn sections_beside_a_slider_err_as_the_warning_says() {
         }
         assert!(beside[0] > 0.3 * share && beside[0] < share, "{order} {elements}: {beside:?}");
         assert!(beside[1] > 0.3 && beside[1] < 0.51, "{order} {elements}: {beside:?}");
-        assert!(order == 1 || away.iter().all(|own| *own < 1e-3), "{order} {elements}: {away:?}");
+        // Two nodes alone carry one shear from the one to the other.
+        let [moment, shear] = if order == 1 { [0.02, 0.07] } else { [1e-5; 2] };
+        assert!(away[0] < moment && away[1] < shear, "{order} {elements}: {away:?}");
         // P a² b²/(3 E I L), and the shear's share, which is small.
         let (a, b) = (place, length - place);
         let wanted = force * a * a * b * b / (3.0 * 4e3 * length) + force * a * b / (length * 4e6);

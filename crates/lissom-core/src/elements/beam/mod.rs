@@ -186,21 +186,30 @@ impl<const N: usize> Beam<N> {
         (twist(&self.relative(at)) - natural) / natural.fixed_rows::<3>(0).norm()
     }
 
-    /// Section forces and moments at ξ in the section's frame [N, N m], interpolated between the Gauss
-    /// points, where they are most accurate.
+    /// Section forces and moments at ξ in the section's frame [N, N m], from those at the Gauss points, where they are most
+    /// accurate. The polynomial through them takes its next term from the equilibrium of the line without the change of loads along
+    /// the element, so that weight bends between the points, and shear also between the nodes of an element of two:
+    ///
+    /// ```text
+    /// S' = ad(f)ᵀ S - load,   S = p + Π (ξ - ξ_k) ad(f_ξ)ᵀ c / (N - 1),   c leading coefficient of p
+    /// ```
     pub fn section_forces_at(&self, at: &Kinematics, xi: f64) -> Vector6 {
         let relative = self.relative(at);
         let rates = self.rates(at, &relative);
         let points = gauss_legendre(N - 1);
-        let mut sum = Vector6::zeros();
+        let (mut sum, mut leading) = (Vector6::zeros(), Vector6::zeros());
         for (k, station) in self.stations.iter().enumerate() {
-            let weight: f64 = (0..points.len())
-                .filter(|&j| j != k)
-                .map(|j| (xi - points[j].0) / (points[k].0 - points[j].0))
-                .product();
-            sum += weight * station.stress(&relative, rates.as_ref());
+            let others = || (0..points.len()).filter(|&j| j != k);
+            let apart: f64 = others().map(|j| points[k].0 - points[j].0).product();
+            let from: f64 = others().map(|j| xi - points[j].0).product();
+            let stress = station.stress(&relative, rates.as_ref());
+            sum += from / apart * stress;
+            leading += stress / apart;
         }
-        sum
+        let (shape, slope) = lagrange::<N>(xi);
+        let twist = tangent_times(&combine(&shape, &relative), &combine(&slope, &relative));
+        let bubble: f64 = points.iter().map(|point| xi - point.0).product();
+        sum + bubble / (N - 1) as f64 * lie_bracket_matrix(&twist).tr_mul(&leading)
     }
 }
 
