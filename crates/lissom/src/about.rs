@@ -115,10 +115,7 @@ fn handed_over<T, E: From<ModesError>>(
 }
 
 fn undeformed(document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
-    let mut document = document.clone();
-    document.gravity.fill(0.0);
-    document.loads.clear();
-    let mut lowered = lower(&document)?;
+    let mut lowered = lower(&document.without_loads())?;
     stop(&mut lowered.state);
     let model = linear(&lowered.system, &lowered.state, &lowered.settings)?;
     balanced(

@@ -85,10 +85,7 @@ pub fn buckling(
     };
     let asked = count.unwrap_or(own);
     let Lowered { system, state, settings, .. } = lower(&document)?;
-    let mut without = document.clone();
-    without.gravity.fill(0.0);
-    without.loads.clear();
-    let unloaded = lower(&without)?.system;
+    let unloaded = lower(&document.without_loads())?.system;
     let path_settings = PathSettings {
         first: FIRST,
         end: 1.0,

@@ -165,10 +165,7 @@ impl PathSession {
         let Lowered { system, state, settings, channels, .. } = lowered;
         let varied = Varied::of(model, overrides, &document, &state)?;
         let from = varied.as_ref().map_or(0.0, |varied| varied.from);
-        let mut without = document.clone();
-        without.gravity.fill(0.0);
-        without.loads.clear();
-        let unloaded = lower(&without)?.system;
+        let unloaded = lower(&document.without_loads())?.system;
         let layout = system.layout();
         let unknowns = [layout.coordinate_count(), layout.multiplier_rows().len()];
         let of_equilibrium = settings.clone();

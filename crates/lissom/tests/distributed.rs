@@ -1,5 +1,8 @@
 //! Forces per length of beams, against closed forms.
 
+use lissom::buckling::buckling;
+use lissom::modes::{About, ModeRequest, modes};
+use lissom::path::{PathEnd, PathSession};
 use lissom::{Model, Session, SessionError};
 
 const BEAM: &str = r#"
@@ -102,5 +105,60 @@ fn a_force_per_length_may_change_in_time() {
             Ok(_) => panic!("{force} is no good force"),
             Err(error) => panic!("{error}"),
         }
+    }
+}
+
+/// A thin column, clamped at its foot, under its weight as a force per length and another load beside.
+fn column(analysis: &str) -> String {
+    beam(3, "force_per_length = [-10, 0, 0]", analysis)
+        + r#"
+[loads.top]
+kind = "force"
+on = "bar.end"
+vector = [-1e-6, 0, 0]
+[outputs.given]
+kind = "power"
+of = "top"
+"#
+}
+
+#[test]
+fn a_column_buckles_under_a_force_per_length_beside_another_load() {
+    let model = Model::from_text("column.toml", &column("kind = \"buckling\""));
+    let report = buckling(&model, &[], Some(2)).unwrap();
+    // Greenhill: q L³/(EI) = 7.8373, of both axes alike.
+    let wanted = 7.8373 * 200.0 / (8.0 * 10.0);
+    for mode in &report.buckling.modes {
+        assert!((mode.load_factor / wanted - 1.0).abs() < 1e-3, "{} {wanted}", mode.load_factor);
+    }
+}
+
+#[test]
+fn a_path_begins_without_forces_per_length() {
+    let text = column("kind = \"path\"\nend = 1").replace("[-10, 0, 0]", "[0, 0, -0.01]");
+    let (record, report) = PathSession::new(&Model::from_text("beam.toml", &text), &[]).unwrap().record();
+    assert!(matches!(report.end, PathEnd::Reached), "{report:?}");
+    let tip = record.column("tip", "u3").unwrap();
+    assert!(tip[0].abs() < 1e-12, "{tip:?}");
+    let wanted = -0.01 * (16.0 / (8.0 * 200.0) + 4.0 / (2.0 * 4e5));
+    assert!((tip.last().unwrap() / wanted - 1.0).abs() < 1e-4, "{tip:?} {wanted}");
+}
+
+/// The frequencies are those of the beam alone, and outputs that name a load do not hinder them.
+#[test]
+fn the_undeformed_state_is_without_forces_per_length() {
+    let find = |text: &str| {
+        let request = ModeRequest { count: Some(2), about: Some(About::Undeformed), shift: None };
+        modes(&Model::from_text("beam.toml", text), &[], &request).unwrap_or_else(|error| panic!("{error}"))
+    };
+    let [alone, loaded] =
+        [beam(3, "", "kind = \"modes\""), column("kind = \"modes\"")].map(|text| find(&text));
+    for (one, other) in alone.modes.iter().zip(&loaded.modes) {
+        assert!(
+            (one.frequency / other.frequency - 1.0).abs() < 1e-9,
+            "{} {}",
+            one.frequency,
+            other.frequency
+        );
     }
 }

@@ -20,6 +20,7 @@ mod places;
 mod signals;
 mod superelements;
 pub(crate) mod tables;
+mod unloaded;
 
 use std::collections::BTreeMap;
 use std::sync::Arc;

@@ -1,0 +1,30 @@
+//! A model without its gravity and loads.
+
+use lissom_core::elements::LOADS;
+use lissom_core::registry::{ParameterType, Value};
+
+use super::Document;
+
+impl Document {
+    /// The same model without gravity, forces per length of beams, and sizes of loads.
+    ///
+    /// Loads stay, of size zero, so that outputs and inputs that name them keep their meaning and the pattern of the
+    /// matrices is the same. What has no size stays as it is: the spin of a gyrostat is no load from outside.
+    #[must_use]
+    pub fn without_loads(&self) -> Self {
+        let mut document = self.clone();
+        document.gravity.fill(0.0);
+        for beam in &mut document.beams {
+            beam.distributed.clear();
+        }
+        for load in &mut document.loads {
+            let kind = LOADS.iter().find(|kind| kind.name == load.kind.value);
+            let sizes = kind.into_iter().flat_map(|kind| kind.parameters);
+            for size in sizes.filter(|parameter| parameter.holds == ParameterType::Size) {
+                load.parameters.insert(size.name, Value::Number(0.0));
+                load.signal = None;
+            }
+        }
+        document
+    }
+}
