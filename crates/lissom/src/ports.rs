@@ -99,7 +99,7 @@ fn input(document: &Document, reached: &Reached<'_, '_>, name: &str) -> Result<I
         "loads" => Ok(Input { right: against(load(document, reached, own)?), name, held: None }),
         "joints" => {
             let mut right = vec![0.0; system.layout().size()];
-            for drive in system.drives().iter().filter(|drive| drive.name == own) {
+            for drive in system.drives().iter().filter(|drive| drive_as_input(&drive.name) == own) {
                 right[system.layout().coordinate_count() + drive.multiplier] = 1.0;
             }
             Ok(Input { right, name, held: None })
@@ -124,8 +124,15 @@ fn listed<'n>(names: impl Iterator<Item = &'n String>) -> String {
 fn known_inputs(document: &Document, reached: &Reached<'_, '_>) -> Vec<String> {
     let inputs = document.inputs.iter().map(|(input, _)| format!("inputs.{}", input.value));
     let loads = document.loads.iter().map(|load| format!("loads.{}", load.name.value));
-    let drives = reached.model.system().drives().iter().map(|drive| format!("joints.{}", drive.name));
+    let drives =
+        reached.model.system().drives().iter().map(|drive| format!("joints.{}", drive_as_input(&drive.name)));
     inputs.chain(loads).chain(drives).collect()
+}
+
+/// What a drive is called as an input: that of a `prescribed_motion` `shaker, x` is `shaker.x`, since lists of inputs are
+/// divided by commas.
+fn drive_as_input(name: &str) -> String {
+    name.replace(", ", ".")
 }
 
 /// What a load of size one adds to the left-hand sides: its size as an input of another system with the same unknowns.

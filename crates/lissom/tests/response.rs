@@ -192,6 +192,48 @@ fn two_masses_on_a_shaken_base_have_their_closed_form() {
     compare(&found, "force.force/shake", 1e-9, |f| solved(f).2);
 }
 
+/// One component of a `prescribed_motion` is an input of its own, though lists of inputs are divided by commas.
+#[test]
+fn a_shaken_table_passes_its_motion_on() {
+    let text = r#"
+lissom = 1
+[bodies.table]
+mass = 1
+inertia = [1, 1, 1]
+[bodies.mass]
+mass = 2
+inertia = [1, 1, 1]
+position = [0.5, 0, 0]
+[joints.shaker]
+kind = "prescribed_motion"
+base = "ground"
+tip = "table"
+x = 0
+[joints.guide]
+kind = "prismatic"
+base = "table"
+tip = "mass"
+axis = [1, 0, 0]
+[springs.spring]
+kind = "axial"
+joint = "guide"
+stiffness = 800
+damping = 3
+[outputs.place]
+kind = "position"
+of = "mass"
+[analysis]
+kind = "dynamics"
+end = 1
+step = 1e-3
+"#;
+    let report = find(text, &request(&["shaker.x"], &["place.x"], 0.5, 10.0));
+    compare(&report, "place.x/shaker.x", 1e-9, |f| {
+        let rate = Complex::new(800.0, 3.0 * TAU * f);
+        rate / (rate - 2.0 * (TAU * f).powi(2))
+    });
+}
+
 fn cantilever(elements: usize) -> String {
     format!(
         r#"
