@@ -98,7 +98,7 @@ impl Accumulated for AngleAboutAxis {
         }
         let angle = 2.0 * self.axis.dot(&end.vector).atan2(end.scalar);
         // In load steps nothing moves in time.
-        let is_motion = step.middle.is_some();
+        let is_motion = step.within.is_some();
         let predicted = if is_motion { 0.5 * step.duration() * (start.rate + end.rate) } else { 0.0 };
         let missed = angle - before - predicted;
         let missed = missed - TAU * (missed / TAU).round();

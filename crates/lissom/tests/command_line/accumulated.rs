@@ -125,6 +125,24 @@ fn missing(set: &[(&str, &str)]) -> f64 {
     (last(&record, "sum", "value") - speed * speed).abs() / last(&record, "push", "work").abs()
 }
 
+/// At the instant of a jump a force has two values: the work is that of the one before it, and then that of the one after.
+#[test]
+fn the_work_of_a_force_that_jumps_is_the_kinetic_energy() {
+    let before = MODEL.split("[springs.spring]").next().unwrap();
+    for jump in ["(t > 1)", "(t >= 1)", "step(t - 1)"] {
+        let text = format!(
+            "{before}\n[loads.push]\nkind = \"joint_force\"\njoint = \"rail\"\nforce = \"20*{jump} - 8\"\n\
+             [outputs.push]\nkind = \"work\"\nof = \"push\"\n[outputs.rail]\nkind = \"relative\"\nof = \"rail\"\n\
+             [analysis]\nkind = \"dynamics\"\nscheme = \"radau-iia\"\nend = 2\nstep = 0.1\n"
+        );
+        let record = run(&text, &[]);
+        let speed = last(&record, "rail", "velocity");
+        assert!((speed - 2.0).abs() < 1e-9, "{jump}: {speed}");
+        let work = last(&record, "push", "work");
+        assert!((work - speed * speed).abs() < 1e-9, "{jump}: {work}");
+    }
+}
+
 #[test]
 fn works_add_up_to_the_kinetic_energy_to_the_order_of_the_scheme() {
     for (scheme, most, ratio) in [("radau-iia", 2e-5, 6.5), ("generalized-alpha", 2e-3, 3.4)] {
