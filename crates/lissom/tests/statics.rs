@@ -208,3 +208,59 @@ fn a_run_that_starts_in_steady_rotation_keeps_its_strain() {
     let document = Model::from_text("model.toml", &across).document(&[]).unwrap();
     assert!(Session::new(&document).is_err(), "gravity across the axis");
 }
+
+/// A pendulum on a shaft stands at cos φ = g/(Ω² L). The rate of its hinge in a rigid rotation is zero to round-off, and
+/// nothing is to be said of it.
+#[test]
+fn a_pendulum_on_a_shaft_starts_at_its_steady_angle_without_a_word() {
+    let (rate, length) = (8.0_f64, 0.3_f64);
+    let [x, z] = [length * 0.9_f64.sin(), -length * 0.9_f64.cos()];
+    let text = format!(
+        r#"
+lissom = 1
+gravity = [0, 0, -9.81]
+[bodies.shaft]
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+[bodies.bob]
+mass = 2
+inertia = [1e-6, 1e-6, 1e-6]
+position = [{x}, 0, {z}]
+[joints.bearing]
+kind = "revolute"
+base = "ground"
+tip = "shaft"
+axis = [0, 0, 1]
+[joints.motor]
+kind = "prescribed_rotation"
+joint = "bearing"
+rotation = "{rate}*t"
+[joints.hinge]
+kind = "revolute"
+base = "shaft"
+tip = "bob"
+at = [0, 0, 0]
+axis = [0, -1, 0]
+angle = 0.9
+[initial]
+angular_velocity = [0, 0, {rate}]
+steady_rotation = true
+[outputs.hinge]
+kind = "relative"
+of = "hinge"
+[analysis]
+kind = "dynamics"
+end = 1
+step = 1e-3
+"#
+    );
+    let mut session = Model::from_text("model.toml", &text).session(&[]).unwrap();
+    let (record, report) = session.record();
+    assert!(report.is_complete());
+    assert_eq!(session.warnings().count(), 0, "{:?}", session.warnings().collect::<Vec<_>>());
+    // The bob is a point but for its small inertia.
+    let steady = (9.81 / (rate * rate * length)).acos();
+    for angle in record.column("hinge", "angle").unwrap() {
+        assert!((angle - steady).abs() < 1e-8, "{angle} {steady}");
+    }
+}

@@ -11,6 +11,8 @@ use crate::system::{Kinematics, NodeMotion, System};
 
 /// Changes of given velocities below this part of the largest are round-off of given numbers.
 const NOTEWORTHY: f64 = 1e-3;
+/// Rates of coordinates below this part of the largest speed come from velocities that are written with six digits.
+const WRITTEN: f64 = 1e-6;
 /// Where less than this part of the given kinetic energy remains, nothing of what was given does.
 const NOTHING: f64 = 1e-4;
 /// Rates of constraints that stay above this part of the largest rate contradict each other.
@@ -39,8 +41,9 @@ pub(crate) fn velocities(
 ) -> Result<Vec<Warning>, InitialError> {
     let length = representative.length;
     let given = &told.nodes;
-    let mut warnings: Vec<Warning> = rates_of_coordinates(system, told, used)?.into_iter().collect();
     let largest = given.iter().chain(&used.nodes).map(|node| speed(&node.twist, length)).fold(0.0, f64::max);
+    let of_coordinates = rates_of_coordinates(system, (length, largest), told, used)?;
+    let mut warnings: Vec<Warning> = of_coordinates.into_iter().collect();
     let changed = |node: usize| {
         let is_given = given[node].twist.norm_squared() > 0.0;
         if is_given { speed(&(used.nodes[node].twist - given[node].twist), length) } else { 0.0 }
@@ -79,15 +82,17 @@ pub(crate) fn velocities(
     Ok(warnings)
 }
 
-/// The coordinate whose given rate is changed most, where that is worth telling.
+/// The coordinate whose given rate is changed most, where that is worth telling beside the `largest` speed of a node.
 fn rates_of_coordinates(
     system: &System,
+    (length, largest): (f64, f64),
     told: &Kinematics,
     used: &Kinematics,
 ) -> Result<Option<Warning>, InitialError> {
     let change = |k: &usize| {
         let (given, used) = (told.coordinates[*k].rate, used.coordinates[*k].rate);
-        if given == 0.0 { 0.0 } else { (used - given).abs() / given.abs() }
+        let arm = if system.layout().coordinate_quantity(*k) == Quantity::Angle { length } else { 1.0 };
+        if arm * given.abs() <= WRITTEN * largest { 0.0 } else { (used - given).abs() / given.abs() }
     };
     let worst = (0..told.coordinates.len()).max_by(|a, b| change(a).total_cmp(&change(b)));
     let Some(worst) = worst.filter(|worst| change(worst) > NOTEWORTHY) else { return Ok(None) };
