@@ -1,5 +1,6 @@
 //! Rigid bodies and point masses of a model file.
 
+use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use lissom_motion::{Matrix3, Rotation, Vector3};
@@ -146,8 +147,22 @@ pub(super) fn position(reader: &Reader<'_, '_>) -> Option<Vector3> {
 /// Body axes as columns in global axes.
 pub(super) fn axes(reader: &Reader<'_, '_>) -> Option<Matrix3> {
     let own = body_axes(reader.context, (reader.node("rotation"), reader.node("axes")), &reader.what)?;
+    if let Some(node) = reader.node("rotation") {
+        warn_of_degrees(reader, node);
+    }
     let around = reader.context.frame(reader.scope)?.rotation;
     Some(if around == Rotation::IDENTITY { own } else { around.matrix() * own })
+}
+
+/// Degrees show as a rotation by more than a turn, which brings axes nowhere that a smaller one does not.
+fn warn_of_degrees(reader: &Reader<'_, '_>, node: &Node) {
+    let what = reader.words("rotation");
+    let Some(angle) = reader.context.vector(node, &what).map(|vector| vector.norm()) else { return };
+    if angle > TAU * (1.0 + 1e-9) {
+        let message = format!("{what} turns by {:.1} times a whole turn", angle / TAU);
+        let help = "angles are in radians: write \"pi/2\" for 90 degrees";
+        reader.context.tell(Problem::warning(node.span, message).help(help));
+    }
 }
 
 /// Body axes as columns in the axes around the body, from a rotation vector or from the first two axes.

@@ -167,11 +167,32 @@ fn general(reader: &Reader<'_, '_>) -> Option<SectionProperties> {
     let stiffness = reader
         .node("stiffness")
         .and_then(|node| reader.context.definite_matrix(node, &reader.words("stiffness")));
-    let mass = reader.node("mass").and_then(|node| match &node.value {
-        Value::Table(_) => described_mass(reader, node),
-        _ => reader.context.definite_matrix(node, &reader.words("mass")),
+    let mass = reader.node("mass").and_then(|node| {
+        let mass = match &node.value {
+            Value::Table(_) => described_mass(reader, node),
+            _ => reader.context.definite_matrix(node, &reader.words("mass")),
+        };
+        warn_of_moments(reader, node, &mass?);
+        mass
     });
     Some(SectionProperties { stiffness: stiffness?, mass: mass?, damping: 0.0 })
+}
+
+/// Moments about three perpendicular axes are sums over the same matter, `J11 = Σ m (y² + z²)`, so that none exceeds the sum of
+/// the others. A section that turns feels the difference: in the modes of a blade it is a force that is not there.
+fn warn_of_moments(reader: &Reader<'_, '_>, node: &crate::text::Node, mass: &Matrix6) {
+    let moments = mass.diagonal().fixed_rows::<3>(3).into_owned();
+    if 2.0 * moments.max() > moments.sum() * (1.0 + 1e-6) {
+        let message = format!(
+            "{} belongs to no section: one of its moments {:e}, {:e} and {:e} exceeds the sum of the others",
+            reader.words("mass"),
+            moments.x,
+            moments.y,
+            moments.z
+        );
+        let help = "a slice has J11 = J22 + J33, density times the moments of area";
+        reader.context.tell(Problem::warning(node.span, message).help(help));
+    }
 }
 
 fn described_mass<'c>(reader: &Reader<'c, '_>, node: &'c crate::text::Node) -> Option<Matrix6> {
