@@ -55,9 +55,7 @@ pub(super) fn report(
     folder: &Path,
     quiet: bool,
 ) -> Result<Exit, Failure> {
-    if !quiet {
-        show_warnings(document);
-    }
+    show_warnings(document);
     let found = match buckling(model, overrides, count) {
         Err(BucklingRunError::Model(report)) => return Err(report.into()),
         other => other,

@@ -65,9 +65,7 @@ fn parse_variation(text: &str) -> Result<(String, f64, f64, usize), String> {
 impl Campbell {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let (model, document) = self.model.read()?;
-        if !self.quiet {
-            show_warnings(&document);
-        }
+        show_warnings(&document);
         let (path, from, to, values) = self.vary;
         let request = CampbellRequest { path, from, to, values, count: self.count as usize, rays: self.rays };
         let found = match campbell(&model, &self.model.set, &request) {

@@ -41,9 +41,7 @@ pub(super) struct Fmu {
 impl Fmu {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let (model, document) = self.model.read()?;
-        if !self.quiet {
-            show_warnings(&document);
-        }
+        show_warnings(&document);
         let library = self.library()?;
         let bytes = std::fs::read(&library).map_err(|error| {
             Failure::file(Exit::BadModel, &files::failure(files::Action::Read, &library, error))

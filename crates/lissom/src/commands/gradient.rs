@@ -50,9 +50,7 @@ impl Gradient {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let target: Target = self.of.parse().map_err(|words: String| Failure::new(Exit::BadModel, words))?;
         let (model, document) = self.model.read()?;
-        if !self.quiet {
-            show_warnings(&document);
-        }
+        show_warnings(&document);
         let found = match gradient(&model, &self.model.set, &target, &self.by, !self.unconfirmed) {
             Err(GradientError::Model(report)) => return Err(report.into()),
             Err(error) if error.is_of_question() => return Err(Failure::new(Exit::BadModel, error)),

@@ -53,9 +53,7 @@ pub(super) struct Linearize {
 impl Linearize {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let (model, document) = self.model.read()?;
-        if !self.quiet {
-            show_warnings(&document);
-        }
+        show_warnings(&document);
         let request = LinearizeRequest { about: self.state.about, inputs: self.input, outputs: self.output };
         let found = answered(linearize(&model, &self.model.set, &request))?;
         let path = self.model.folder(self.out, "linear");

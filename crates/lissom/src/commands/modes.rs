@@ -77,9 +77,7 @@ pub(super) fn report(
     folder: &Path,
     quiet: bool,
 ) -> Result<Exit, Failure> {
-    if !quiet {
-        show_warnings(document);
-    }
+    show_warnings(document);
     let found = match modes(model, overrides, request) {
         Err(ModesError::Model(report)) => return Err(report.into()),
         Err(error @ (ModesError::Time { .. } | ModesError::Shift(_))) => {

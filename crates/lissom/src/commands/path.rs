@@ -25,9 +25,7 @@ pub(super) fn run(
     wanted: &Wanted<'_>,
     interrupt: &Interrupt,
 ) -> Result<Exit, Failure> {
-    if !wanted.quiet {
-        show_warnings(document);
-    }
+    show_warnings(document);
     let unwritable = |error: FolderError| Failure::folder(Exit::Failed, &error);
     let mut summary = of_request(model.name(), overrides, document);
     let started = match PathSession::new(model, overrides) {

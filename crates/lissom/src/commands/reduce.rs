@@ -67,9 +67,7 @@ pub(super) struct Reduce {
 impl Reduce {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let (model, document) = self.model.read()?;
-        if !self.quiet {
-            show_warnings(&document);
-        }
+        show_warnings(&document);
         let stem = self.model.model.file_stem().unwrap_or_default().to_string_lossy().into_owned();
         let given = self.name.unwrap_or(match self.part.as_slice() {
             [part] => part.clone(),

@@ -63,9 +63,7 @@ pub(super) struct Response {
 impl Response {
     pub(super) fn run(self) -> Result<Exit, Failure> {
         let (model, document) = self.model.read()?;
-        if !self.quiet {
-            show_warnings(&document);
-        }
+        show_warnings(&document);
         let request = ResponseRequest {
             about: self.state.about,
             inputs: self.input,

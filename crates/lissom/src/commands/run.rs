@@ -125,9 +125,7 @@ impl Run {
             }
             AnalysisKind::Dynamics { .. } | AnalysisKind::Statics { .. } => {}
         }
-        if !self.quiet {
-            show_warnings(&document);
-        }
+        show_warnings(&document);
         let mut lowered = check_run(&document).and_then(|()| lower(&document))?;
         let processors = || std::thread::available_parallelism().unwrap_or(NonZero::<usize>::MIN);
         lowered.settings.threads = self.threads.unwrap_or_else(processors).get();

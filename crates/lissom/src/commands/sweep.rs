@@ -97,7 +97,7 @@ impl SweepCommand {
         let interrupt = Interrupt::listen();
         let began = Instant::now();
         let sweep = self.sweep()?;
-        if !self.quiet && !sweep.warnings().is_empty() {
+        if !sweep.warnings().is_empty() {
             terminal::complain(&sweep.warnings().render(terminal::in_colour()));
         }
         let stem = self.file.file_stem().unwrap_or_default();

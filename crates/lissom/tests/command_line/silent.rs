@@ -70,6 +70,14 @@ fn last_row(folder: &Folder) -> Vec<f64> {
 }
 
 #[test]
+fn what_is_hardly_meant_is_told_in_quiet_runs_too() {
+    let folder = Folder::new("inertia-of-no-body");
+    let run = run("inertia-of-no-body", &folder);
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert!(run.errors.contains("belongs to no body"), "{}", run.errors);
+}
+
+#[test]
 fn contradicting_constraints_are_refused_by_name() {
     refused("contradicting-drives", 3, &["`d1` (rotation)", "`d2` (rotation)", "contradict each other"]);
     refused("drive-beyond-reach", 3, &["`S`", "`A`", "contradict each other"]);
