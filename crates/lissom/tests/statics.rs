@@ -264,3 +264,28 @@ step = 1e-3
         assert!((angle - steady).abs() < 1e-8, "{angle} {steady}");
     }
 }
+
+/// A shaft that nothing holds against its torque has no equilibrium: no wheel is to blame where there is none.
+#[test]
+fn a_free_shaft_is_told_without_a_word_of_wheels() {
+    let text = r#"
+lissom = 1
+[bodies.shaft]
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+[joints.bearing]
+kind = "revolute"
+base = "ground"
+tip = "shaft"
+axis = [0, 0, 1]
+[loads.motor]
+kind = "joint_torque"
+joint = "bearing"
+torque = 1
+[analysis]
+kind = "statics"
+"#;
+    let (_, report) = Model::from_text("model.toml", text).session(&[]).unwrap().record();
+    let words = format!("{report:?}");
+    assert!(words.contains("nothing holds or carries it") && !words.contains("wheel"), "{words}");
+}

@@ -192,7 +192,7 @@ impl Initial {
             FactorError::ZeroPivot { unknown, pivot, .. } => InitialError::ZeroPivot {
                 pivot,
                 unknown: layout.name_of(unknown),
-                hint: pivot_hint(unknown >= layout.coordinate_count(), true),
+                hint: pivot_hint(unknown, layout, true),
             },
             FactorError::NotFinite { unknown } => {
                 InitialError::NotFinite { unknown: layout.name_of(unknown) }

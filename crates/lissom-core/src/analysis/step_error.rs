@@ -276,21 +276,21 @@ fn convergence_hint(is_motion: bool) -> &'static str {
     }
 }
 
-/// What to try when elimination stops at a coordinate or at a multiplier.
-pub(crate) fn pivot_hint(is_multiplier: bool, augmented: bool) -> &'static str {
-    match (is_multiplier, augmented) {
-        (true, _) => {
-            "the joint's equation repeats what other joints hold already: remove or relax one of them"
-        }
-        (false, false) => {
-            "a coordinate without mass and stiffness needs the augmented term: set `augmented = true`"
-        }
-        (false, true) => {
-            "nothing holds or carries it there: give it mass, stiffness or a joint, or let an equilibrium be sought from another \
-             place, where weight or a spring holds it; the force of a wheel that rolls repeats what \
-             others hold already: give it a small `creep`"
-        }
+/// What to try when elimination stops at an unknown, a coordinate or a multiplier.
+pub(crate) fn pivot_hint(unknown: usize, layout: &Layout, augmented: bool) -> &'static str {
+    if unknown >= layout.coordinate_count() {
+        return "the joint's equation repeats what other joints hold already: remove or relax one of them";
     }
+    if !augmented {
+        return "a coordinate without mass and stiffness needs the augmented term: set `augmented = true`";
+    }
+    if layout.impulses().next().is_some() {
+        return "nothing holds or carries it there: give it mass, stiffness or a joint, or let an equilibrium be sought from another \
+                place, where weight or a spring holds it; the force of a wheel that rolls repeats what \
+                others hold already: give it a small `creep`";
+    }
+    "nothing holds or carries it there: give it mass, stiffness or a joint, or let an equilibrium be sought from another \
+     place, where weight or a spring holds it"
 }
 
 /// A failure of Newton's method as that of a step to `time` [s], with names.
@@ -316,7 +316,7 @@ pub(super) fn describe(
             time,
             pivot: *pivot,
             unknown: layout.name_of(*unknown),
-            hint: pivot_hint(*unknown >= layout.coordinate_count(), settings.scaling.augmented),
+            hint: pivot_hint(*unknown, layout, settings.scaling.augmented),
             after_pivoting: false,
         },
         Failure::Factor(FactorError::NotFinite { unknown }) => {

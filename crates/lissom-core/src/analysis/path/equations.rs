@@ -459,7 +459,7 @@ impl PathEquations<'_> {
                 time,
                 pivot,
                 unknown: layout.name_of(unknown),
-                hint: pivot_hint(unknown >= layout.coordinate_count(), self.settings.scaling.augmented),
+                hint: pivot_hint(unknown, layout, self.settings.scaling.augmented),
                 after_pivoting: false,
             },
             Failure::Factor(FactorError::NotFinite { unknown }) => {
