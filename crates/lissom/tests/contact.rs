@@ -358,6 +358,8 @@ of = "ball"
 point = [0, 0, 1]
 [outputs.energy]
 kind = "energy"
+[outputs.momentum]
+kind = "momentum"
 [analysis]
 kind = "dynamics"
 scheme = "radau-iia"
@@ -374,6 +376,8 @@ step = 1e-3
         let most = if scheme == "radau-iia" || scheme == "energy-decaying" { 1e-6 } else { 2e-4 };
         assert!((found - wanted).norm() < most, "{scheme}: {found} {wanted}");
         assert!((run.value("energy.total").unwrap() / (0.5 * inertia * 4.0) - 1.0).abs() < 100.0 * most);
+        let kept = Vector3::from(["l1", "l2", "l3"].map(|c| run.value(&format!("momentum.{c}")).unwrap()));
+        assert!((kept - momentum).norm() < most * momentum.norm(), "{scheme}: {kept} {momentum}");
     }
 }
 

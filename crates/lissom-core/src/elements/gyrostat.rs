@@ -7,7 +7,7 @@
 //! ```
 //!
 //! The rotor's mass, and its inertia as if it did not spin, belong to the body. A motor keeps the spin; its work goes into
-//! the rotor and is no part of the model's energy: w·(w × h) = 0.
+//! the rotor and is no part of the model's energy: w·(w × h) = 0. Its angular momentum h is part of the model's.
 
 use lissom_motion::{Vector3, rotation_part, skew};
 
@@ -72,5 +72,9 @@ impl Element for Gyrostat {
 
     fn energy(&self, _: &Kinematics) -> Energy {
         Energy::default()
+    }
+
+    fn angular_momentum(&self, at: &Kinematics) -> Vector3 {
+        at.nodes[self.node[0]].frame.rotation.apply(&self.momentum)
     }
 }

@@ -256,6 +256,11 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
         false
     }
 
+    /// Angular momentum that it adds to that of the masses, global axes [N m s]. Default: none.
+    fn angular_momentum(&self, _at: &Kinematics) -> Vector3 {
+        Vector3::zeros()
+    }
+
     /// Elongation, its rate and the force against it [SI], for springs and what is like them. Default: none.
     fn spring_motion(&self, _at: &Kinematics) -> Option<[f64; 3]> {
         None

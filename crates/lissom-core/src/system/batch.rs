@@ -4,7 +4,7 @@ use std::any::Any;
 use std::cell::RefCell;
 use std::ops::Range;
 
-use lissom_motion::{Block, Matrix6, WIDTH, lie_bracket_matrix};
+use lissom_motion::{Block, Matrix6, Vector3, WIDTH, lie_bracket_matrix};
 use lissom_solver::Pattern;
 
 use super::GROUND;
@@ -62,6 +62,10 @@ pub(crate) trait AnyBatch: Send + Sync {
     fn strain_energies(&self, at: &Kinematics, out: &mut Vec<(Owner, f64)>);
     /// Work of loads between two configurations [J].
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64;
+    /// Angular momentum that items add to that of the masses, global axes [N m s].
+    fn angular_momentum(&self, _at: &Kinematics) -> Vector3 {
+        Vector3::zeros()
+    }
     /// Elongation, rate and force of an item that is like a spring.
     fn spring_motion(&self, item: usize, at: &Kinematics) -> Option<[f64; 3]>;
     /// Power of an item's forces [W].
@@ -331,6 +335,10 @@ impl<E: Element> AnyBatch for Batch<E> {
     fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
         let loads = self.items.iter().filter(|item| item.is_load());
         loads.map(|load| work(load, (from, to), [1.0; 2])).sum()
+    }
+
+    fn angular_momentum(&self, at: &Kinematics) -> Vector3 {
+        self.items.iter().map(|item| item.angular_momentum(at)).sum()
     }
 
     fn spring_motion(&self, item: usize, at: &Kinematics) -> Option<[f64; 3]> {

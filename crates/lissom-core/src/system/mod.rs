@@ -292,6 +292,9 @@ impl System {
                 angular += l + frame.position.cross(&p);
             }
         });
+        for batch in &self.batches {
+            angular += batch.angular_momentum(at);
+        }
         (linear, angular)
     }
 
