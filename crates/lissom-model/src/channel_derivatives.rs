@@ -8,6 +8,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use lissom_core::joints::slider::Slider;
 use lissom_core::linear::{LinearModel, OutputDerivatives};
 use lissom_core::signals::Argument;
 use lissom_core::system::{CoordinateId, GROUND, LOCKED, NodeId, State, System};
@@ -73,6 +74,9 @@ impl Channel {
             let found =
                 difference.of(1.0, |state, change| state.kinematics.coordinates[coordinate].rate += change);
             keep(&mut outputs, &found, row, |output| &mut output.by_rate);
+            let found = difference
+                .of(1.0, |state, change| state.kinematics.coordinates[coordinate].acceleration += change);
+            keep(&mut outputs, &found, row, |output| &mut output.by_acceleration);
         }
         for multiplier in touched.multipliers {
             let unit = difference.state.multipliers[multiplier].abs().max(1.0);
@@ -138,8 +142,11 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
             touched.coordinates.extend(&coupling.coordinates);
             touched.multipliers = coupling.multiplier..coupling.multiplier + 1;
         }
-        Source::Coordinates(coordinates) | Source::FreeAccelerations(coordinates) => {
+        Source::Coordinates(coordinates) => touched.coordinates.extend(coordinates),
+        Source::FreeAccelerations(coordinates) => {
             touched.coordinates.extend(coordinates);
+            let is_own = |slider: &&Slider| coordinates.contains(&slider.coordinate);
+            touched.nodes.extend(system.sliders().iter().filter(is_own).flat_map(Slider::carriers));
         }
         Source::Accelerations(coordinates) => {
             for joint in coordinates.iter().map(|&(joint, _)| &system.joints()[joint]) {

@@ -39,7 +39,9 @@ pub enum PortError {
         known: String,
     },
     /// Energy or momentum.
-    #[error("the output `{0}` has no linear response: name places, velocities, forces, reactions or signals")]
+    #[error(
+        "the output `{0}` has no linear response: name places, velocities, accelerations, reactions, section forces or signals"
+    )]
     NotLinear(String),
     /// An input that acts on nothing.
     #[error("the input `{0}` acts on nothing: no load, state or output that is asked for depends on it here")]

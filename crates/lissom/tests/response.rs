@@ -517,6 +517,38 @@ fn matrices_in_the_files_have_the_response() {
     }
 }
 
+/// A coordinate that no part has: its acceleration answers as its place does, times -ω².
+#[test]
+fn accelerations_of_generalized_coordinates_answer() {
+    let text = r#"
+lissom = 1
+[joints.x]
+kind = "generalized_coordinates"
+start = [0]
+[springs.matrices]
+kind = "coordinate_dynamics"
+coordinates = ["x"]
+mass = 2
+damping = 0.5
+stiffness = 50
+[loads.push]
+kind = "joint_force"
+joint = "x"
+force = 0
+[outputs.acceleration]
+kind = "relative_acceleration"
+of = "x"
+[analysis]
+kind = "dynamics"
+end = 1
+"#;
+    let found = find(text, &request(&["push"], &["acceleration"], 0.1, 3.0));
+    compare(&found, "acceleration.a/push", 1e-9, |hertz| {
+        let rate = TAU * hertz;
+        -rate * rate / (50.0 - 2.0 * rate * rate + I * 0.5 * rate)
+    });
+}
+
 #[test]
 fn questions_without_sense_are_refused() {
     let ask = |inputs: &[&str], outputs: &[&str], from: f64, to: f64| {

@@ -282,6 +282,11 @@ impl Slider {
         speeds
     }
 
+    /// Nodes on whose motion it depends: those along the beams, and what slides.
+    pub fn carriers(&self) -> impl Iterator<Item = NodeId> + '_ {
+        self.nodes.iter().chain([&self.tip]).map(|point| point.node)
+    }
+
     /// s̈ as it follows from the accelerations of nodes, by the least squares of c̈ = 0 [m/s²]. Schemes know that of a massless
     /// coordinate to a lower order.
     pub fn coordinate_acceleration(&self, at: &Kinematics) -> f64 {
