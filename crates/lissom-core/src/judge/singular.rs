@@ -4,6 +4,11 @@
 //! Seen are the pivots of the loop's B Bᵀ = L D Lᵀ, taken without exchange, each over its largest value so far. Near a
 //! singular position one of them is a square of the way to it. It is followed from step to step there, and a parabola
 //! through three of its values tells whether it vanishes between steps.
+//!
+//! Where constraints repeat each other everywhere, as in a planar four-bar of revolutes or in Bennett's linkage, an equation may come
+//! to follow from those before it while one that followed from them does no more: a pivot vanishes, and no freedom comes. There the r
+//! largest eigenvalues λ of B Bᵀ are taken in place of the pivots, with r independent equations, and of them 1/Σ 1/λ, which
+//! is smooth along the motion and vanishes with the smallest.
 
 use nalgebra::DMatrix;
 use serde::{Deserialize, Serialize};
@@ -48,7 +53,8 @@ pub(crate) struct SingularPositions {
 pub(crate) struct Known {
     /// When the largest pivots were begun with [s].
     since: f64,
-    /// Largest pivot of every equation so far, over its square; zero of those that repeat others.
+    /// Largest pivot of every equation so far, over its square; zero of those that repeat others. Where there are any, the others
+    /// have the largest 1/Σ 1/λ so far.
     references: Vec<f64>,
     /// Time, equation and size of the smallest pivot at the last looks, the latest last.
     looks: Vec<(f64, usize, f64)>,
@@ -73,7 +79,8 @@ impl SingularPositions {
         let known = |found: &Loop| {
             found.gradient(system, at, length, &mut gradient);
             pivots.of(&mut gradient, found.multipliers.len());
-            let references = pivots.pivots.iter().copied().map(independent).collect();
+            let references =
+                references(&pivots.pivots, || eigenvalues(&mut gradient, found.multipliers.len()));
             Known { since: at.time, references, looks: Vec::new(), moved: 0.0 }
         };
         let known = loops.iter().map(known).collect();
@@ -101,14 +108,16 @@ impl SingularPositions {
         for (found, known) in self.loops.iter().zip(&self.known) {
             found.gradient(system, at, self.length, &mut self.gradient);
             self.pivots.of(&mut self.gradient, found.multipliers.len());
-            for (equation, &reference) in known.references.iter().enumerate() {
-                let beside = (self.pivots.pivots[equation].max(0.0) / reference).sqrt().min(1.0).asin();
-                if reference > 0.0
-                    && beside < CLOSE
-                    && closest.as_ref().is_none_or(|(_, least)| beside < *least)
-                {
-                    closest = Some((self.pivots.names(system, found, equation), beside));
-                }
+            let (equation, size) = if known.repeats() {
+                let eigenvalues = eigenvalues(&mut self.gradient, found.multipliers.len());
+                let (equation, _) = known.least(&self.pivots.pivots);
+                (equation, smallest(&eigenvalues[..known.rank()]) / known.references[equation])
+            } else {
+                known.least(&self.pivots.pivots)
+            };
+            let beside = size.max(0.0).sqrt().min(1.0).asin();
+            if beside < CLOSE && closest.as_ref().is_none_or(|(_, least)| beside < *least) {
+                closest = Some((self.pivots.names(system, found, equation), beside));
             }
         }
         closest
@@ -126,7 +135,13 @@ impl SingularPositions {
             known.moved = 0.0;
             found.gradient(system, at, self.length, &mut self.gradient);
             self.pivots.of(&mut self.gradient, found.multipliers.len());
-            if let Some((time, equation)) = known.compare(at.time, &self.pivots.pivots) {
+            let singular = if known.repeats() {
+                let eigenvalues = eigenvalues(&mut self.gradient, found.multipliers.len());
+                known.compare_repeating(at.time, &self.pivots.pivots, &eigenvalues)
+            } else {
+                known.compare(at.time, &self.pivots.pivots)
+            };
+            if let Some((time, equation)) = singular {
                 let joints = self.pivots.names(system, found, equation);
                 told = told.or(Some(Warning::SingularPosition { time, joints }));
             }
@@ -136,6 +151,23 @@ impl SingularPositions {
 }
 
 impl Known {
+    /// Whether equations repeat each other wherever the motion has been.
+    fn repeats(&self) -> bool {
+        self.references.contains(&0.0)
+    }
+
+    /// Number of independent equations.
+    fn rank(&self) -> usize {
+        self.references.iter().filter(|reference| **reference > 0.0).count()
+    }
+
+    /// The independent equation whose pivot is smallest over its reference, and how small.
+    fn least(&self, pivots: &[f64]) -> (usize, f64) {
+        let own = self.references.iter().zip(pivots).map(|(reference, pivot)| pivot.max(0.0) / reference);
+        let finite = own.enumerate().filter(|(_, size)| size.is_finite());
+        finite.min_by(|(_, a), (_, b)| a.total_cmp(b)).unwrap_or((0, f64::INFINITY))
+    }
+
     /// Motion that may go unseen until the next look [rad]. A pivot is the square of the way to where it vanishes: what
     /// is far comes near first, and near it looks come closer as that does.
     fn unseen(&self) -> f64 {
@@ -145,28 +177,37 @@ impl Known {
 
     /// Time and equation of a singular position, if the motion has come through one.
     fn compare(&mut self, time: f64, pivots: &[f64]) -> Option<(f64, usize)> {
-        let repeating = |values: &[f64]| values.iter().filter(|value| **value == 0.0).count();
-        let now: Vec<f64> = pivots.iter().copied().map(independent).collect();
-        let (before, after) = (repeating(&self.references), repeating(&now));
-        let woken = (0..now.len()).find(|&k| self.references[k] == 0.0 && pivots[k] > INDEPENDENT);
-        if let Some(equation) = woken {
-            // Others may repeat in its place; where none does, the last place known was the singular one.
-            let was_singular = after < before;
-            self.references = now;
+        for (reference, pivot) in self.references.iter_mut().zip(pivots) {
+            *reference = reference.max(*pivot);
+        }
+        let (equation, size) = self.least(pivots);
+        self.follow(time, (equation, equation), size)
+    }
+
+    /// The same where equations repeat each other, by the eigenvalues of B Bᵀ, the largest first.
+    fn compare_repeating(&mut self, time: f64, pivots: &[f64], eigenvalues: &[f64]) -> Option<(f64, usize)> {
+        let rank = self.rank();
+        if let Some(equation) =
+            (0..pivots.len()).find(|&k| self.references[k] == 0.0 && pivots[k] > INDEPENDENT)
+            && eigenvalues.get(rank).is_some_and(|next| *next > INDEPENDENT)
+        {
+            // Fewer repeat others: the last place known was the singular one.
+            self.references = references(pivots, || eigenvalues.to_vec());
             self.looks.clear();
             let since = std::mem::replace(&mut self.since, time);
-            return was_singular.then_some((since, equation));
+            return Some((since, equation));
         }
-        let mut least = (f64::INFINITY, 0);
-        for (k, reference) in self.references.iter_mut().enumerate().filter(|(_, known)| **known > 0.0) {
-            *reference = reference.max(pivots[k]);
-            let size = pivots[k].max(0.0) / *reference;
-            if size < least.0 {
-                least = (size, k);
-            }
-        }
-        let (size, equation) = least;
-        self.looks.push((time, equation, size));
+        let smallest = smallest(&eigenvalues[..rank]);
+        let most = self.references.iter().fold(smallest, |most, reference| most.max(*reference));
+        self.references.iter_mut().filter(|reference| **reference > 0.0).for_each(|own| *own = most);
+        let (named, _) = self.least(pivots);
+        self.follow(time, (rank, named), smallest / most)
+    }
+
+    /// Takes note of the size of what vanishes in a singular position, with its number, and tells the position and the
+    /// equation to be named, if the motion has come through one.
+    fn follow(&mut self, time: f64, (number, equation): (usize, usize), size: f64) -> Option<(f64, usize)> {
+        self.looks.push((time, number, size));
         if self.looks.len() > 3 {
             self.looks.remove(0);
         }
@@ -196,8 +237,39 @@ impl Known {
     }
 }
 
-fn independent(pivot: f64) -> f64 {
-    if pivot > REPEATS { pivot } else { 0.0 }
+/// What pivots are compared with from now on; with the eigenvalues of B Bᵀ, the largest first, where equations repeat others.
+fn references(pivots: &[f64], eigenvalues: impl FnOnce() -> Vec<f64>) -> Vec<f64> {
+    let independent = |pivot: &f64| if *pivot > REPEATS { *pivot } else { 0.0 };
+    let mut references: Vec<f64> = pivots.iter().map(independent).collect();
+    if !references.contains(&0.0) {
+        return references;
+    }
+    let eigenvalues = eigenvalues();
+    // As many as eigenvalues say: what is nearly dependent may count among pivots as one thing or the other.
+    let rank = eigenvalues.iter().filter(|value| **value > REPEATS).count();
+    let mut by_pivot: Vec<usize> = (0..pivots.len()).collect();
+    by_pivot.sort_by(|a, b| pivots[*b].total_cmp(&pivots[*a]));
+    references.fill(0.0);
+    by_pivot[..rank].iter().for_each(|&equation| references[equation] = smallest(&eigenvalues[..rank]));
+    references
+}
+
+/// Eigenvalues of B Bᵀ, rows of B brought to length 1, the largest first.
+fn eigenvalues(gradient: &mut Gradient, count: usize) -> Vec<f64> {
+    let mut square = DMatrix::zeros(count, count);
+    gradient.square(&mut square);
+    square.fill_upper_triangle_with_lower_triangle();
+    let mut eigenvalues: Vec<f64> = square.symmetric_eigenvalues().iter().copied().collect();
+    eigenvalues.sort_by(|a, b| b.total_cmp(a));
+    eigenvalues
+}
+
+/// 1/Σ 1/λ of eigenvalues: smooth where they change along a motion, and near the smallest.
+fn smallest(eigenvalues: &[f64]) -> f64 {
+    if eigenvalues.iter().any(|value| *value <= 0.0) {
+        return 0.0;
+    }
+    1.0 / eigenvalues.iter().map(|value| value.recip()).sum::<f64>()
 }
 
 impl Default for Pivots {

@@ -172,3 +172,60 @@ fn loops_that_only_come_near_are_not_told() {
         assert_eq!(warning(&summary(&folder.path().join(model)), "singular-position"), None, "{model}");
     }
 }
+
+/// Bennett's linkage moves though its four hinges are neither parallel nor meet: three of its equations repeat the others at
+/// every position, not always the same ones, and no position is singular.
+#[test]
+fn loops_that_repeat_equations_everywhere_are_not_singular() {
+    let text = r#"
+lissom = 1
+[bodies.crank]
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+[bodies.coupler]
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+position = [-0.6, 0, 0.1]
+[bodies.rocker]
+mass = 1
+inertia = [0.1, 0.1, 0.1]
+position = [-1, 0, 0]
+[joints.A]
+kind = "revolute"
+base = "ground"
+tip = "crank"
+at = [0.6216099682706644, 0.7833269096274834, 0]
+axis = [0.4422996437289516, -0.3509873899713574, 0.8253356149096783]
+[joints.B]
+kind = "revolute"
+base = "crank"
+tip = "coupler"
+at = [-0.6277174189495001, -0.14074973093745313, 0.27653939311451]
+axis = [-0.17520713350995581, 0.492067729423123, 0.8527436953901194]
+[joints.C]
+kind = "revolute"
+base = "coupler"
+tip = "rocker"
+at = [-1.5783569285938728, 0, 0]
+axis = [0, 0.8912073600614354, 0.45359612142557737]
+[joints.D]
+kind = "revolute"
+base = "ground"
+tip = "rocker"
+at = [0, 0, 0]
+axis = [0, 0, 1]
+[joints.drive]
+kind = "prescribed_rotation"
+joint = "A"
+rotation = "t"
+[analysis]
+kind = "dynamics"
+end = 6.283185307179586
+step = 0.01
+"#;
+    let folder = Folder::new("singular-bennett");
+    folder.write("bennett.toml", text);
+    let run = lissom(&["run", "bennett.toml", "--no-plots", "--out", "out"], folder.path());
+    assert_eq!(run.code, 0, "{}", run.errors);
+    assert_eq!(warning(&summary(&folder.path().join("out")), "singular-position"), None, "{}", run.errors);
+}
