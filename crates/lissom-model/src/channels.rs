@@ -319,6 +319,43 @@ impl Channel {
         out.extend_from_slice(vector.as_slice());
     }
 
+    /// Whether it tells of velocities, accelerations or forces of constraints. Forces in beams are those of their strains, and a
+    /// signal is what acts.
+    pub fn tells_rates(&self) -> bool {
+        match &self.source {
+            Source::Expression(_, arguments) => arguments.iter().any(|(channel, _)| channel.tells_rates()),
+            Source::Place(..) | Source::Observed { .. } => !matches!(
+                self.kind,
+                OutputKind::Position
+                    | OutputKind::Displacement
+                    | OutputKind::Rotation
+                    | OutputKind::Quaternion
+                    | OutputKind::CardanAngles
+                    | OutputKind::SectionForce
+                    | OutputKind::SectionMoment
+            ),
+            Source::RelativeMotion(_)
+            | Source::Accumulated(_)
+            | Source::Line(_)
+            | Source::Modal(_)
+            | Source::Recovered(..)
+            | Source::Signal(_) => false,
+            Source::Joint(..)
+            | Source::Contact(_)
+            | Source::Drive(_)
+            | Source::Coupling(_)
+            | Source::Slider(_)
+            | Source::Coordinates(_)
+            | Source::Accelerations(_)
+            | Source::FreeAccelerations(_)
+            | Source::Spring(..)
+            | Source::Power(_)
+            | Source::DrivePower(_)
+            | Source::Energy
+            | Source::Momentum => true,
+        }
+    }
+
     /// Column names, as `midspan.u1`.
     pub fn columns(&self) -> impl Iterator<Item = String> + '_ {
         self.components.iter().map(|component| format!("{}.{component}", self.name))

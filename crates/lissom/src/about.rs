@@ -222,7 +222,7 @@ fn where_it_stands(session: &Session, document: &Document, hand: Hand<'_>) -> Re
             model.unsteadiness()
         ));
     }
-    hand(Reached { model: &model, channels: session.channels(), warnings });
+    hand(Reached { model: &model, channels: session.observed().channels(), warnings });
     Ok(())
 }
 

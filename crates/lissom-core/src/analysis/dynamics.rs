@@ -257,6 +257,11 @@ impl Simulation {
         &self.system
     }
 
+    /// How long the last step was [s]; 0 before the first.
+    pub fn last_step(&self) -> f64 {
+        self.state.kinematics.time - self.previous.kinematics.time
+    }
+
     /// A shared handle on the system.
     pub fn shared_system(&self) -> Arc<System> {
         Arc::clone(&self.system)
@@ -528,7 +533,7 @@ pub(crate) fn warn(warnings: &mut Vec<Warning>, warning: Warning) {
 }
 
 /// Without the augmented term massless coordinates need pivots.
-fn pivoting_unless(settings: &Settings) -> &'static SolverKind {
+pub(super) fn pivoting_unless(settings: &Settings) -> &'static SolverKind {
     let pivoting = lissom_solver::kind("pivoting").unwrap_or(settings.solver);
     if settings.scaling.augmented { settings.solver } else { pivoting }
 }

@@ -11,6 +11,7 @@ use lissom_motion::{Motion, Vector6};
 use lissom_solver::{FactorError, LinearSolver, SolverKind};
 
 use super::compliance::Compliance;
+pub use super::initial_error::InitialError;
 use super::step_error::pivot_hint;
 use crate::joints::attached::Increments;
 use crate::judge::singular::SingularPositions;
@@ -19,84 +20,6 @@ use crate::system::{
     Augmentation, Chart, Kinematics, LOCKED, Layout, Linearization, MotionChange, Point, State, System,
 };
 
-/// Initial values that do not exist.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum InitialError {
-    /// A pivot vanished.
-    #[error("initial accelerations: elimination stops at a pivot of {pivot:.1e} for the {unknown}; {hint}")]
-    ZeroPivot {
-        /// The pivot.
-        pivot: f64,
-        /// Name of the unknown.
-        unknown: String,
-        /// What to try.
-        hint: &'static str,
-    },
-    /// A signal is not finite.
-    #[error("at the start: {0}")]
-    Signal(crate::signals::SignalError),
-    /// States where there are no rates.
-    #[error(
-        "statics and a start from equilibrium know no rates: {0} has no equation there; remove states, friction and \
-         rolling joints, or start a dynamic analysis as it is"
-    )]
-    StateInStatics(String),
-    /// The places of rest were not found.
-    #[error("initial equilibrium: {0}")]
-    NoEquilibrium(Box<super::StepError>),
-    /// Something is free to rest anywhere.
-    #[error(
-        "initial equilibrium: nothing holds or carries the {free}: neither weight nor a spring decides where it rests, so any place \
-         is as good as another; hold it by a joint, a drive or a spring, or start from the places given, without an equilibrium"
-    )]
-    Free {
-        /// Coordinates of joints, or freedoms of nodes, that are free.
-        free: String,
-    },
-    /// Velocities that the constraints exclude altogether.
-    #[error(
-        "the initial velocity of `{part}`, {given}, is excluded by the joints and drives: nothing of it remains; leave it \
-         out, or free what shall move"
-    )]
-    VelocityImpossible {
-        /// Name of the node.
-        part: String,
-        /// Its velocities in words.
-        given: String,
-    },
-    /// Drives or joints ask for different velocities.
-    #[error(
-        "at the start {violated} contradict each other: no velocities satisfy them all, because two drives prescribe the \
-         same motion differently, or one prescribes what the joints exclude; remove one, or change what is prescribed"
-    )]
-    RatesContradict {
-        /// Names of the constraints.
-        violated: String,
-    },
-    /// Normal forces and the creep forces that they allow do not agree.
-    #[error(
-        "initial accelerations: the normal forces of wheels on rails and the creep forces they allow are not found together (they \
-         still change by {change:.1e} of their size); look at friction_coefficient and at how the wheels are held"
-    )]
-    NormalForces {
-        /// The last change, relative to the largest multiplier.
-        change: f64,
-    },
-    /// A beam is turned too far within an element.
-    #[error("at the start: {0}")]
-    Wrapped(Box<super::StepError>),
-    /// A number is not finite.
-    #[error(
-        "initial accelerations are not finite, first for the {unknown}: a force there is without bound at the start, or masses are \
-         too far apart; look at what acts on it, and at the units"
-    )]
-    NotFinite {
-        /// Name of the unknown.
-        unknown: String,
-    },
-}
-
 /// Repetitions after which forces by multipliers count as not found.
 const MOST_REPETITIONS: usize = 100;
 
@@ -104,10 +27,12 @@ const MOST_REPETITIONS: usize = 100;
 const REPEATED: f64 = 1e-10;
 
 /// Which inertias weigh in a projection.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 enum Inertias {
     /// All of them.
     All,
+    /// All of them, and what damping adds over so long a time [s].
+    WithDamping(f64),
     /// Those of parts and of generalised coordinates, not those that act on coordinates of joints.
     OfParts,
 }
@@ -124,6 +49,16 @@ pub struct Initial {
     yields: bool,
     still: Vec<MotionChange>,
     unchanged: Vec<f64>,
+    /// The mass, while that in use has damping.
+    undamped: Vec<f64>,
+    /// What of the system is differentiated; all of it, where it is not told.
+    relevant: Option<Relevant>,
+}
+
+/// Elements by kind with inertia or damping, and whether any of them have damping.
+struct Relevant {
+    kinds: Vec<bool>,
+    is_damped: bool,
 }
 
 impl Initial {
@@ -141,17 +76,74 @@ impl Initial {
                 .is_some(),
             still: vec![MotionChange::none(); state.kinematics.nodes.len()],
             unchanged: vec![0.0; state.kinematics.coordinates.len()],
+            undamped: Vec::new(),
+            relevant: None,
         }
+    }
+
+    /// The same for many states of one system: elements without inertia and damping are not differentiated again and again.
+    pub(super) fn repeated(
+        system: &System,
+        state: &State,
+        representative: &Representative,
+        kind: &SolverKind,
+    ) -> Self {
+        let mut initial = Self::new(system, state, representative, kind);
+        // Constraints between velocities are elements, too.
+        if system.layout().impulses().next().is_some() {
+            return initial;
+        }
+        // Without motion only dampers have derivatives by twists.
+        let mut at = state.kinematics.clone();
+        at.nodes.iter_mut().for_each(|node| node.twist.fill(0.0));
+        at.coordinates.iter_mut().for_each(|coordinate| coordinate.rate = 0.0);
+        let zero = vec![0.0; system.layout().multiplier_count];
+        let mut linearization = Linearization::new(system);
+        let mut derivatives = |kinds: &[bool]| {
+            system.linearize_kinds(kinds, &initial.point(&at, &zero), Chart::Body, &mut linearization);
+            [&linearization.mass, &linearization.damping].map(Clone::clone)
+        };
+        let mut alone = vec![false; system.kind_count()];
+        let none = derivatives(&alone);
+        let mut relevant = Relevant { kinds: alone.clone(), is_damped: false };
+        for kind in 0..alone.len() {
+            alone[kind] = true;
+            let [mass, damping] = derivatives(&alone);
+            alone[kind] = false;
+            relevant.kinds[kind] = mass != none[0] || damping != none[1];
+            relevant.is_damped |= damping != none[1];
+        }
+        initial.relevant = Some(relevant);
+        initial
     }
 
     fn factor(&mut self, system: &System, state: &State, inertias: Inertias) -> Result<(), InitialError> {
         let zero = vec![0.0; system.layout().multiplier_count];
         let mut linearization = std::mem::take(&mut self.linearization);
-        system.linearize(&self.point(&state.kinematics, &zero), Chart::Body, &mut linearization);
+        let point = self.point(&state.kinematics, &zero);
+        match &self.relevant {
+            Some(relevant) => {
+                system.linearize_kinds(&relevant.kinds, &point, Chart::Body, &mut linearization);
+            }
+            None => system.linearize(&point, Chart::Body, &mut linearization),
+        }
         // States have no inertia: a unit in its place keeps them apart from the rest.
         for (row, ..) in system.layout().states() {
             if let Some(diagonal) = system.structure().pattern.position(row, row) {
                 linearization.mass[diagonal] += 1.0;
+            }
+        }
+        if let Inertias::WithDamping(time) = inertias {
+            self.undamped.clone_from(&linearization.mass);
+            let pattern = &system.structure().pattern;
+            let mut is_of_rates = vec![false; pattern.size()];
+            system.layout().rate_rows().for_each(|row| is_of_rates[row] = true);
+            for column in (0..pattern.size()).filter(|&column| !is_of_rates[column]) {
+                for at in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
+                    if !is_of_rates[pattern.row_indices()[at]] {
+                        linearization.mass[at] += time * linearization.damping[at];
+                    }
+                }
             }
         }
         // Constraints between velocities stand where those between places do: [M Bᵀ; B 0].
@@ -179,6 +171,10 @@ impl Initial {
             }
         }
         self.linearization = linearization;
+        self.factor_inertias(system)
+    }
+
+    fn factor_inertias(&mut self, system: &System) -> Result<(), InitialError> {
         let layout = system.layout();
         let mut result = self.factor_values(system);
         if let Err(FactorError::ZeroPivot { unknown, .. }) = result
@@ -295,6 +291,33 @@ impl Initial {
         Ok(self.project(system, state))
     }
 
+    /// Velocities, accelerations and multipliers that agree with the places of `state`, to which a step of `step` [s] led: the
+    /// nearest velocities in the norm of inertia and of what damping adds over the step.
+    ///
+    /// # Errors
+    /// As [`velocities`](Self::velocities) and [`accelerations`](Self::accelerations).
+    pub(super) fn rates(
+        &mut self,
+        system: &System,
+        state: &mut State,
+        step: f64,
+    ) -> Result<(), InitialError> {
+        if self.relevant.as_ref().is_some_and(|relevant| !relevant.is_damped) {
+            self.factor(system, state, Inertias::All)?;
+            self.project(system, state);
+            // The matrix is one of places alone.
+            return self.factored_accelerations(system, state);
+        }
+        self.factor(system, state, Inertias::WithDamping(step))?;
+        self.project(system, state);
+        if self.relevant.is_none() {
+            return self.accelerations(system, state);
+        }
+        std::mem::swap(&mut self.linearization.mass, &mut self.undamped);
+        self.factor_inertias(system)?;
+        self.factored_accelerations(system, state)
+    }
+
     /// The same for velocities that are given to parts: coordinates of joints follow, whatever mass they have of their own,
     /// for no rate was given to them.
     ///
@@ -360,6 +383,10 @@ impl Initial {
     /// If the constraints repeat each other or a coordinate has neither mass nor constraint.
     pub fn accelerations(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {
         self.factor(system, state, Inertias::All)?;
+        self.factored_accelerations(system, state)
+    }
+
+    fn factored_accelerations(&mut self, system: &System, state: &mut State) -> Result<(), InitialError> {
         let mut right = self.acceleration_vector(system, state)?;
         let layout = system.layout();
         for (row, impulse) in layout.impulses() {

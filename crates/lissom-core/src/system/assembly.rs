@@ -253,6 +253,29 @@ impl System {
         out.scratch = Some(scratch);
     }
 
+    /// The same of constraints and of those kinds of elements alone that `kinds` chooses.
+    pub(crate) fn linearize_kinds(
+        &self,
+        kinds: &[bool],
+        point: &Point<'_>,
+        chart: Chart<'_>,
+        out: &mut Linearization,
+    ) {
+        let mut scratch = out.scratch.take().unwrap_or_default();
+        let mut receiver = Receiver::Apart(out);
+        receiver.clear();
+        for (batch, _) in self.batches.iter().zip(kinds).filter(|(_, is_chosen)| **is_chosen) {
+            batch.linearize((point.at, point.stressed), chart, &mut scratch.local, &mut receiver);
+        }
+        self.linearize_constraints(point, chart, &mut scratch.joint, &mut receiver);
+        out.scratch = Some(scratch);
+    }
+
+    /// Number of kinds of elements, as they are evaluated together.
+    pub(crate) fn kind_count(&self) -> usize {
+        self.batches.len()
+    }
+
     /// Hands the derivatives at `point` with respect to the unknowns of `chart` to `out`.
     pub fn hand_derivatives(
         &self,

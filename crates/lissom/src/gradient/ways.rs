@@ -1,17 +1,14 @@
 //! Two ways to the derivatives of a state: carried along the steps as linear unknowns, or as differences of two neighbouring
 //! models that take the same steps.
 
-use std::sync::Arc;
-
 use lissom_core::analysis::{Sensitivities, Simulation};
-use lissom_core::system::{State, System};
+use lissom_core::system::State;
 use lissom_model::Document;
-use lissom_model::channels::Channel;
 use lissom_model::numbers::number_at;
 
 use super::{GradientError, Target, prepared};
 use crate::model::{Model, Override};
-use crate::session::Session;
+use crate::session::{Observed, Session};
 
 /// How far neighbouring models that take the same steps are from the model, relative to the number. Differences of both sides
 /// err by its square, and by round-off of a solution over it.
@@ -55,12 +52,6 @@ enum Way {
     Carried(usize, Vec<(Observed, f64)>),
     /// The neighbours take the steps themselves.
     Followed(Vec<(Session, f64)>),
-}
-
-/// What a model records, and of what.
-struct Observed {
-    system: Arc<System>,
-    channels: Vec<Channel>,
 }
 
 /// All numbers, each on its way.
@@ -165,10 +156,7 @@ impl Ways {
                     sessions.iter().map(|(session, weight)| (session.simulation(), *weight)).collect();
                 if sensitivities.add(base, &simulations) {
                     count += 1;
-                    let observed = |(session, weight): (Session, f64)| {
-                        let system = session.simulation().shared_system();
-                        (Observed { system, channels: session.into_channels() }, weight)
-                    };
+                    let observed = |(session, weight): (Session, f64)| (session.into_observed(), weight);
                     let way = Way::Carried(count - 1, sessions.into_iter().map(observed).collect());
                     return Ok(Neighbours { path: path.clone(), number, way });
                 }
@@ -205,15 +193,13 @@ impl Ways {
     pub(super) fn derivatives(&mut self, session: &Session, column: usize) -> Vec<f64> {
         let Self { numbers, sensitivities, state, .. } = self;
         let base = session.simulation();
-        let mut values = Vec::new();
         let mut of = |number: &Neighbours| {
             let (index, observed) = match &number.way {
                 Way::Carried(index, observed) => (*index, observed),
                 Way::Followed(sessions) => {
                     let of = |(session, weight): &(Session, f64)| {
                         let simulation = session.simulation();
-                        let (system, state) = (simulation.system(), simulation.state());
-                        weight * value_of((session.channels(), system), state, column, &mut values)
+                        weight * session.observed().value(column, simulation.state(), simulation.last_step())
                     };
                     return sessions.iter().map(of).sum();
                 }
@@ -221,8 +207,7 @@ impl Ways {
             let Some(sensitivities) = &*sensitivities else { return f64::NAN };
             // What the column is made of may depend on the number itself: where it measures, and from where.
             let of = |(observed, weight): &(Observed, f64)| {
-                let place = (&observed.channels[..], &*observed.system);
-                weight * value_of(place, base.state(), column, &mut values)
+                weight * observed.value(column, base.state(), base.last_step())
             };
             let directly: f64 = observed.iter().map(of).sum();
             let extent = sensitivities.extent(base, index);
@@ -255,12 +240,10 @@ fn along(
     column: usize,
     state: &mut State,
 ) -> f64 {
-    let mut values = Vec::new();
+    let simulation = session.simulation();
     let [below, above] = [-share, share].map(|share| {
-        sensitivities.displace(session.simulation(), index, share, state);
-        values.clear();
-        let place = (session.channels(), session.simulation().system());
-        value_of(place, state, column, &mut values)
+        sensitivities.displace(simulation, index, share, state);
+        session.observed().value(column, state, simulation.last_step())
     });
     (above - below) / (2.0 * share)
 }
@@ -270,24 +253,4 @@ fn along(
 fn steadiest(found: &[f64]) -> f64 {
     let pairs = found.windows(2).map(|pair| ((pair[1] - pair[0]).abs(), pair[1]));
     pairs.min_by(|one, other| one.0.total_cmp(&other.0)).map_or(f64::NAN, |(_, value)| value)
-}
-
-/// The value of a column in a state.
-fn value_of(
-    (channels, system): (&[Channel], &System),
-    state: &State,
-    column: usize,
-    values: &mut Vec<f64>,
-) -> f64 {
-    let mut first = 0;
-    for channel in channels {
-        let count = channel.components.len();
-        if column < first + count {
-            values.clear();
-            channel.evaluate(system, state, values);
-            return values[column - first];
-        }
-        first += count;
-    }
-    f64::NAN
 }

@@ -8,7 +8,7 @@ use lissom_core::analysis::InputError;
 use lissom_core::stepping::SnapshotError;
 use lissom_core::system::State;
 
-use super::Session;
+use super::{Observed, Session};
 use crate::builder::{ForeignId, IdNames, InputId, OutputId, Quantity};
 use crate::timings::Timings;
 
@@ -51,14 +51,8 @@ impl Session {
     /// If the output belongs to another model.
     pub fn output(&self, output: OutputId) -> Result<Vec<f64>, ReadError> {
         let name = self.ids()?.name(output)?;
-        let channel = self.channels.iter().find(|channel| channel.name == name);
-        let mut values = Vec::new();
-        channel.ok_or_else(|| ReadError::NotRecorded(name.to_owned()))?.evaluate(
-            self.simulation.system(),
-            self.simulation.state(),
-            &mut values,
-        );
-        Ok(values)
+        let channel = self.observed.channels().iter().find(|channel| channel.name == name);
+        Ok(self.values_of(channel.ok_or_else(|| ReadError::NotRecorded(name.to_owned()))?))
     }
 
     /// Where the components of an output stand among the [`columns`](Self::columns), and in what is recorded.
@@ -99,8 +93,8 @@ impl Session {
     pub fn try_clone(&self) -> Result<Self, SnapshotError> {
         let simulation = self.simulation.try_clone()?;
         Ok(Self {
+            observed: Observed::new(&simulation, self.observed.channels().to_vec()),
             simulation,
-            channels: self.channels.clone(),
             columns: self.columns.clone(),
             signals: self.signals.clone(),
             schedule: self.schedule.clone(),

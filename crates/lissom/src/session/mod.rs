@@ -2,6 +2,7 @@
 //! there is. Knows no files and no terminal.
 
 mod handles;
+mod observed;
 mod snapshot;
 
 use std::collections::BTreeMap;
@@ -30,6 +31,7 @@ use crate::telemetry::Telemetry;
 use crate::timings::Timings;
 
 pub use handles::ReadError;
+pub(crate) use observed::Observed;
 use snapshot::NoCheckpoints;
 pub use snapshot::{Checkpoints, SessionSnapshot};
 
@@ -67,7 +69,7 @@ pub struct Progress {
 /// A model on its way.
 pub struct Session {
     simulation: Simulation,
-    channels: Vec<Channel>,
+    observed: Observed,
     columns: Vec<Column>,
     signals: BTreeMap<String, Argument>,
     schedule: Schedule,
@@ -131,13 +133,13 @@ impl Session {
         timings.start = began.elapsed();
         Ok(Self {
             columns: columns(&channels),
+            observed: Observed::new(&simulation, channels),
             timings,
             tally: Tally { violations, ..Tally::default() },
             scale: simulation.scaled().scale(),
             telemetry: Telemetry::default(),
             state_writers: Vec::new(),
             simulation,
-            channels,
             signals: names.signals,
             schedule,
             warnings,
@@ -157,13 +159,13 @@ impl Session {
     }
 
     /// What is recorded, as it is evaluated.
-    pub(crate) fn channels(&self) -> &[Channel] {
-        &self.channels
+    pub(crate) fn observed(&self) -> &Observed {
+        &self.observed
     }
 
     /// What is recorded, without the rest.
-    pub(crate) fn into_channels(self) -> Vec<Channel> {
-        self.channels
+    pub(crate) fn into_observed(self) -> Observed {
+        self.observed
     }
 
     /// Hands the states of a [`run`](Self::run) to `writer`, too.
@@ -231,9 +233,12 @@ impl Session {
 
     /// Appends the values of all columns, now.
     pub fn values(&self, out: &mut Vec<f64>) {
-        for channel in &self.channels {
-            channel.evaluate(self.simulation.system(), self.simulation.state(), out);
-        }
+        self.observed.values(self.simulation.state(), self.simulation.last_step(), out);
+    }
+
+    /// The values of one channel, now.
+    fn values_of(&self, channel: &Channel) -> Vec<f64> {
+        self.observed.values_of(channel, self.simulation.state(), self.simulation.last_step())
     }
 
     /// The value of a signal, an input or a state, or of a column, as `tip.u1`, now; none where nothing is called so.
@@ -243,11 +248,9 @@ impl Session {
             return Some(signal_value(system, &state.kinematics, argument));
         }
         let (owner, component) = name.rsplit_once('.')?;
-        let channel = self.channels.iter().find(|channel| channel.name == owner)?;
+        let channel = self.observed.channels().iter().find(|channel| channel.name == owner)?;
         let index = channel.components.iter().position(|known| known == component)?;
-        let mut values = Vec::new();
-        channel.evaluate(system, state, &mut values);
-        values.get(index).copied()
+        self.values_of(channel).get(index).copied()
     }
 
     /// Sets an input from now on, until it is set again.

@@ -90,9 +90,11 @@ fn every_error_of_steps_starts_and_assemblies_has_a_model() {
     let core = Path::new(env!("CARGO_MANIFEST_DIR")).join("../lissom-core/src/analysis");
     let models = models();
     let mut missing = Vec::new();
-    for (file, name) in
-        [("step_error.rs", "StepError"), ("initial.rs", "InitialError"), ("assembly/mod.rs", "AssemblyError")]
-    {
+    for (file, name) in [
+        ("step_error.rs", "StepError"),
+        ("initial_error.rs", "InitialError"),
+        ("assembly/mod.rs", "AssemblyError"),
+    ] {
         let text = fs::read_to_string(core.join(file)).unwrap();
         let (_, body) = text.split_once(&format!("pub enum {name} {{\n")).unwrap();
         let (body, _) = body.split_once("\n}\n").unwrap();
