@@ -29,6 +29,13 @@ impl Jet {
         Self { value, first: 1.0, second: 0.0 }
     }
 
+    /// Where two functions meet: the mean of their derivatives, as `sign(0)` is 0 for `abs`. So those of `max(t-1, 0) + min(t, 1)` add
+    /// up to 1 at t = 1 as well.
+    fn halfway_to(self, other: Self) -> Self {
+        let [first, second] = [self.first + other.first, self.second + other.second];
+        Self { value: self.value, first: 0.5 * first, second: 0.5 * second }
+    }
+
     pub(super) fn plus(self, other: Self) -> Self {
         Self {
             value: self.value + other.value,
@@ -189,6 +196,7 @@ impl Function {
     /// The function of two jets.
     pub(super) fn of_two(self, u: Jet, v: Jet) -> Jet {
         match self {
+            Self::Max | Self::Min if u.value == v.value => u.halfway_to(v),
             Self::Max => {
                 if u.value >= v.value {
                     u

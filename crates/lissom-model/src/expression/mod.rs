@@ -186,6 +186,20 @@ mod tests {
         parse(text).unwrap().jet(t).value
     }
 
+    /// Functions that are smooth together are so where their parts have kinks.
+    #[test]
+    fn parts_that_meet_have_derivatives_that_add_up() {
+        for text in ["max(t - 1, 0) + min(t, 1)", "0.5*(abs(t - 1) + t + 1) - max(t - 1, 0) + max(t, 1) - 1"]
+        {
+            for t in [0.5, 1.0, 2.0] {
+                let jet = parse(text).unwrap().jet(t);
+                let wanted = if text.starts_with('m') { 1.0 } else { f64::from(u8::from(t > 1.0)) };
+                let wanted = if t == 1.0 && !text.starts_with('m') { 0.5 } else { wanted };
+                assert_eq!(jet.first, wanted, "{text} at {t}");
+            }
+        }
+    }
+
     #[test]
     fn precedence_is_that_of_mathematics() {
         for (text, wanted) in [
