@@ -16,6 +16,7 @@ use super::projection::Projection;
 use super::step_error::{StepError, describe};
 use super::totals::{StepReport, Totals};
 use super::workspace::Workspace;
+use crate::judge::rates::ConstraintRates;
 use crate::judge::singular::SingularPositions;
 use crate::judge::{self, Judge, Ledger, Warning};
 use crate::newton::{self, Equations, Failure, Limits, Memory, Outcome};
@@ -112,6 +113,7 @@ pub struct Simulation {
     pub(crate) impacts: Impacts,
     /// Whether steps of planned size resolve the motion.
     pub(crate) resolution: Resolution,
+    pub(crate) constraint_rates: ConstraintRates,
     /// What is known of functions of time.
     pub(crate) time_functions: TimeFunctions,
     /// What is accumulated along the way.
@@ -202,16 +204,13 @@ impl Simulation {
             (is_chosen && !settings.scheme.dynamic).then(|| LoadControl::new(settings.step_size));
         let is_bound = is_chosen || settings.scheme.dynamic;
         let kinks = if is_bound { kinks::of(&system, settings.step_size) } else { Vec::new() };
-        let watch = if settings.scheme.dynamic {
-            Watch::new(&system, &state, controller.is_some())
-        } else {
-            Watch::of_nothing(&state)
-        };
+        let watch = watch(&system, &state, &settings);
         watch.hold_sides(&system, &mut state.kinematics);
         let is_planned = settings.scheme.dynamic && controller.is_none();
         Ok(Self {
             impacts: if is_planned { Impacts::new(&system, &state.kinematics) } else { Impacts::default() },
             resolution: Resolution::new(if is_planned { system.layout().coordinate_count() } else { 0 }),
+            constraint_rates: ConstraintRates::new(&system, &state.kinematics),
             time_functions: TimeFunctions::default(),
             origin: state.kinematics.clone(),
             previous: state.clone(),
@@ -529,6 +528,15 @@ impl Simulation {
 pub(crate) fn warn(warnings: &mut Vec<Warning>, warning: Warning) {
     if warnings.iter().all(|known| known.code() != warning.code()) {
         warnings.push(warning);
+    }
+}
+
+/// Motions watch events; where steps are chosen, also switches of forces.
+fn watch(system: &System, state: &State, settings: &Settings) -> Watch {
+    if settings.scheme.dynamic {
+        Watch::new(system, state, settings.control.is_some())
+    } else {
+        Watch::of_nothing(state)
     }
 }
 

@@ -10,6 +10,7 @@ pub(crate) mod drives;
 pub(crate) mod held;
 mod ledger;
 pub(crate) mod linear_range;
+pub(crate) mod rates;
 pub(crate) mod singular;
 pub(crate) mod start;
 mod warning;

@@ -98,7 +98,7 @@ pub enum Warning {
     },
     /// A drive goes from one place to another at once.
     #[error(
-        "in the step to t = {time:.6e} s the drive `{drive}` goes by {way:.3e} (m or rad) without a rate that takes it there: it          jumps, or changes faster than steps resolve; let it go there in a time that steps resolve"
+        "in the step to t = {time:.6e} s the drive `{drive}` goes by {way:.3e} (m or rad) without a rate that takes it there: it jumps, or changes faster than steps resolve; let it go there in a time that steps resolve"
     )]
     DriveJumps {
         /// End of the step in which it was seen first [s].
@@ -107,6 +107,18 @@ pub enum Warning {
         drive: String,
         /// How far it goes [m or rad].
         way: f64,
+    },
+    /// Steps of planned size do not resolve the velocities of joints and drives.
+    #[error(
+        "the steps are too long for velocities and forces: places agree with joints and drives, but the rates of these miss {:.1} % of \
+         the speed of the model, and forces more; take smaller steps, or set `relative_tolerance` instead of `step`",
+        100.0 * missed
+    )]
+    UnresolvedRates {
+        /// When it was first worth telling [s].
+        time: f64,
+        /// What rates of constraints miss, as a part of the largest speed.
+        missed: f64,
     },
     /// Steps of planned size do not resolve the motion.
     #[error(
@@ -310,6 +322,7 @@ impl Warning {
             Self::ContactTooShort { .. } => "contact-too-short",
             Self::DriveJumps { .. } => "drive-jumps",
             Self::Unresolved { .. } => "unresolved-motion",
+            Self::UnresolvedRates { .. } => "unresolved-rates",
             Self::ConstraintsYield { .. } => "constraints-yield",
             Self::ContactRunsRound { .. } => "contact-runs-round",
             Self::FunctionUnseen { .. } => "function-unseen",

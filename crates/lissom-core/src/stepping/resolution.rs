@@ -34,6 +34,8 @@ const MOST: f64 = 8.0;
 /// Estimates beyond this part of how far the model moves are told. Where motions amplify errors, those at the end are up to ten
 /// times the estimate: of 10 000 random mechanisms four erred by 1 to 2.5 % with estimates of 0.15 to 0.19 %.
 const NOTEWORTHY: f64 = 1e-3;
+/// Rates of constraints that miss more than this part of the speed are told: forces then err by a multiple of it.
+const NOTEWORTHY_RATES: f64 = 0.02;
 
 /// What is known of one unknown [scaled].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -73,6 +75,8 @@ pub(crate) struct Resolution {
     /// Share of the planned size of the last one.
     share: f64,
     pairs: f64,
+    /// Sums over all steps looked at: what rates of constraints miss, and speeds.
+    rates: [f64; 2],
 }
 
 impl Resolution {
@@ -133,6 +137,34 @@ impl Resolution {
 }
 
 impl Simulation {
+    /// What the rates of constraints miss at the end of a step that is looked at.
+    fn note_rates(&mut self) {
+        let (from, to) = (&self.state.kinematics, &self.next.kinematics);
+        let (length, step) = (self.representative.length, to.time - from.time);
+        let found = self.constraint_rates.missed(&self.system, to, length, step);
+        let rates = &mut self.resolution.rates;
+        rates.iter_mut().zip(found).for_each(|(sum, found)| *sum += found);
+        let part = rates[0] / rates[1];
+        let known =
+            self.warnings.iter().position(|warning| matches!(warning, Warning::UnresolvedRates { .. }));
+        match (known, part > NOTEWORTHY_RATES) {
+            // What a start has shaken may turn out small beside what follows.
+            (Some(known), false) => {
+                self.warnings.remove(known);
+            }
+            (Some(known), true) => {
+                if let Warning::UnresolvedRates { missed, .. } = &mut self.warnings[known] {
+                    *missed = part;
+                }
+            }
+            (None, true) => {
+                let time = self.next.kinematics.time;
+                warn(&mut self.warnings, Warning::UnresolvedRates { time, missed: part });
+            }
+            (None, false) => {}
+        }
+    }
+
     /// Before a step of planned size, or a part of one that is this share of it, is accepted.
     pub(super) fn note_resolution(&mut self, share: f64) {
         if self.resolution.missed.is_empty() {
@@ -142,9 +174,13 @@ impl Simulation {
         if let Some(warning) = judge::contact::runs_round(&self.system, step) {
             warn(&mut self.warnings, warning);
         }
+        let is_due = self.resolution.is_due(share);
+        if is_due {
+            self.note_rates();
+        }
         let known = self.warnings.iter().position(|warning| matches!(warning, Warning::Unresolved { .. }));
         let mut is_pair = false;
-        if self.resolution.is_due(share) {
+        if is_due {
             self.estimate_error(Order::Third);
             let work = &*self.work;
             let errors = work.filtered.iter().zip(&work.error).zip(&work.sizes);

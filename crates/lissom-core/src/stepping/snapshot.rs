@@ -19,7 +19,7 @@ use crate::scaling::Scaled;
 use crate::system::{CoordinateMotion, Kinematics, NodeMotion, State};
 
 /// Changes whenever what a snapshot holds does.
-const VERSION: u32 = 11;
+const VERSION: u32 = 12;
 
 /// A simulation between two steps.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

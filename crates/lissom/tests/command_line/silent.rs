@@ -363,3 +363,40 @@ fn steps_too_long_for_the_motion_are_told_and_short_ones_are_not() {
         }
     }
 }
+
+/// Places that a drive prescribes are right with any step: what tells that steps are too long are the rates of the joints.
+#[test]
+fn steps_too_long_for_velocities_are_told_and_short_ones_are_not() {
+    let folder = Folder::new("rates");
+    // x = r cos φ + √(ℓ² - r² sin² φ), φ = 6 t, r = 0.1, ℓ = 0.35.
+    let velocity = |time: f64| {
+        let (sine, cosine) = (6.0 * time).sin_cos();
+        -6.0 * 0.1 * sine * (1.0 + 0.1 * cosine / (0.35_f64.powi(2) - (0.1 * sine).powi(2)).sqrt())
+    };
+    for (scheme, step, is_told) in [
+        ("generalized-alpha", "0.15", true),
+        ("hht", "0.15", true),
+        // What is recorded of drives then follows from the places.
+        ("radau-iia", "0.15", false),
+        ("generalized-alpha", "0.005", false),
+        ("hht", "0.005", false),
+        ("radau-iia", "0.005", false),
+    ] {
+        let sets = [format!("analysis.scheme={scheme}"), format!("analysis.step={step}")];
+        let model = model("unresolved-rates");
+        let args =
+            ["run", &model, "--no-plots", "--quiet", "--out", ".", "--set", &sets[0], "--set", &sets[1]];
+        let run = lissom(&args, folder.path());
+        assert_eq!(run.code, 0, "{}", run.errors);
+        let table = std::fs::read_to_string(folder.path().join("history.csv")).unwrap();
+        let missed = table.lines().skip(1).map(|line| {
+            let mut row = line.split(',').map(|word| word.parse::<f64>().unwrap());
+            let time = row.next().unwrap();
+            (row.next().unwrap() - velocity(time)).abs() / 0.63
+        });
+        let worst = missed.fold(0.0_f64, f64::max);
+        let tells = run.errors.contains("the steps are too long for velocities and forces");
+        assert_eq!(tells, is_told, "{scheme}, {step}: {worst}: {}", run.errors);
+        assert!(if is_told { worst > 0.02 } else { worst < 0.01 }, "{scheme}, {step}: {worst}");
+    }
+}
