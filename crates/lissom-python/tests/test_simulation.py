@@ -131,7 +131,7 @@ def test_reasons_to_doubt_are_told_while_stepping() -> None:
             sim.step()
     # Told when it came up; the figures go on to grow.
     assert sim.warnings == told and sorted(str(warning.message).split(":")[0] for warning in of_steps) == codes
-    assert "from t = 3.4" in str(of_steps[0].message)
+    assert any("from t = 3.4" in str(warning.message) for warning in of_steps)
     with pytest.warns(lissom.ModelWarning) as of_time:
         model.simulation().step_to(sim.end)
     assert sorted(str(warning.message).split(":")[0] for warning in of_time) == codes
