@@ -4,12 +4,10 @@
 use std::sync::Arc;
 
 use super::dynamics::{Simulation, warn};
+use crate::elements::quadrature::gauss_legendre;
 use crate::judge::Warning;
 use crate::stepping::interpolate;
 use crate::system::{ElementId, State, System};
-
-/// Points of Gauss's rule between 0 and 1.
-const GAUSS: [f64; 2] = [0.211_324_865_405_187_1, 0.788_675_134_594_812_9];
 
 /// A number that grows from step to step; zero at the start.
 pub trait Accumulated: Send + Sync {
@@ -89,8 +87,8 @@ impl Simulation {
         let time = end.kinematics.time;
         if is_motion {
             let duration = time - start.kinematics.time;
-            for (state, place) in within.iter_mut().zip(GAUSS) {
-                interpolate(start, end, start.kinematics.time + place * duration, state);
+            for (state, (xi, _)) in within.iter_mut().zip(gauss_legendre(2)) {
+                interpolate(start, end, start.kinematics.time + 0.5 * (1.0 + xi) * duration, state);
             }
         }
         let step = AcceptedStep { system: &self.system, start, within: is_motion.then_some(&**within), end };

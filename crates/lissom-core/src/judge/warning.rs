@@ -110,8 +110,8 @@ pub enum Warning {
     },
     /// Steps of planned size do not resolve the velocities of joints and drives.
     #[error(
-        "the steps are too long for velocities and forces: places agree with joints and drives, but the rates of these miss {:.1} % of \
-         the speed of the model, and forces more; take smaller steps, or set `relative_tolerance` instead of `step`",
+        "the steps are too long for velocities and forces: from t = {time:.6e} s on places agree with joints and drives, but the rates of \
+         these miss {:.1} % of the speed of the model, and forces more; take smaller steps, or set `relative_tolerance` instead of `step`",
         100.0 * missed
     )]
     UnresolvedRates {
