@@ -24,6 +24,11 @@ pub trait TimeFunction: Send + Sync + fmt::Debug {
     fn kinks(&self) -> Vec<f64> {
         Vec::new()
     }
+    /// An argument at which value or slope jump, if one is known; NaN if only that there are some. Default: the first of the
+    /// [`kinks`](Self::kinks).
+    fn first_kink(&self) -> Option<f64> {
+        self.kinks().first().copied()
+    }
     /// Bounds of the value between two times [s]. Default: none are known.
     fn bounds(&self, _from: f64, _to: f64) -> Option<[f64; 2]> {
         None
@@ -68,9 +73,17 @@ pub trait ForceFunction: Send + Sync + fmt::Debug {
     fn kinks(&self) -> Vec<f64> {
         Vec::new()
     }
-    /// Those of them at which steps of chosen size are to end. Default: none.
-    fn switches(&self) -> &[f64] {
-        &[]
+    /// Number of its switching functions, which change sign where it has a kink or a jump. Steps of chosen size end there.
+    /// Default: none.
+    fn switch_count(&self) -> usize {
+        0
+    }
+    /// Passes the values of its switching functions to `visit`, in their order.
+    fn switches(&self, _first: f64, _second: f64, _sides: &[f64], _visit: &mut dyn FnMut(f64)) {}
+    /// The same as [`evaluate`](Self::evaluate), continued smoothly from the given sides of its switching functions: 1 above
+    /// zero, -1 below, 0 where the function itself decides. `sides` is empty where no side is known.
+    fn continued(&self, first: f64, second: f64, _sides: &[f64]) -> [f64; 3] {
+        self.evaluate(first, second)
     }
 }
 

@@ -21,19 +21,26 @@ struct Expressed {
     kinks: Vec<f64>,
 }
 
-impl ForceFunction for Expressed {
-    fn evaluate(&self, first: f64, second: f64) -> [f64; 3] {
-        let (mut arguments, mut gradient) = ([0.0; 2], [0.0; 2]);
+impl Expressed {
+    /// The arguments of the expression, of which the first [`count`](Self::count) are used.
+    fn arguments(&self, first: f64, second: f64) -> [f64; 2] {
+        let mut arguments = [0.0; 2];
         for (place, value) in self.places.iter().zip([first, second]) {
             if let Some(place) = place {
                 arguments[*place] = value;
             }
         }
-        let count = self.formula.arguments().len();
-        let value = self.formula.value(0.0, &arguments[..count], &[]);
-        self.formula.gradient(0.0, &arguments[..count], &[], &mut gradient[..count]);
-        let [by_first, by_second] = self.places.map(|place| place.map_or(0.0, |place| gradient[place]));
-        [value, by_first, by_second]
+        arguments
+    }
+
+    fn count(&self) -> usize {
+        self.formula.arguments().len()
+    }
+}
+
+impl ForceFunction for Expressed {
+    fn evaluate(&self, first: f64, second: f64) -> [f64; 3] {
+        self.continued(first, second, &[])
     }
 
     fn depends_on_second(&self) -> bool {
@@ -44,8 +51,22 @@ impl ForceFunction for Expressed {
         self.kinks.clone()
     }
 
-    fn switches(&self) -> &[f64] {
-        &self.kinks
+    fn switch_count(&self) -> usize {
+        self.formula.switch_count()
+    }
+
+    fn switches(&self, first: f64, second: f64, sides: &[f64], visit: &mut dyn FnMut(f64)) {
+        self.formula.visit_switches(0.0, &self.arguments(first, second)[..self.count()], sides, visit);
+    }
+
+    fn continued(&self, first: f64, second: f64, sides: &[f64]) -> [f64; 3] {
+        let arguments = self.arguments(first, second);
+        let arguments = &arguments[..self.count()];
+        let mut gradient = [0.0; 2];
+        let value = self.formula.value(0.0, arguments, sides);
+        self.formula.gradient(0.0, arguments, sides, &mut gradient[..arguments.len()]);
+        let [by_first, by_second] = self.places.map(|place| place.map_or(0.0, |place| gradient[place]));
+        [value, by_first, by_second]
     }
 }
 

@@ -20,6 +20,9 @@ impl TimeFunction for Expression {
     fn kinks(&self) -> Vec<f64> {
         Self::kinks(self)
     }
+    fn first_kink(&self) -> Option<f64> {
+        Self::first_kink(self)
+    }
     fn bounds(&self, from: f64, to: f64) -> Option<[f64; 2]> {
         Some(Self::bounds(self, from, to))
     }

@@ -111,7 +111,7 @@ impl ForceLaw {
     /// How many kinks it has as far as [`switches`](Self::switches) tells.
     pub(crate) fn switch_count(&self) -> usize {
         let laws = [&self.elastic, &self.damper].into_iter().flatten();
-        let kinks: usize = laws.map(|law| law.switches().len()).sum();
+        let kinks: usize = laws.map(|law| law.switch_count()).sum();
         let limits = self.limits.iter().filter(|limit| is_passed(**limit)).count();
         self.has_ends().iter().filter(|has| **has).count() + kinks + limits
     }
@@ -128,15 +128,16 @@ impl ForceLaw {
 
     /// The force; `hand` is given all switches in their order.
     fn walk(&self, elongation: f64, rate: f64, sides: &[f64], mut hand: impl FnMut(f64)) -> Response {
-        let mut sides = sides.iter();
-        let mut passes = |value: f64| {
+        let mut next = 0;
+        let mut passes = |next: &mut usize, value: f64| {
             hand(value);
-            is_above(sides.next(), value)
+            *next += 1;
+            is_above(sides.get(*next - 1), value)
         };
         let [has_upper, has_lower] = self.has_ends();
         let (above, below) = (elongation - self.play, elongation + self.play);
-        let is_above = has_upper && passes(above);
-        let is_below = has_lower && passes(-below);
+        let is_above = has_upper && passes(&mut next, above);
+        let is_below = has_lower && passes(&mut next, -below);
         let past = match (is_above, is_below) {
             (true, _) => above,
             (_, true) => below,
@@ -144,13 +145,25 @@ impl ForceLaw {
             _ if has_upper || has_lower => 0.0,
             _ => elongation - elongation.clamp(-self.play, self.play),
         };
-        for (law, at) in [(&self.elastic, past), (&self.damper, rate)] {
-            law.iter().flat_map(|law| law.switches()).for_each(|kink| _ = passes(at - kink));
-        }
-        let response = self.unlimited(past, rate);
+        let [elastic, damper] =
+            [(&self.elastic, past, rate), (&self.damper, rate, past)].map(|(law, one, other)| {
+                let Some(law) = law else { return [0.0; 3] };
+                let begin = next;
+                let own = sides.get(begin..begin + law.switch_count()).unwrap_or_default();
+                law.switches(one, other, own, &mut |value| _ = passes(&mut next, value));
+                law.continued(one, other, own)
+            });
+        let response = Response {
+            force: self.stiffness * past + self.damping * rate + elastic[0] + damper[0],
+            stiffness: self.stiffness + elastic[1] + damper[2],
+            damping: self.damping + elastic[2] + damper[1],
+        };
         let [low, high] = self.limits;
-        let is_high = if is_passed(high) { passes(response.force - high) } else { response.force > high };
-        let is_low = if is_passed(low) { passes(low - response.force) } else { response.force < low };
+        let mut is_beyond = |limit: f64, value: f64| {
+            if is_passed(limit) { passes(&mut next, value) } else { value > 0.0 }
+        };
+        let is_high = is_beyond(high, response.force - high);
+        let is_low = is_beyond(low, low - response.force);
         if (has_upper || has_lower) && !(is_above || is_below) {
             Response::default()
         } else if is_low {
@@ -160,27 +173,6 @@ impl ForceLaw {
         } else {
             response
         }
-    }
-
-    fn unlimited(&self, past: f64, rate: f64) -> Response {
-        let mut response = Response {
-            force: self.stiffness * past + self.damping * rate,
-            stiffness: self.stiffness,
-            damping: self.damping,
-        };
-        if let Some(elastic) = &self.elastic {
-            let [force, by_elongation, by_rate] = elastic.evaluate(past, rate);
-            response.force += force;
-            response.stiffness += by_elongation;
-            response.damping += by_rate;
-        }
-        if let Some(damper) = &self.damper {
-            let [force, by_rate, by_elongation] = damper.evaluate(rate, past);
-            response.force += force;
-            response.stiffness += by_elongation;
-            response.damping += by_rate;
-        }
-        response
     }
 
     /// Potential energy [J]; zero at the free length.
@@ -209,7 +201,8 @@ impl ForceLaw {
         let of_rate = |law: &Force| law.depends_on_second();
         let elastic = self.elastic.as_ref().filter(|law| of_rate(law));
         let sizes = || (-24..=24).map(|k| 10_f64.powf(f64::from(k) / 4.0)).flat_map(|size| [-size, size]);
-        let deformations: Vec<f64> = sizes().step_by(4).collect();
+        let deformations: Vec<f64> =
+            (-12..=12).map(|k| 10_f64.powf(f64::from(k) / 2.0)).flat_map(|size| [-size, size]).collect();
         let takes_away = |force: f64, rate: f64, scale: f64| {
             !force.is_finite() || force * rate >= -1e-12 * scale.abs() * rate.abs()
         };

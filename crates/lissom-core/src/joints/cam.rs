@@ -25,9 +25,10 @@ pub const KIND: JointKind = JointKind {
     ],
     build: Build::Coupling(Coupled::Two, |parameters, _| {
         let profile = parameters.function("profile")?;
-        if let Some(kink) = profile.kinks().first() {
+        if let Some(kink) = profile.first_kink() {
+            let at = if kink.is_nan() { String::new() } else { format!(" at x = {kink:.6}") };
             let problem = format!(
-                "has a kink at x = {kink}: the follower would jump in speed there; give a table `interpolation = \
+                "has a kink{at}: the follower would jump in speed there; give a table `interpolation = \
                  \"spline\"`, or another function"
             );
             return Err(ParameterError::new("profile", problem));

@@ -7,6 +7,7 @@ use lissom_core::signals::SignalFunction;
 
 use super::compile::{compile, fold};
 use super::kinks::{Course, Line};
+use super::smoothness::{self, Kink};
 use super::{Expression, ExpressionError, Jet, Step, kinks, run, run_continued};
 
 /// A name in an expression that is no parameter.
@@ -80,9 +81,20 @@ impl Formula {
         kinks::of(&alone, &[]).kinks
     }
 
+    /// Where value or gradient jump, if such an instant is found.
+    pub(crate) fn first_kink(&self) -> Option<Kink> {
+        smoothness::first_kink(&self.steps, self.arguments.len())
+    }
+
     /// What is known of it over time, where arguments are these lines, one for each.
     pub(super) fn course(&self, arguments: &[Line]) -> Course {
         kinks::of(&self.steps, arguments)
+    }
+
+    /// Passes the values of its switching functions to `visit`, in their order.
+    pub(crate) fn visit_switches(&self, time: f64, arguments: &[f64], sides: &[f64], visit: impl FnMut(f64)) {
+        let of = |index: usize| Jet::constant(arguments[index]);
+        run_continued(&self.steps, Jet::constant(time), of, sides, visit);
     }
 
     /// The expression as it was written.
@@ -128,8 +140,7 @@ impl SignalFunction for Formula {
     }
 
     fn switches(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut Vec<f64>) {
-        let of = |index: usize| Jet::constant(arguments[index]);
-        run_continued(&self.steps, Jet::constant(time), of, sides, |value| out.push(value));
+        self.visit_switches(time, arguments, sides, |value| out.push(value));
     }
 }
 

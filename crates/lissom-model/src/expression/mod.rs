@@ -9,6 +9,7 @@ mod formula;
 mod jet;
 mod kinks;
 mod over_time;
+mod smoothness;
 mod token;
 
 use std::collections::BTreeMap;
@@ -19,6 +20,7 @@ pub(crate) use jet::NAMES as FUNCTION_NAMES;
 pub use jet::{Function, Jet};
 pub(crate) use kinks::Line;
 pub(crate) use over_time::OverTime;
+pub(crate) use smoothness::Kink;
 
 /// Depth of the stack an expression may need.
 const STACK: usize = 32;
@@ -87,6 +89,11 @@ impl Expression {
     /// not smooth takes an argument that is a straight line of the variable. In ascending order.
     pub fn kinks(&self) -> Vec<f64> {
         kinks::of(&self.steps, &[]).kinks
+    }
+
+    /// A value of the variable at which value or slope jump, if one is found; NaN for functions with steps, such as `floor`.
+    pub fn first_kink(&self) -> Option<f64> {
+        smoothness::first_kink(&self.steps, 0).map(|kink| kink.variable)
     }
 
     /// Bounds of the value where the variable is between `from` and `to`.

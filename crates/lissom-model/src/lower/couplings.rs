@@ -11,7 +11,7 @@ use lissom_core::system::{Builder, CoordinateId, State, System};
 use super::signals::relative_components;
 use super::{Names, parameter_problem};
 use crate::document::{Attachment, Component, Document};
-use crate::expression::{Formula, Name};
+use crate::expression::{Formula, Kink, Name};
 use crate::report::{Located, Problem};
 use crate::suggest;
 
@@ -61,6 +61,9 @@ pub(super) fn add(
                     coordinates.push(coordinate);
                 }
             }
+            if let Some(kink) = formula.value.first_kink() {
+                return Err(kinked(name, formula, &kink));
+            }
             let relation: Arc<dyn Relation> =
                 Arc::new(Equation { formula: formula.value.clone(), arguments });
             parameters.insert(key, Value::Relation(relation));
@@ -75,6 +78,24 @@ pub(super) fn add(
             .help(format!("name at least one and at most {MOST_COUPLED}, such as `arm.angle`")));
     }
     builder.add_coupling(name, kind, &coordinates, &parameters).map_err(fault)
+}
+
+/// An equation that is not smooth: velocities would jump without an impact, and energy would vanish.
+fn kinked(name: &str, formula: &Located<Formula>, kink: &Kink) -> Problem {
+    let names = formula.value.arguments().iter().map(|argument| argument.text.as_str());
+    let mut values: Vec<String> =
+        names.zip(&kink.arguments).map(|(name, value)| format!("{name} = {value:.6}")).collect();
+    if formula.value.depends_on_time() {
+        values.push(format!("t = {:.6}", kink.variable));
+    }
+    let at = if kink.variable.is_nan() {
+        String::new()
+    } else {
+        format!(", for example at {}", values.join(", "))
+    };
+    Problem::error(formula.span, format!("the relation `{name}` has a kink{at}"))
+        .label("velocities would jump")
+        .help("use a smooth function, such as `smoothstep` or a cam with a spline table; for stops and one-sided contact, springs")
 }
 
 /// The coordinate of a joint that has one, or the one that `key` chooses.

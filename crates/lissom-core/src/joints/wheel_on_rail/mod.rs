@@ -162,11 +162,12 @@ fn start_pose(geometry: &Geometry) -> Pose<f64> {
 
 fn smooth(parameters: &Parameters, name: &str) -> Result<Function, ParameterError> {
     let function = parameters.function(name)?;
-    match function.kinks().first() {
+    match function.first_kink() {
         None => Ok(function),
         Some(kink) => {
+            let at = if kink.is_nan() { String::new() } else { format!(" at y = {kink:.6}") };
             let problem = format!(
-                "has a kink at y = {kink}: the normal would jump there; give a table `interpolation = \"spline\"`, or another function"
+                "has a kink{at}: the normal would jump there; give a table `interpolation = \"spline\"`, or another function"
             );
             Err(ParameterError::new(name, problem))
         }
