@@ -7,6 +7,7 @@ pub mod analysis;
 mod dual;
 pub mod elements;
 pub(crate) mod equilibration;
+pub mod instants;
 pub mod interrupt;
 pub mod joints;
 pub mod judge;

@@ -249,7 +249,7 @@ impl Instance {
         if !(size > 0.0 && size.is_finite()) {
             return Err(format!("a step of {size} s is none"));
         }
-        if (current - now).abs() > SAME_POINT * size {
+        if (current - now).abs() > session.clock_tolerance(size).max(SAME_POINT * size) {
             return Err(format!("the step begins at t = {current} s, the unit is at t = {now} s"));
         }
         let target = current + size;

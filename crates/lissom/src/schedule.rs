@@ -10,8 +10,8 @@ const WHOLE: f64 = 1e-9;
 /// What the next step is to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Next {
-    /// Of this size [s].
-    Planned(f64),
+    /// Of this size [s], to this instant [s].
+    Planned { size: f64, end: f64 },
     /// Of any size, not beyond this instant [s].
     Until(f64),
 }
@@ -87,6 +87,15 @@ impl Schedule {
         })
     }
 
+    /// Planned instants and records that are nearest to `time` [s], and the end [s].
+    pub(crate) fn next_instants(&self, time: f64) -> impl Iterator<Item = f64> {
+        let nearest =
+            move |(base, distance): (f64, f64)| base + ((time - base) / distance).round() * distance;
+        let planned = (!self.plan.is_controlled).then_some((self.base, self.step_size));
+        let records = self.plan.output_step.map(|step| (self.plan.start, step));
+        planned.into_iter().chain(records).map(nearest).chain([self.plan.end])
+    }
+
     /// What the next step is to be.
     pub(crate) fn next(&self) -> Next {
         if self.plan.is_controlled {
@@ -98,7 +107,7 @@ impl Schedule {
             let rest = self.plan.end - self.planned(self.reached);
             if (rest - self.step_size).abs() <= WHOLE * self.step_size { self.step_size } else { rest }
         };
-        Next::Planned(whole)
+        Next::Planned { size: whole, end: self.planned(self.reached + 1) }
     }
 
     /// A step was taken that ends at `time` [s]. Whether it is to be recorded.
@@ -149,7 +158,7 @@ mod tests {
 
     fn size(schedule: &Schedule) -> f64 {
         match schedule.next() {
-            Next::Planned(size) => size,
+            Next::Planned { size, .. } => size,
             Next::Until(_) => panic!("steps are planned"),
         }
     }

@@ -20,6 +20,7 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
+use crate::instants;
 use crate::system::{CoordinateId, Kinematics, NodeId};
 use measurement::Measurement;
 
@@ -32,9 +33,6 @@ pub type MeasurementId = usize;
 
 /// Most arguments of one signal.
 pub const MOST_ARGUMENTS: usize = 64;
-
-/// Instants closer to a sample than this part of the period are at the sample.
-const CLOSE: f64 = 1e-9;
 
 /// Numbers that fit on the stack; larger graphs allocate when they are evaluated.
 const ON_STACK: usize = 64;
@@ -351,7 +349,7 @@ impl Graph {
         let mut values = vec![0.0; self.signals.len()];
         for (index, signal) in self.signals.iter().enumerate() {
             values[index] = match signal.sampling {
-                Some(Sampling { held, period }) if !is_due(elapsed / period) => at.held[held],
+                Some(Sampling { held, period }) if !is_due(at.time, elapsed, period) => at.held[held],
                 _ => self.compute(index, at, &values, self.sides(index, at)),
             };
             if let Some(Sampling { held, .. }) = signal.sampling {
@@ -380,17 +378,27 @@ impl Graph {
         })
     }
 
+    /// For each signal that is sampled, the instant of a sample that is nearest to `time` [s].
+    pub(crate) fn nearest_samples(&self, origin: f64, time: f64) -> impl Iterator<Item = f64> + '_ {
+        let periods = self.signals.iter().filter_map(|signal| signal.sampling.map(|own| own.period));
+        periods.map(move |period| origin + ((time - origin) / period).round().max(0.0) * period)
+    }
+
     /// The first instant after `time` [s] at which a sample is due, where the first samples are taken at `origin` [s].
     pub(crate) fn next_sample(&self, origin: f64, time: f64) -> Option<f64> {
-        let next = |period: f64| origin + (((time - origin) / period + CLOSE).floor() + 1.0) * period;
+        let next = |period: f64| {
+            let aside = instants::tolerance(time, period);
+            origin + (((time - origin + aside) / period).floor() + 1.0) * period
+        };
         let periods = self.signals.iter().filter_map(|signal| signal.sampling.map(|own| own.period));
         periods.map(next).min_by(f64::total_cmp)
     }
 }
 
-/// Whether so many periods after the start a sample is due.
-fn is_due(periods: f64) -> bool {
-    (periods - periods.round()).abs() <= CLOSE
+/// Whether a sample is due at `time` [s], `elapsed` [s] after the first one.
+fn is_due(time: f64, elapsed: f64, period: f64) -> bool {
+    let nearest = (elapsed / period).round() * period;
+    (elapsed - nearest).abs() <= instants::tolerance(time, period)
 }
 
 /// Calls `with` with so many zeros.

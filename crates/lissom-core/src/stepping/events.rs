@@ -6,8 +6,13 @@ use crate::judge::Warning;
 use crate::newton::Outcome;
 use crate::signals::event::Occurrence;
 
-/// Sides that may turn out to be wrong at the start of one step: beyond, the motion slides along a switch.
-const MOST_AT_START: usize = 8;
+/// An attempt that was checked for zeros of switching functions.
+pub(super) enum Checked {
+    /// It can be accepted, and ends at the zero if there is one.
+    Accepted(Outcome, Option<Located>),
+    /// A force switched at the start of the step: the attempt has to be repeated.
+    SwitchedAtStart,
+}
 
 impl Simulation {
     /// The events that happened since the start, in their order.
@@ -21,37 +26,33 @@ impl Simulation {
         Some(&self.system.signals().events()[event].name)
     }
 
-    /// An attempt of `size` [s] was solved and can be accepted. Where something passes through zero within it, it is
-    /// solved anew to end there.
+    /// Checks an attempt of `size` [s] that was solved and can be accepted for zeros of switching functions. If one is within the
+    /// step, the step is solved anew to end there. If a force switches at the start of the step, its side is changed, and the
+    /// attempt has to be repeated, with its error estimate: it was made with the force of the other side.
     ///
     /// # Errors
-    /// If the shorter step has no solution.
+    /// If the shorter step has no solution, or the motion slides along a switch.
     pub(super) fn end_at_event(
         &mut self,
         (size, mut outcome): (f64, Outcome),
         watch: &mut dyn Stopwatch,
         report: &mut StepReport,
-    ) -> Result<(Outcome, Option<Located>), StepError> {
+    ) -> Result<Checked, StepError> {
         if self.watch.is_empty() {
-            return Ok((outcome, None));
+            return Ok(Checked::Accepted(outcome, None));
         }
-        let mut at_start = 0;
-        let mut located = loop {
-            let Some(located) = self.watch.crossing(&self.system, (&self.state, &self.next), size) else {
-                return Ok((outcome, None));
-            };
-            if located.size > 0.0 {
-                break located;
-            }
-            at_start += 1;
-            if at_start > MOST_AT_START {
+        let Some(mut located) = self.watch.crossing(&self.system, (&self.state, &self.next), size) else {
+            return Ok(Checked::Accepted(outcome, None));
+        };
+        if located.size == 0.0 {
+            if !self.watch.switch_at_start(&located.who) {
                 return Err(self.chatters(located.who[0]));
             }
-            self.watch.switch_at_start(&located.who);
             self.hold_sides()?;
+            self.work.forget_predictions();
             report.rejected += 1;
-            outcome = self.attempt(size, watch)?;
-        };
+            return Ok(Checked::SwitchedAtStart);
+        }
         let mut solved = size;
         while located.size != solved {
             report.rejected += 1;
@@ -61,7 +62,7 @@ impl Simulation {
                 break;
             }
         }
-        Ok((outcome, Some(located)))
+        Ok(Checked::Accepted(outcome, Some(located)))
     }
 
     /// After a step was accepted: notes which events happened at its end, and does what they ask for.

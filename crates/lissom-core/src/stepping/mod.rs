@@ -34,13 +34,16 @@ pub(crate) use time_functions::TimeFunctions;
 pub(crate) use watch::{Watch, Watched};
 
 use crate::analysis::{Phase, Simulation, StepError, StepReport, Stopwatch, Unwatched, cause};
+use crate::joints::Quantity;
 use crate::judge::{LARGEST_TURN, Ledger};
 use crate::mechanisms::Mechanism;
 use crate::newton::{Memory, Outcome};
 use crate::numbers::Number;
-use crate::scaling::ScaleBy;
+use crate::scaling::{ScaleBy, UnitStart};
+use crate::schemes::Stage;
 use crate::system::State;
 use error_estimate::{SMALLEST_ERROR, SMALLEST_REFERENCE, driven, excursion, inertial_part};
+use events::Checked;
 use kinks::Kink;
 use load_steps::Attempts;
 
@@ -71,7 +74,7 @@ impl Simulation {
     }
 
     /// Takes one step as [`step`](Self::step) does, with step-size control not beyond the time `limit` [s], which is met
-    /// exactly where it is reached. Tells `watch` which part of the work begins.
+    /// exactly where it is reached; a planned step that ends there up to round-off ends there exactly. Tells `watch` which part of the work begins.
     ///
     /// # Errors
     /// As [`step`](Self::step).
@@ -86,7 +89,7 @@ impl Simulation {
                 let limit = self.next_sample().map_or(limit, |sample| sample.min(limit));
                 self.controlled_step(controller, limit, watch, &mut report).and_then(|()| self.take_samples())
             }
-            None => self.sampled_step(watch, &mut report),
+            None => self.sampled_step(limit, watch, &mut report),
         };
         let effort = self.work.effort;
         report.iterations = effort.iterations - before.iterations;
@@ -120,7 +123,8 @@ impl Simulation {
             let size = share * whole;
             let attempt = self.attempt(size, watch);
             match attempt.and_then(|outcome| self.end_at_event((size, outcome), watch, report)) {
-                Ok((outcome, located)) => {
+                Ok(Checked::SwitchedAtStart) => {}
+                Ok(Checked::Accepted(outcome, located)) => {
                     if share < 1.0 && start.is_none() {
                         start = Some((self.state.clone(), self.ledger));
                     }
@@ -249,6 +253,10 @@ impl Simulation {
         // A step across a kink of a load would see it late, and estimate its error from the wrong side of it. It ends as
         // close before it as numbers allow, so that its last stage does not see a jump either.
         let now = self.state.kinematics.time + self.state.time_remainder;
+        if limit > now && self.is_at(limit, control.max_step.min(controller.size())) {
+            (self.state.kinematics.time, self.state.time_remainder) = (limit, 0.0);
+            return Ok(());
+        }
         self.look_at_time_functions(now);
         // Where it must end anyway at a kink, or has begun at one, nothing is to be gained by another tiny step.
         let landing = self.landing(now, limit, control.max_step);
@@ -266,7 +274,8 @@ impl Simulation {
                     let error = self.estimated_error(control);
                     if error <= 1.0 {
                         match self.end_at_event((size, outcome), watch, report) {
-                            Ok((outcome, located)) => {
+                            Ok(Checked::SwitchedAtStart) => continue,
+                            Ok(Checked::Accepted(outcome, located)) => {
                                 note(report, &outcome);
                                 report.parts = 1;
                                 report.error = Some(error);
@@ -392,30 +401,34 @@ impl Simulation {
         }
     }
 
-    /// What the last attempt's error is estimated from, by row: what the prediction has missed, times the scheme's constant;
-    /// or what it has missed beyond what the last step lets expect.
+    /// The miss from which the error of the last attempt is estimated, by row: that of the position or of the velocity,
+    /// whichever is larger, times the scheme's constant, or what it exceeds the miss of the step before.
     fn miss_of_attempt(&mut self, order: Order) {
         let scheme = &self.settings.scheme;
         let work = &mut *self.work;
-        let Some((stage, (predicted, found))) =
-            scheme.stages.iter().zip(work.predicted.iter_mut().zip(&work.increments)).last()
-        else {
+        let Some((stage, predicted)) = scheme.stages.iter().zip(&mut work.predicted).last() else {
             unreachable!("every scheme has a stage")
         };
         work.unit.predict(&stage.prediction, predicted);
+        let unit = &work.unit;
+        let (Some(found), Some(predicted)) = (work.increments.last(), work.predicted.last()) else { return };
+        let before = self.state.kinematics.time - self.previous.kinematics.time;
+        let weight = 4.0 / (1.0 + 3.0 * before / self.scaled.step_size());
+        // Behind a switch the motion is not smooth, and constants that assume so do not apply.
+        let constant = if self.watch.known.has_switched { 1.0 } else { scheme.error_constant };
         let mut error = std::mem::take(&mut work.error);
-        for ((error, found), predicted) in error.iter_mut().zip(found).zip(&*predicted) {
-            *error = found - predicted;
-        }
-        match order {
-            // Behind a switch the motion is not smooth, and constants that take it to be do not hold.
-            Order::Third if self.watch.known.has_switched => {}
-            Order::Third => error.iter_mut().for_each(|error| *error *= scheme.error_constant),
-            Order::Fourth => {
-                let before = self.state.kinematics.time - self.previous.kinematics.time;
-                let weight = 4.0 / (1.0 + 3.0 * before / self.scaled.step_size());
-                for (error, last) in error.iter_mut().zip(work.last_miss()) {
-                    *error = weight * (*error - last);
+        let quantities = self.system.layout().quantities();
+        for ((row, error), last) in error.iter_mut().enumerate().zip(work.last_miss()) {
+            let judge = |miss: f64| match order {
+                Order::Third => constant * miss,
+                Order::Fourth => weight * (miss - last),
+            };
+            *error = judge(found[row] - predicted[row]);
+            // A state has no acceleration from which its rate could be predicted.
+            if quantities[row] != Quantity::State {
+                let velocity = judge(velocity_miss(stage, unit, &work.increments, row));
+                if velocity.abs() > error.abs() {
+                    *error = velocity;
                 }
             }
         }
@@ -469,6 +482,19 @@ impl Simulation {
         // A NaN counts as the largest.
         errors.fold(0.0_f64, |most, error| if error <= most || most.is_nan() { most } else { error })
     }
+}
+
+/// What the velocity at the end of a step misses, as a length of the position's miss: equal to it where the acceleration
+/// changes linearly.
+///
+/// ```text
+/// v_end - v_start - a_start = a'/2,   z_end - a_start/2 = a'/6      (step of unit length)
+/// ```
+///
+/// In two-stage Radau IIA the force of the last stage has no weight in the position at the end, (A²)₂₂ = 0: a force that
+/// begins late in a step changes the velocity alone.
+fn velocity_miss(stage: &Stage, unit: &UnitStart, increments: &[Vec<f64>], row: usize) -> f64 {
+    (unit.combine(&stage.rate, increments, row) - unit.curvature[row]) / 3.0
 }
 
 /// Order of an estimate in the step size.

@@ -2,9 +2,7 @@
 //! end there, as one across an event is.
 
 use crate::analysis::{Simulation, StepError, StepReport, Stopwatch};
-
-/// A sample this close to the end of a step, relative to the step, is at its end.
-const CLOSE: f64 = 1e-9;
+use crate::instants;
 
 impl Simulation {
     /// Time of the state [s], with what rounding has cut off.
@@ -12,27 +10,47 @@ impl Simulation {
         self.state.kinematics.time + self.state.time_remainder
     }
 
+    /// The sample or breakpoint nearest to `time` [s], if it is not farther away than `distance` [s].
+    pub fn distinguished_instant(&self, time: f64, distance: f64) -> Option<f64> {
+        let samples = self.system.signals().nearest_samples(self.origin.time, time);
+        let next = self.kinks.partition_point(|kink| kink.time < time);
+        let breakpoints = &self.kinks[next.saturating_sub(1)..self.kinks.len().min(next + 1)];
+        let instants = samples.chain(breakpoints.iter().map(|kink| kink.time));
+        let nearest = instants.min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()))?;
+        ((nearest - time).abs() <= distance).then_some(nearest)
+    }
+
+    /// Whether `instant` [s] is that of the state up to round-off, where steps are `step` [s] long.
+    pub(super) fn is_at(&self, instant: f64, step: f64) -> bool {
+        (instant - self.now()).abs() <= instants::tolerance(self.now(), step)
+    }
+
     /// The next instant at which a signal is sampled [s], if one is.
     pub(super) fn next_sample(&self) -> Option<f64> {
         self.system.signals().next_sample(self.origin.time, self.now())
     }
 
-    /// Takes a step of planned size, in pieces that end at the samples and kinks within it.
+    /// Takes a step of planned size, in pieces that end at the samples and kinks within it. If it ends at `limit` [s] up to
+    /// round-off, the clock is set to `limit`: sums of step sizes would drift away from the instants that are planned.
     pub(super) fn sampled_step(
         &mut self,
+        limit: f64,
         watch: &mut dyn Stopwatch,
         report: &mut StepReport,
     ) -> Result<(), StepError> {
         let whole = self.settings.step_size;
         self.look_at_time_functions(self.now());
-        let outcome = self.sampled_pieces(whole, watch, report);
+        let outcome = self.sampled_pieces((whole, limit), watch, report);
         self.note_hidden();
+        if outcome.is_ok() && self.is_at(limit, whole) {
+            (self.state.kinematics.time, self.state.time_remainder) = (limit, 0.0);
+        }
         outcome
     }
 
     fn sampled_pieces(
         &mut self,
-        whole: f64,
+        (whole, limit): (f64, f64),
         watch: &mut dyn Stopwatch,
         report: &mut StepReport,
     ) -> Result<(), StepError> {
@@ -41,6 +59,8 @@ impl Simulation {
         }
         let start = (self.state.clone(), self.ledger, self.watch.known.clone());
         let end = self.now() + whole;
+        let end = if (limit - end).abs() <= instants::tolerance(end, whole) { limit } else { end };
+        let same = instants::tolerance(end, whole);
         // Of the first piece the size is known to the last bit.
         let mut rest = whole;
         let mut pieces = 0;
@@ -48,7 +68,7 @@ impl Simulation {
             let began = self.now();
             let next = self.next_sample().map_or(f64::INFINITY, |next| next - began);
             let (mut reaches_end, mut size) = (true, rest);
-            if next < rest * (1.0 - CLOSE) {
+            if next < rest - same {
                 (reaches_end, size) = (false, next);
             }
             let landing = self.landing(began, began + size, whole);
@@ -58,7 +78,7 @@ impl Simulation {
             }
             pieces += 1;
             let mut result = self.planned_step(size, watch, report);
-            let is_whole = self.now() - began >= size * (1.0 - CLOSE);
+            let is_whole = self.now() - began >= size - same;
             if let Some(landing) = landing.filter(|_| result.is_ok() && is_whole) {
                 result = self.pass_kink(&landing, whole);
             }
@@ -67,6 +87,10 @@ impl Simulation {
                 break result;
             }
             rest = end - self.now();
+            // An event or a breakpoint at the end, up to round-off.
+            if rest <= same {
+                break result;
+            }
         };
         // What led to the state is known of the last piece alone.
         self.is_last_step_known &= pieces == 1;

@@ -44,6 +44,9 @@ const MOST_REFINEMENTS: usize = 6;
 /// Changes of sign within a longest step above which the motion slides along the surface that is passed.
 const MOST_CROSSINGS: usize = 1000;
 
+/// Sides that may turn out to be wrong at the start of one step: beyond, the motion slides along a switch.
+const MAX_SWITCHES_AT_START: usize = 8;
+
 /// What is known of the watched numbers between two steps.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Watched {
@@ -80,6 +83,8 @@ pub(crate) struct Watch {
     pub(crate) known: Watched,
     /// Whether kinks and jumps of forces are watched beside events.
     has_switches: bool,
+    /// How often sides were changed at the start of the present step.
+    switched_at_start: usize,
     values: Vec<f64>,
     between: State,
 }
@@ -99,7 +104,13 @@ impl Watch {
 
     /// Where there is no motion.
     pub(crate) fn of_nothing(start: &State) -> Self {
-        Self { known: Watched::default(), has_switches: false, values: Vec::new(), between: start.clone() }
+        Self {
+            known: Watched::default(),
+            has_switches: false,
+            switched_at_start: 0,
+            values: Vec::new(),
+            between: start.clone(),
+        }
     }
 
     /// Whether there is anything to watch.
@@ -236,12 +247,15 @@ impl Watch {
         Some(Located { size: share * size, whole: size, who, is_jump: false, refinements: 0 })
     }
 
-    /// The forces switch at the start of the step already.
-    pub(crate) fn switch_at_start(&mut self, who: &[usize]) {
+    /// Changes the sides of forces that switch at the start of the step. Returns false if they do so again and again: the
+    /// motion slides along the switch.
+    pub(crate) fn switch_at_start(&mut self, who: &[usize]) -> bool {
         for &k in who {
             self.known.sides[k] = -self.known.sides[k];
         }
         self.known.has_switched = true;
+        self.switched_at_start += 1;
+        self.switched_at_start <= MAX_SWITCHES_AT_START
     }
 
     /// Whether the step that was solved to end at the root ends there; otherwise the root has moved.
@@ -312,6 +326,7 @@ impl Watch {
         located: Option<&Located>,
         longest: f64,
     ) -> Result<Vec<usize>, usize> {
+        self.switched_at_start = 0;
         let events = system.signals().events();
         let who: &[usize] = located.map_or(&[], |located| &located.who);
         values_at(system, state, self.has_switches, &mut self.values);

@@ -13,6 +13,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use lissom_core::analysis::{InitialError, InputError, Simulation, StepError, StepReport};
+use lissom_core::instants;
 use lissom_core::judge::Warning;
 use lissom_core::signals::Argument;
 use lissom_core::signals::event::Occurrence;
@@ -306,6 +307,7 @@ impl Session {
             return Err(StepError::NoTime { target: time });
         }
         let is_controlled = self.schedule.plan().is_controlled;
+        let time = self.distinguished(time);
         while time - self.schedule.time() > WHOLE * self.schedule.step_size() {
             if watch(&self.progress()).is_break() {
                 return Ok(ControlFlow::Break(()));
@@ -320,7 +322,7 @@ impl Session {
                 continue;
             }
             let planned = match self.schedule.next() {
-                Next::Planned(size) if !self.schedule.is_finished() => size,
+                Next::Planned { size, .. } if !self.schedule.is_finished() => size,
                 _ => self.schedule.step_size(),
             };
             let rest = time - now;
@@ -334,15 +336,33 @@ impl Session {
                 return Ok(ControlFlow::Continue(()));
             } else {
                 let size = rest.min(planned);
-                self.take(Next::Planned(size))?;
+                let end = if size == rest { time } else { now + size };
+                self.take(Next::Planned { size, end })?;
                 if self.stopped_by().is_some() {
                     self.schedule.divert(self.simulation.state().kinematics.time);
                     return Ok(ControlFlow::Continue(()));
                 }
-                self.schedule.divert(if size == rest { time } else { now + size });
+                self.schedule.divert(end);
             }
         }
         Ok(ControlFlow::Continue(()))
+    }
+
+    /// How far a clock outside of the program may be from that of the session [s], if it adds steps of `size` [s] to a sum.
+    pub fn clock_tolerance(&self, size: f64) -> f64 {
+        let (now, start) = (self.schedule.time(), self.schedule.plan().start);
+        instants::accumulated_tolerance(now + size, now + size - start, size)
+    }
+
+    /// The sample, breakpoint, record or end that is at `time` [s] up to the round-off of a clock that adds steps to steps;
+    /// otherwise `time`. A step to the one from the other would be so short that its accelerations are round-off.
+    fn distinguished(&self, time: f64) -> f64 {
+        let now = self.schedule.time();
+        let allowed = self.clock_tolerance(time - now);
+        let known = self.simulation.distinguished_instant(time, allowed);
+        let instants = known.into_iter().chain(self.schedule.next_instants(time));
+        let nearest = instants.min_by(|a, b| (a - time).abs().total_cmp(&(b - time).abs()));
+        nearest.filter(|instant| (instant - time).abs() <= allowed && *instant > now).unwrap_or(time)
     }
 
     /// The next step where another follows at once, and whether it is to be recorded.
@@ -359,9 +379,9 @@ impl Session {
 
     fn take(&mut self, next: Next) -> Result<StepReport, StepError> {
         let limit = match next {
-            Next::Planned(size) => {
+            Next::Planned { size, end } => {
                 self.simulation.set_step_size(size);
-                f64::INFINITY
+                end
             }
             Next::Until(limit) => limit,
         };
