@@ -66,7 +66,7 @@ impl Library {
             None => {
                 Err(Missing { message: format!("`{path}` was not among the files of the model"), help: None })
             }
-            Some(folder) => files::read_text(&folder.join(path))
+            Some(folder) => files::read_input_text(&folder.join(path))
                 .map(Arc::from)
                 .map_err(|error| Missing { message: error.to_string(), help: error.help }),
         };
@@ -86,7 +86,7 @@ impl Library {
                 return Err(Missing { message, help: None });
             };
             let told = |message: String| Missing { message, help: help.clone() };
-            let bytes = std::fs::read(folder.join(path))
+            let bytes = files::read_input(&folder.join(path))
                 .map_err(|error| told(format!("`{path}` cannot be read: {error}")))?;
             let arrays = npz::arrays(&bytes).map_err(|error| told(format!("`{path}`: {error}")))?;
             for (name, array) in arrays {
@@ -112,9 +112,10 @@ impl Library {
             return known.clone();
         }
         let help = "export the part as STL or glTF, in metres";
-        let beside =
-            |name: &str| std::fs::read(folder.join(joined(path, name))).map_err(|error| error.to_string());
-        let surface = std::fs::read(folder.join(path))
+        let beside = |name: &str| {
+            files::read_input(&folder.join(joined(path, name))).map_err(|error| error.to_string())
+        };
+        let surface = files::read_input(&folder.join(path))
             .map_err(|error| format!("`{path}` cannot be read: {error}"))
             .and_then(|bytes| {
                 Surface::of_file(&bytes, &beside)

@@ -2,7 +2,7 @@
 //! for and a snapshot. It is replaced as a whole, so that there is one at any moment.
 
 use std::fs::File;
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
 use std::time::{Duration, Instant};
@@ -14,9 +14,7 @@ use crate::model::Override;
 use crate::session::{Checkpoints, SessionSnapshot};
 
 /// Name of the file.
-const CHECKPOINT: &str = "checkpoint.lissom";
-/// Where it is written before it takes the place of the former one.
-const UNFINISHED: &str = "checkpoint.lissom.new";
+pub(crate) const CHECKPOINT: &str = "checkpoint.lissom";
 
 /// How often a run leaves a checkpoint.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -93,7 +91,7 @@ impl Checkpoint {
     /// If there is none, or another program's.
     pub fn read(folder: &Path) -> Result<Self, CheckpointError> {
         let path = folder.join(CHECKPOINT);
-        let bytes = match std::fs::read(&path) {
+        let bytes = match files::read(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 return Err(CheckpointError::Missing(folder.display().to_string()));
             }
@@ -122,14 +120,7 @@ impl Checkpoint {
 
 /// A file cut to `length`, to be written on.
 fn cut(path: &Path, length: u64, missing: &str) -> Result<File, FileError> {
-    let opened = File::options().append(true).open(path).and_then(|file| {
-        if file.metadata()?.len() < length {
-            return Err(io::Error::new(io::ErrorKind::UnexpectedEof, missing));
-        }
-        file.set_len(length)?;
-        Ok(file)
-    });
-    opened.map_err(|error| files::failure(files::Action::Write, path, error))
+    files::open_cut(path, length, missing)
 }
 
 /// Leaves checkpoints in the folder of a run.
@@ -159,10 +150,8 @@ impl CheckpointFile {
 
     /// Removes what a former run has left: it is over.
     pub fn remove(folder: &Path) {
-        for name in [CHECKPOINT, UNFINISHED] {
-            // Where there is none there is nothing to do.
-            let _ = std::fs::remove_file(folder.join(name));
-        }
+        // If there is none there is nothing to do.
+        let _ = files::remove(&folder.join(CHECKPOINT));
     }
 }
 
@@ -180,19 +169,11 @@ impl Checkpoints for CheckpointFile {
 
     fn keep(&mut self, snapshot: &SessionSnapshot) -> io::Result<()> {
         // Rows must be on the disk before a checkpoint counts on them.
-        let synced = |path: &PathBuf| {
-            let file = File::options().append(true).open(path)?;
-            file.sync_data()?;
-            Ok::<u64, io::Error>(file.metadata()?.len())
-        };
+        let synced = |path: &PathBuf| files::synchronized_length(path);
         let lengths = [synced(&self.history)?, self.motion.as_ref().map_or(Ok(0), synced)?];
         let checkpoint = (self.frame)(snapshot.clone(), lengths);
         let bytes = postcard::to_stdvec(&checkpoint).map_err(io::Error::other)?;
-        let unfinished = self.folder.join(UNFINISHED);
-        let mut file = File::create(&unfinished)?;
-        file.write_all(&bytes)?;
-        file.sync_all()?;
-        std::fs::rename(&unfinished, self.folder.join(CHECKPOINT))?;
+        files::write_durably(&self.folder.join(CHECKPOINT), &bytes).map_err(|error| error.source)?;
         self.last = Instant::now();
         Ok(())
     }

@@ -12,7 +12,7 @@ use lissom_model::output::{
 use lissom_model::scene::{Scene, SceneError};
 use serde_json::Value;
 
-use crate::checkpoint::Checkpoint;
+use crate::checkpoint::{CHECKPOINT, Checkpoint};
 use crate::export;
 use crate::motion::{Motion, MotionError};
 
@@ -114,7 +114,7 @@ pub enum FolderError {
 fn lock(path: &Path) -> Result<File, FileError> {
     let file = path.join(LOCK);
     let refuse = |source| files::failure(files::Action::Write, &file, source);
-    let lock = File::options().create(true).truncate(false).write(true).open(&file).map_err(refuse)?;
+    let lock = files::open_to_continue(&file)?;
     match lock.try_lock() {
         Err(TryLockError::WouldBlock) => Err(refuse(Error::new(
             ErrorKind::ResourceBusy,
@@ -123,6 +123,14 @@ fn lock(path: &Path) -> Result<File, FileError> {
         // Where files cannot be locked runs are told apart by the folders they are given.
         _ => Ok(lock),
     }
+}
+
+/// Whether a file has a name that results may have: a table, a summary, or a plot of whatever output.
+fn is_result(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let ending = path.extension().unwrap_or_default();
+    let fixed = [HISTORY, SUMMARY, TELEMETRY, MOTION, SCENE, PAGE, EVENTS, MODES, SHAPES, LOCK, CHECKPOINT];
+    ending == "svg" || ending == "png" || fixed.contains(&&*name) || OF_LINEAR_MODELS.contains(&&*name)
 }
 
 /// A folder of results.
@@ -141,6 +149,10 @@ impl ResultFolder {
     /// If it cannot be created, or another run writes into it.
     pub fn create(path: &Path) -> Result<Self, FileError> {
         files::create_folder(path)?;
+        // Before anything is written or removed.
+        files::entries(path)
+            .filter(|entry| is_result(entry))
+            .try_for_each(|entry| files::check_target(&entry))?;
         let lock = lock(path)?;
         Ok(Self { path: path.to_owned(), _lock: Some(lock) })
     }
@@ -166,26 +178,17 @@ impl ResultFolder {
             }
         }
         stale.extend(self.asked_for());
-        for file in stale {
-            match std::fs::remove_file(&file) {
-                Err(error) if error.kind() != ErrorKind::NotFound => {
-                    return Err(files::failure(files::Action::Write, &file, error));
-                }
-                _ => {}
-            }
-        }
-        Ok(())
+        stale.iter().try_for_each(|file| files::remove(file))
     }
 
     /// Plots that were asked for of a former run, and what was handed to other programs.
     fn asked_for(&self) -> Vec<PathBuf> {
-        let paths = std::fs::read_dir(&self.path).into_iter().flatten().flatten().map(|entry| entry.path());
         let is_plot = |path: &PathBuf| {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             let ending = path.extension().unwrap_or_default();
-            name.starts_with("plot-") && (ending == "svg" || ending == "png")
+            name.starts_with("plot-") && (ending == "svg" || ending == "png") || files::is_unfinished(&name)
         };
-        paths.filter(is_plot).chain(export::files_in(&self.path)).collect()
+        files::entries(&self.path).filter(is_plot).chain(export::files_in(&self.path)).collect()
     }
 
     /// Removes what a former run left and gives a writer of the table: a run has started well.
@@ -246,8 +249,7 @@ impl ResultFolder {
     /// # Errors
     /// If the file cannot be created.
     pub fn motion(&self) -> Result<File, FileError> {
-        let path = self.motion_path();
-        File::create(&path).map_err(|error| files::failure(files::Action::Write, &path, error))
+        files::create(&self.motion_path())
     }
 
     /// Its motion file, to be written on from where `checkpoint` was taken, and the time of its last frame [s].
@@ -258,7 +260,7 @@ impl ResultFolder {
         let path = self.motion_path();
         let mut file = checkpoint.open_motion(&path)?;
         let unreadable = |error| files::failure(files::Action::Read, &path, error);
-        let bytes = std::fs::read(&path).map_err(unreadable)?;
+        let bytes = files::read(&path).map_err(unreadable)?;
         let last = Motion::last_time(&bytes)
             .map_err(|error| FolderError::Motion { path: path.display().to_string(), error })?;
         file.seek(SeekFrom::End(0)).map_err(unreadable)?;
@@ -328,7 +330,7 @@ impl ResultFolder {
     /// # Errors
     /// If it cannot be written.
     pub fn write_summary(&self, summary: &Summary) -> Result<(), FileError> {
-        files::replace(&self.path.join(SUMMARY), summary.to_json().as_bytes())
+        files::write(&self.path.join(SUMMARY), summary.to_json().as_bytes())
     }
 
     /// Writes what the steps told of their tangents.
@@ -336,7 +338,7 @@ impl ResultFolder {
     /// # Errors
     /// If it cannot be written.
     pub fn write_telemetry(&self, telemetry: &Value) -> Result<(), FileError> {
-        files::replace(&self.path.join(TELEMETRY), format!("{telemetry}\n").as_bytes())
+        files::write(&self.path.join(TELEMETRY), format!("{telemetry}\n").as_bytes())
     }
 
     /// Draws a Bode plot, as SVG and as PNG.

@@ -87,7 +87,7 @@ impl ResultFolder {
 /// Scene and motion, if there are any.
 fn drawn(path: &Path) -> Result<Option<(Value, Vec<u8>)>, FolderError> {
     let motion = path.join(MOTION);
-    let bytes = match std::fs::read(&motion) {
+    let bytes = match lissom_model::files::read(&motion) {
         Ok(bytes) => bytes,
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(files::failure(files::Action::Read, &motion, error).into()),

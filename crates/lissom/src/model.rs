@@ -36,7 +36,7 @@ impl Model {
     pub fn read(path: &Path) -> Result<Self, FileError> {
         Ok(Self {
             name: path.display().to_string(),
-            text: files::read_text(path)?,
+            text: files::read_input_text(path)?,
             library: Arc::new(Library::beside(path)),
             left_out: Vec::new(),
             ids: None,

@@ -43,8 +43,7 @@ impl ResultFolder {
         let summary: serde_json::Value = serde_json::from_str(&summary).unwrap_or_default();
         let title = summary["title"].as_str().unwrap_or_default().to_owned();
         let file = path.join(MOTION);
-        let bytes =
-            std::fs::read(&file).map_err(|error| files::failure(files::Action::Read, &file, error))?;
+        let bytes = files::read(&file).map_err(|error| files::failure(files::Action::Read, &file, error))?;
         let state = Motion::from_bytes(&bytes).map_err(|error| foreign(&file, error))?;
         let scene = read_scene(&path.join(SCENE))?;
         let count = state.reference().len();

@@ -192,6 +192,9 @@ fn check_words(context: &Context<'_>) {
 /// Tables of parts.
 pub(super) const PARTS: [&str; 4] = ["beams", "bodies", "point_masses", "superelements"];
 
+/// Longest name of a part, output or anything else, with the parts around it [bytes]: names of files have at most 255.
+const MAX_NAME: usize = 160;
+
 /// Names must be usable in references such as `beam.end`, and parts must differ from each other.
 fn check_names(context: &Context<'_>) {
     let usable = |name: &str| {
@@ -199,6 +202,11 @@ fn check_names(context: &Context<'_>) {
     };
     for top in tables::tops().filter(|top| tables::has_named_entries(top.name)) {
         for (name, span, node) in context.entries(top.name) {
+            if name.len() > MAX_NAME {
+                let message = format!("the name of a {} is longer than {MAX_NAME} bytes", singular(top.name));
+                context.fail::<()>(span, message, "choose a shorter name: plots are files of this name");
+                continue;
+            }
             let name = context.local_name(name, node);
             if !usable(name) {
                 let message = format!("`{name}` cannot be the name of a {}", singular(top.name));

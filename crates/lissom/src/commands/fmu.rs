@@ -43,7 +43,7 @@ impl Fmu {
         let (model, document) = self.model.read()?;
         show_warnings(&document);
         let library = self.library()?;
-        let bytes = std::fs::read(&library).map_err(|error| {
+        let bytes = lissom_model::files::read_input(&library).map_err(|error| {
             Failure::file(Exit::BadModel, &files::failure(files::Action::Read, &library, error))
         })?;
         let unit = export(&model, &self.model.set, &bytes).map_err(|error| match error {

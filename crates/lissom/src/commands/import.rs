@@ -70,7 +70,8 @@ impl Import {
             );
             return Err(Failure::new(Exit::BadModel, message));
         }
-        let text = files::read_text(&self.file).map_err(|error| Failure::file(Exit::BadModel, &error))?;
+        let text =
+            files::read_input_text(&self.file).map_err(|error| Failure::file(Exit::BadModel, &error))?;
         let robot = from_description(&text).map_err(|error| bad(&error))?;
         let pose = Pose { values: self.positions.iter().cloned().collect(), ..Pose::default() };
         let options = Options {

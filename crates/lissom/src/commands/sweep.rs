@@ -153,7 +153,7 @@ impl SweepCommand {
 
     fn sweep(&self) -> Result<Sweep, Failure> {
         let unreadable = |error| Failure::file(Exit::BadModel, &error);
-        let text = files::read_text(&self.file).map_err(unreadable)?;
+        let text = files::read_input_text(&self.file).map_err(unreadable)?;
         let file = SweepFile::parse(&text, &self.file.display().to_string())?;
         let Some(model) = &file.model else {
             let message = format!("`{}` names no model: add `model = \"….toml\"`", self.file.display());

@@ -9,7 +9,7 @@ mod vtk;
 
 use std::path::{Path, PathBuf};
 
-use lissom_model::files::FileError;
+use lissom_model::files::{self, FileError};
 use lissom_motion::Motion as Pose;
 
 use crate::folder_page::RecordedRun;
@@ -67,8 +67,7 @@ pub(crate) fn files_in(folder: &Path) -> Vec<PathBuf> {
             let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
             format.files.iter().any(|(start, end)| name.starts_with(start) && name.ends_with(end))
         };
-        let entries = std::fs::read_dir(&target).into_iter().flatten().flatten().map(|entry| entry.path());
-        entries.filter(is_own).collect()
+        files::entries(&target).filter(is_own).collect()
     };
     FORMATS.iter().flat_map(of).collect()
 }

@@ -3,7 +3,7 @@
 //! was computed before a crash is found there again. The only place where sweeps open files for output.
 
 use std::fs::{File, TryLockError};
-use std::io::{self, Read, Seek, SeekFrom, Write};
+use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use lissom_model::files::{self, Action, FileError, failure};
@@ -69,9 +69,17 @@ impl SweepFolder {
     ) -> Result<(Self, Vec<MemberOutcome>), SweepFolderError> {
         files::create_folder(path)?;
         let file = path.join(MEMBERS);
+        let pictures = PICTURES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]);
+        let results: Vec<PathBuf> = [TABLE, PARQUET, SUMMARY]
+            .map(str::to_owned)
+            .into_iter()
+            .chain(pictures)
+            .map(|name| path.join(name))
+            .collect();
+        // Before anything is written or removed.
+        results.iter().chain([&file]).try_for_each(|file| files::check_target(file))?;
         let wrong = |error| failure(Action::Write, &file, error);
-        let mut members =
-            File::options().read(true).write(true).create(true).truncate(false).open(&file).map_err(wrong)?;
+        let mut members = files::open_to_continue(&file)?;
         match members.try_lock() {
             Ok(()) => {}
             Err(TryLockError::WouldBlock) => return Err(SweepFolderError::Busy(path.display().to_string())),
@@ -91,16 +99,7 @@ impl SweepFolder {
             Some((_, lines)) => outcomes(sweep, lines, &file)?,
             None => Vec::new(),
         };
-        let pictures = PICTURES.iter().flat_map(|name| [format!("{name}.svg"), format!("{name}.png")]);
-        for name in [TABLE, PARQUET, SUMMARY].map(str::to_owned).into_iter().chain(pictures) {
-            let old = path.join(name);
-            match std::fs::remove_file(&old) {
-                Err(error) if error.kind() != io::ErrorKind::NotFound => {
-                    return Err(failure(Action::Write, &old, error).into());
-                }
-                _ => {}
-            }
-        }
+        results.iter().try_for_each(|file| files::remove(file))?;
         if !sweep.file().histories.is_empty() {
             let histories = path.join(HISTORIES);
             files::create_folder(&histories)?;
@@ -132,7 +131,7 @@ impl SweepFolder {
             let file = self.path.join(HISTORIES).join(history_name(outcome.member));
             let bytes =
                 history.parquet(outcome.member).map_err(|error| failure(Action::Write, &file, error))?;
-            files::replace(&file, &bytes)?;
+            files::write(&file, &bytes)?;
         }
         let mut line = serde_json::to_string(outcome).unwrap_or_default();
         line.push('\n');
@@ -151,12 +150,10 @@ impl SweepFolder {
         summary: &Summary,
     ) -> Result<PathBuf, FileError> {
         let table = self.path.join(TABLE);
-        let unfinished = self.path.join("sweep.csv.new");
-        files::write(&unfinished, write_table(sweep, outcomes).as_bytes())?;
-        std::fs::rename(&unfinished, &table).map_err(|error| failure(Action::Write, &table, error))?;
+        files::write(&table, write_table(sweep, outcomes).as_bytes())?;
         let file = self.path.join(PARQUET);
         let bytes = write_parquet(sweep, outcomes).map_err(|error| failure(Action::Write, &file, error))?;
-        files::replace(&file, &bytes)?;
+        files::write(&file, &bytes)?;
         files::write(&self.path.join(SUMMARY), summary.to_json().as_bytes())?;
         Ok(table)
     }
@@ -172,11 +169,10 @@ pub fn history_name(member: usize) -> String {
 
 /// Removes histories of another sweep, and nothing else.
 fn discard_histories(folder: &Path) -> Result<(), FileError> {
-    let entries = std::fs::read_dir(folder).map_err(|error| failure(Action::Read, folder, error))?;
-    for path in entries.flatten().map(|entry| entry.path()) {
+    for path in files::entries(folder) {
         let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
         if name.starts_with("member-") && name.ends_with(".parquet") {
-            std::fs::remove_file(&path).map_err(|error| failure(Action::Write, &path, error))?;
+            files::remove(&path)?;
         }
     }
     Ok(())
