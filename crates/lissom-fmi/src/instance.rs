@@ -5,7 +5,7 @@ use std::fmt::Display;
 use std::path::Path;
 
 use lissom::fmu::{Causality, Interface, MODEL_FILE, PackedModel, Variable};
-use lissom::{Model, Override, Session, SessionSnapshot};
+use lissom::{Model, Override, Session, SessionSnapshot, sealed};
 use serde::{Deserialize, Serialize};
 
 /// Communication points this close, relative to the step, are one.
@@ -74,12 +74,12 @@ pub(crate) struct SavedState {
 impl SavedState {
     /// As bytes.
     pub(crate) fn to_bytes(&self) -> Result<Vec<u8>, String> {
-        postcard::to_stdvec(self).map_err(words)
+        sealed::to_bytes(self).map_err(words)
     }
 
     /// From bytes.
     pub(crate) fn from_bytes(bytes: &[u8]) -> Result<Self, String> {
-        postcard::from_bytes(bytes).map_err(|_| "the bytes are no state of this unit".to_owned())
+        sealed::from_bytes(bytes).ok_or_else(|| "the bytes are no state of this unit".to_owned())
     }
 }
 

@@ -87,10 +87,15 @@ fn check_regular(path: &Path) -> io::Result<()> {
 /// If it is no regular file, or cannot be read.
 pub fn read_input(path: &Path) -> io::Result<Vec<u8>> {
     let bytes = read(path)?;
+    protect(path);
+    Ok(bytes)
+}
+
+/// Treats a file as an input, if it is there: nothing will write over it.
+pub fn protect(path: &Path) {
     if let Ok(path) = path.canonicalize() {
         INPUTS.lock().unwrap_or_else(PoisonError::into_inner).insert(path);
     }
-    Ok(bytes)
 }
 
 /// The contents of a file.
@@ -187,7 +192,7 @@ pub fn check_target(path: &Path) -> Result<(), FileError> {
         source,
     };
     if let Some(input) = input_at(path) {
-        let words = format!("the model is made of `{}`, which would be lost", input.display());
+        let words = format!("it is the input `{}`, which would be lost", input.display());
         let source = io::Error::new(io::ErrorKind::AlreadyExists, words);
         return Err(refuse(source, "choose another file or folder with `--out`"));
     }

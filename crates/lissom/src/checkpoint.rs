@@ -11,6 +11,7 @@ use lissom_model::files::{self, FileError};
 use serde::{Deserialize, Serialize};
 
 use crate::model::Override;
+use crate::sealed;
 use crate::session::{Checkpoints, SessionSnapshot};
 
 /// Name of the file.
@@ -98,7 +99,7 @@ impl Checkpoint {
             Err(error) => return Err(files::failure(files::Action::Read, &path, error).into()),
             Ok(bytes) => bytes,
         };
-        postcard::from_bytes(&bytes).map_err(|_| CheckpointError::Unreadable(path.display().to_string()))
+        sealed::from_bytes(&bytes).ok_or_else(|| CheckpointError::Unreadable(path.display().to_string()))
     }
 
     /// The table the run left, cut to where the checkpoint was taken, to be written on.
@@ -172,7 +173,7 @@ impl Checkpoints for CheckpointFile {
         let synced = |path: &PathBuf| files::synchronized_length(path);
         let lengths = [synced(&self.history)?, self.motion.as_ref().map_or(Ok(0), synced)?];
         let checkpoint = (self.frame)(snapshot.clone(), lengths);
-        let bytes = postcard::to_stdvec(&checkpoint).map_err(io::Error::other)?;
+        let bytes = sealed::to_bytes(&checkpoint).map_err(io::Error::other)?;
         files::write_durably(&self.folder.join(CHECKPOINT), &bytes).map_err(|error| error.source)?;
         self.last = Instant::now();
         Ok(())

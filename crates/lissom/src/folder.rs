@@ -125,6 +125,13 @@ fn lock(path: &Path) -> Result<File, FileError> {
     }
 }
 
+/// Protects the results in a folder which a command reads: it does not write over them.
+pub fn protect_results(folder: &Path) {
+    for name in [HISTORY, SUMMARY, MOTION, SCENE, EVENTS, MODES, SHAPES] {
+        files::protect(&folder.join(name));
+    }
+}
+
 /// Whether a file has a name that results may have: a table, a summary, or a plot of whatever output.
 fn is_result(path: &Path) -> bool {
     let name = path.file_name().unwrap_or_default().to_string_lossy();

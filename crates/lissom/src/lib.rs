@@ -139,6 +139,7 @@ pub mod reduce;
 mod report;
 pub mod response;
 mod schedule;
+pub mod sealed;
 mod session;
 mod state_writer;
 pub mod study;
@@ -150,7 +151,7 @@ pub mod view;
 
 pub use checkpoint::{Checkpoint, CheckpointError, CheckpointEvery, CheckpointFile};
 pub use diagnosis::{Diagnosis, Located};
-pub use folder::{FolderError, ResultFolder};
+pub use folder::{FolderError, ResultFolder, protect_results};
 pub use folder_page::RecordedRun;
 pub use lissom_core as core;
 pub use lissom_model::files::FileError;

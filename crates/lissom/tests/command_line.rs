@@ -14,6 +14,8 @@ mod determinism;
 mod export;
 #[path = "command_line/failures.rs"]
 mod failures;
+#[path = "command_line/files.rs"]
+mod files;
 #[path = "command_line/fmu.rs"]
 mod fmu;
 #[path = "command_line/live.rs"]

@@ -203,7 +203,7 @@ fn check_names(context: &Context<'_>) {
     for top in tables::tops().filter(|top| tables::has_named_entries(top.name)) {
         for (name, span, node) in context.entries(top.name) {
             if name.len() > MAX_NAME {
-                let message = format!("the name of a {} is longer than {MAX_NAME} bytes", singular(top.name));
+                let message = format!("a name in [{}] is longer than {MAX_NAME} bytes", top.name);
                 context.fail::<()>(span, message, "choose a shorter name: plots are files of this name");
                 continue;
             }

@@ -70,6 +70,7 @@ impl Export {
             .ok_or_else(|| Failure::new(Exit::BadModel, "there is no such format"))?;
         let run =
             ResultFolder::recorded(&self.folder).map_err(|error| Failure::folder(Exit::BadModel, &error))?;
+        lissom::protect_results(&self.folder);
         let target = self.out.clone().unwrap_or_else(|| self.folder.join(format.target));
         if format.is_folder {
             files::create_folder(&target).map_err(|error| Failure::file(Exit::Failed, &error))?;

@@ -54,6 +54,7 @@ impl Plot {
             .iter()
             .map(|folder| ResultFolder::open(folder).map_err(bad))
             .collect::<Result<_, _>>()?;
+        self.folders.iter().for_each(|folder| lissom::protect_results(folder));
         let is_plain = self.of.is_empty() && self.over.is_none() && !self.spectrum && self.out.is_none();
         let [(first, record, title), others @ ..] = &*found else {
             return Err(Failure::new(Exit::BadModel, "name a folder of results"));

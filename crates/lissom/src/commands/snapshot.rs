@@ -253,6 +253,7 @@ impl Snapshot {
             files::create_folder(folder).map_err(unwritable)?;
             folder.join(if self.animate.is_some() { "snapshot.png" } else { "snapshot.svg" })
         };
+        lissom::protect_results(folder);
         files::write(&target, &bytes).map_err(unwritable)?;
         if !self.quiet {
             terminal::print(&format!("{}\n", target.display()));

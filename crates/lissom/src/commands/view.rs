@@ -58,6 +58,11 @@ pub(super) struct View {
 
 impl View {
     pub(super) fn run(self) -> Result<Exit, Failure> {
+        if let Some(target) = &self.html {
+            // Before anything is simulated.
+            files::protect(&self.what);
+            files::check_target(target).map_err(|error| unwritable(&error))?;
+        }
         if self.what.is_dir() {
             return self.view_folder();
         }
@@ -94,6 +99,7 @@ impl View {
     fn show(&self, folder: &Path) -> Result<(), Failure> {
         let results =
             ResultFolder::results(folder).map_err(|error| Failure::folder(Exit::BadModel, &error))?;
+        lissom::protect_results(folder);
         let target = self.html.clone().unwrap_or_else(|| folder.join("view.html"));
         self.write(&target, &results)
     }

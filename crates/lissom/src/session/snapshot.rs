@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 use super::Session;
 use crate::report::EnergyChange;
 use crate::schedule::Schedule;
+use crate::sealed;
 use crate::telemetry::Telemetry;
 
 /// Where a run leaves snapshots.
@@ -59,7 +60,7 @@ impl SessionSnapshot {
     /// # Panics
     /// Never: plain numbers can always be written to memory.
     pub fn to_bytes(&self) -> Vec<u8> {
-        postcard::to_stdvec(self).expect("plain numbers can always be written to memory")
+        sealed::to_bytes(self).expect("plain numbers can always be written to memory")
     }
 
     /// From what [`to_bytes`](Self::to_bytes) gave.
@@ -67,7 +68,7 @@ impl SessionSnapshot {
     /// # Errors
     /// If the bytes are no snapshot of this version.
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, SnapshotError> {
-        postcard::from_bytes(bytes).map_err(|_| SnapshotError::Damaged)
+        sealed::from_bytes(bytes).ok_or(SnapshotError::Damaged)
     }
 }
 

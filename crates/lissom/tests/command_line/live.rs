@@ -229,6 +229,42 @@ fn strangers_are_refused() {
     }
 }
 
+#[test]
+fn what_is_malformed_or_too_large_is_rejected_and_the_server_lives() {
+    let folder = Folder::new("live-limits");
+    folder.write("bar.toml", &model());
+    let live = Live::start("bar.toml", folder.path());
+    let host = live.host();
+    let of_length =
+        |length: &str| format!("POST /x HTTP/1.1\r\nHost: {host}\r\nContent-Length: {length}\r\n\r\n");
+    for (length, status) in [
+        ("99999999999999", 413),
+        ("99999999999999999999999999", 413),
+        ("65537", 413),
+        ("-1", 400),
+        ("1e3", 400),
+        ("12\r\nContent-Length: 13", 400),
+        ("12\r\nTransfer-Encoding: chunked", 411),
+    ] {
+        assert_eq!(live.send(&of_length(length)).0, status, "{length}");
+    }
+    let long = format!("GET / HTTP/1.1\r\nHost: {host}\r\nX: {}", "a".repeat(1 << 14));
+    assert_eq!(live.send(&long).0, 431);
+    let many = format!("GET / HTTP/1.1\r\n{}\r\n", "X: a\r\n".repeat(1000));
+    assert_eq!(live.send(&many).0, 431);
+    assert_eq!(live.send("\u{16}\u{3}\u{1} no request\r\n\r\n").0, 400);
+    // Connections beyond a bound are answered and closed, and memory stays bounded.
+    let before = held(live.program.id());
+    let open: Vec<_> = (0..300).filter_map(|_| TcpStream::connect(("127.0.0.1", live.port)).ok()).collect();
+    std::thread::sleep(Duration::from_millis(300));
+    if let (Some([memory, ..]), Some([now, threads, _])) = (before, held(live.program.id())) {
+        assert!(threads < 60 && now < memory + 20_000, "{threads} threads, {memory} kB, then {now} kB");
+    }
+    drop(open);
+    std::thread::sleep(Duration::from_millis(300));
+    assert_eq!(live.ask("GET", &format!("/{}/", live.word), &host, "", "").0, 200);
+}
+
 /// Memory [kB], threads and open files of a process, where the system tells them.
 fn held(process: u32) -> Option<[u64; 3]> {
     let told = fs::read_to_string(format!("/proc/{process}/status")).ok()?;

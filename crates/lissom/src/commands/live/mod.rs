@@ -1,5 +1,6 @@
 //! `lissom live`: a page on this machine that shows a model and simulates it again whenever its file is saved.
 
+mod http;
 mod server;
 mod simulation;
 

@@ -1,0 +1,56 @@
+//! Values as bytes with a checksum: a state with a single changed byte would often be read, and go on from somewhere else.
+
+use flate2::Crc;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+/// Length of the checksum at the end [bytes].
+const CHECKSUM: usize = 4;
+
+fn checksum(bytes: &[u8]) -> [u8; CHECKSUM] {
+    let mut crc = Crc::new();
+    crc.update(bytes);
+    crc.sum().to_le_bytes()
+}
+
+/// A value as bytes.
+///
+/// # Errors
+/// If the value cannot be serialised.
+pub fn to_bytes<T: Serialize>(value: &T) -> Result<Vec<u8>, postcard::Error> {
+    let mut bytes = postcard::to_stdvec(value)?;
+    let sum = checksum(&bytes);
+    bytes.extend(sum);
+    Ok(bytes)
+}
+
+/// The value of bytes that [`to_bytes`] has returned; nothing if they are others.
+pub fn from_bytes<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
+    let (bytes, sum) = bytes.split_at_checked(bytes.len().checked_sub(CHECKSUM)?)?;
+    // Bytes that are left over belong to another value.
+    let (value, rest) = (checksum(bytes) == sum).then(|| postcard::take_from_bytes(bytes).ok())??;
+    rest.is_empty().then_some(value)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_changed_missing_or_added_byte_is_noticed() {
+        let value = (vec![1.0_f64, -2.5, 1e300], "name".to_owned(), 7_u64);
+        let bytes = to_bytes(&value).unwrap();
+        assert_eq!(from_bytes(&bytes), Some(value));
+        for place in 0..bytes.len() {
+            for change in 1..=255_u8 {
+                let mut damaged = bytes.clone();
+                damaged[place] ^= change;
+                assert_eq!(from_bytes::<(Vec<f64>, String, u64)>(&damaged), None, "{place} {change}");
+            }
+            assert_eq!(from_bytes::<(Vec<f64>, String, u64)>(&bytes[..place]), None);
+        }
+        let longer: Vec<u8> = bytes.iter().copied().chain([0]).collect();
+        assert_eq!(from_bytes::<(Vec<f64>, String, u64)>(&longer), None);
+        assert_eq!(from_bytes::<u8>(&[]), None);
+    }
+}
