@@ -96,7 +96,30 @@ impl ForceFunction for Constant {
     }
 }
 
-/// What a parameter holds.
+/// An axis of the model: the default of a direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModelAxis {
+    /// The first axis.
+    X,
+    /// The second axis.
+    Y,
+    /// The third axis.
+    Z,
+}
+
+impl ModelAxis {
+    /// Unit vector along the axis.
+    pub fn direction(self) -> Vector3 {
+        match self {
+            Self::X => Vector3::x(),
+            Self::Y => Vector3::y(),
+            Self::Z => Vector3::z(),
+        }
+    }
+}
+
+/// Type of a parameter. For three numbers it also declares the axes in which they are expressed: the decoder of model files
+/// transforms those in model axes to the axes of the part in which they are written, once, and kinds receive global axes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ParameterType {
     /// A finite number.
@@ -105,12 +128,15 @@ pub enum ParameterType {
     Positive,
     /// A finite number that must not be negative.
     NotNegative,
-    /// Three finite numbers that are no vector of space, or one in axes that go with what they belong to: as they are written.
+    /// Three finite numbers that are not expressed in model axes: no spatial vector, or one in axes of a body. They are
+    /// not transformed.
     Vector,
-    /// Three finite numbers: a vector of space in global axes at the start. Inside of a part that is turned it turns with it.
+    /// Three finite numbers: a spatial vector in model axes at the start. It is transformed with the part.
     GlobalVector,
-    /// Three finite numbers, not all zero; only the direction counts. In global axes, as a [`GlobalVector`](Self::GlobalVector).
+    /// Three finite numbers, not all zero, of which only the direction counts. In model axes, and transformed with the part.
     Direction,
+    /// The same with a default: this axis of the part in which the entry is written. Always given to the kind.
+    DirectionOr(ModelAxis),
     /// True or false.
     Flag,
     /// A number or an expression in the time `t`.
@@ -140,6 +166,33 @@ pub enum ParameterType {
     Choice(&'static [&'static str]),
     /// Some of the listed words, each at most once.
     Choices(&'static [&'static str]),
+}
+
+impl ParameterType {
+    /// Whether the value is expressed in model axes, and so transformed with the part in which it is written.
+    pub fn is_in_model_axes(self) -> bool {
+        match self {
+            Self::GlobalVector | Self::Direction | Self::DirectionOr(_) => true,
+            // Matrices of kinds are expressed in the axes of their own, which directions give.
+            Self::Vector
+            | Self::Matrix
+            | Self::Number
+            | Self::Positive
+            | Self::NotNegative
+            | Self::Flag
+            | Self::Function
+            | Self::Size
+            | Self::Force(_)
+            | Self::Range
+            | Self::FunctionOf(_)
+            | Self::Equation
+            | Self::Input
+            | Self::Numbers
+            | Self::SquareMatrix
+            | Self::Choice(_)
+            | Self::Choices(_) => false,
+        }
+    }
 }
 
 /// One parameter of a kind.

@@ -3,7 +3,7 @@
 
 use std::borrow::Cow;
 
-use lissom_core::registry::{Parameter, ParameterType};
+use lissom_core::registry::{ModelAxis, Parameter, ParameterType};
 
 /// What a key holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -24,7 +24,7 @@ pub(crate) enum Shape {
     Count(usize, usize),
     /// True or false.
     Flag,
-    /// Three numbers.
+    /// Three numbers that are not transformed with the part.
     Vector,
     /// Three numbers in global axes; those of the part inside of one.
     GlobalVector,
@@ -34,8 +34,10 @@ pub(crate) enum Shape {
     Names,
     /// Entries as in the table of this name at the top.
     Entries(&'static str),
-    /// Three numbers, not all zero.
+    /// Three numbers, not all zero, in global axes; those of the part inside of one.
     Direction,
+    /// The same with a default: this axis of the part.
+    DirectionOr(ModelAxis),
     /// One of the words.
     Choice(Cow<'static, [&'static str]>),
     /// A number, an expression of this variable, or a table of it.
@@ -261,6 +263,7 @@ pub(crate) fn of_parameter(parameter: &Parameter) -> Key {
         ParameterType::Vector => Shape::Vector,
         ParameterType::GlobalVector => Shape::GlobalVector,
         ParameterType::Direction => Shape::Direction,
+        ParameterType::DirectionOr(axis) => Shape::DirectionOr(axis),
         ParameterType::Flag => Shape::Flag,
         ParameterType::Function => Shape::Function,
         ParameterType::Size => Shape::Size,

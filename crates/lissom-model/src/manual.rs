@@ -181,7 +181,7 @@ pub(crate) fn words(shape: &Shape) -> String {
         Shape::Point => "three numbers, or `{ in = \"part\", at = [x, y, z] }`",
         Shape::Names => "a list of names of parts",
         Shape::Entries(table) => return format!("entries as in `[{table}]`"),
-        Shape::Direction => "three numbers, not all zero",
+        Shape::Direction | Shape::DirectionOr(_) => "three numbers, not all zero",
         Shape::Choice(words) => {
             let quoted: Vec<String> = words.iter().map(|word| format!("`\"{word}\"`")).collect();
             return quoted.join(", ");

@@ -165,6 +165,7 @@ fn type_of(shape: &Shape) -> String {
         Shape::Vector
         | Shape::GlobalVector
         | Shape::Direction
+        | Shape::DirectionOr(_)
         | Shape::Curve
         | Shape::Distribution
         | Shape::Pair

@@ -215,20 +215,26 @@ impl<'c, 'a> Reader<'c, 'a> {
         Some(Located::new(*flag, node.span))
     }
 
-    /// Three numbers; not all zero where the key asks for a direction. Those in global axes are turned as the part is in
-    /// which they are written.
+    /// Three numbers. This is the only function that transforms vectors and directions from the axes of a part to global
+    /// axes; the key's shape declares whether it does. A direction with a default is never missing.
     pub(crate) fn vector(&self, key: &str) -> Option<Located<Vector3>> {
-        let node = self.node(key)?;
+        let shape = self.shape(key);
+        let Some(node) = self.node(key) else {
+            let Shape::DirectionOr(axis) = shape else { return None };
+            return Some(Located::new(self.context.turned(self.scope, &axis.direction())?, self.name));
+        };
         let what = self.words(key);
-        let vector = match self.shape(key) {
-            Shape::Direction => self.context.direction(node, &what)?,
-            Shape::GlobalVector => {
-                let vector = self.context.vector(node, &what)?;
-                self.context.turned(node.scope, &vector)?
-            }
+        let own = match shape {
+            Shape::Direction | Shape::DirectionOr(_) => self.context.own_direction(node, &what)?,
             _ => self.context.vector(node, &what)?,
         };
-        Some(Located::new(vector, node.span))
+        let in_global_axes = match shape {
+            Shape::GlobalVector | Shape::Direction | Shape::DirectionOr(_) => {
+                self.context.turned(node.scope, &own)?
+            }
+            _ => own,
+        };
+        Some(Located::new(in_global_axes, node.span))
     }
 
     /// An inertia matrix.
@@ -273,7 +279,7 @@ impl<'c, 'a> Reader<'c, 'a> {
         }
     }
 
-    /// The registered parameters that are given.
+    /// The registered parameters that are given, and the directions that have a default.
     pub(crate) fn parameters(&self, table: &[Parameter]) -> (Parameters, Vec<(String, Span)>) {
         let mut parameters = Parameters::new();
         let mut places = Vec::new();
@@ -282,14 +288,10 @@ impl<'c, 'a> Reader<'c, 'a> {
                 ParameterType::Number | ParameterType::Positive | ParameterType::NotNegative => {
                     self.number(name).map(|number| Held::Number(number.value))
                 }
-                ParameterType::Vector | ParameterType::GlobalVector => {
-                    self.vector(name).map(|vector| Held::Vector(vector.value))
-                }
-                ParameterType::Direction => {
-                    self.vector(name).zip(self.node(name)).and_then(|(vector, node)| {
-                        self.context.turned(node.scope, &vector.value).map(Held::Vector)
-                    })
-                }
+                ParameterType::Vector
+                | ParameterType::GlobalVector
+                | ParameterType::Direction
+                | ParameterType::DirectionOr(_) => self.vector(name).map(|vector| Held::Vector(vector.value)),
                 ParameterType::Flag => self.flag(name).map(|flag| Held::Flag(flag.value)),
                 ParameterType::Function => self.function(name).map(|function| Held::Function(function.value)),
                 ParameterType::Size => self.size(name).map(|size| match size {
@@ -324,9 +326,9 @@ impl<'c, 'a> Reader<'c, 'a> {
                     .and_then(|node| self.context.range(node, &self.words(name)).map(Held::Range)),
                 ParameterType::Choice(_) => self.choice(name).map(|word| Held::Text(word.value.to_owned())),
             };
-            if let (Some(value), Some(node)) = (value, self.node(name)) {
+            if let Some(value) = value {
                 parameters.insert(name, value);
-                places.push(((*name).to_owned(), node.span));
+                places.extend(self.node(name).map(|node| ((*name).to_owned(), node.span)));
             }
         }
         (parameters, places)

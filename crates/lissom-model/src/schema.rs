@@ -116,9 +116,12 @@ fn of_shape(shape: &Shape) -> Value {
         Shape::Between(least, most) => number(&json!({ "minimum": least, "maximum": most })),
         Shape::Count(least, most) => number(&json!({ "type": "integer", "minimum": least, "maximum": most })),
         Shape::Flag => json!({ "type": "boolean" }),
-        Shape::Vector | Shape::GlobalVector | Shape::Direction | Shape::Curve | Shape::Distribution => {
-            vector()
-        }
+        Shape::Vector
+        | Shape::GlobalVector
+        | Shape::Direction
+        | Shape::DirectionOr(_)
+        | Shape::Curve
+        | Shape::Distribution => vector(),
         Shape::Point => {
             let placed = json!({
                 "type": "object",

@@ -212,7 +212,12 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
         Shape::Number | Shape::Positive | Shape::NotNegative | Shape::Between(..) => "f64",
         Shape::Count(..) => "usize",
         Shape::Flag => "bool",
-        Shape::Vector | Shape::GlobalVector | Shape::Point | Shape::Place | Shape::Direction => "[f64; 3]",
+        Shape::Vector
+        | Shape::GlobalVector
+        | Shape::Point
+        | Shape::Place
+        | Shape::Direction
+        | Shape::DirectionOr(_) => "[f64; 3]",
         Shape::Names => "Vec<Part>",
         Shape::Choice(known) => return Some(format!("words::{}", word_type(key, known, words))),
         Shape::Choices(known) => return Some(format!("Vec<words::{}>", word_type(key, known, words))),

@@ -122,12 +122,6 @@ impl Context<'_> {
         self.numbers::<3>(node, what).map(Vector3::from)
     }
 
-    /// Three numbers that are not all zero; a direction in the axes of the part it is written in, as global ones.
-    pub(crate) fn direction(&self, node: &Node, what: &str) -> Option<Vector3> {
-        let vector = self.own_direction(node, what)?;
-        self.turned(node.scope, &vector)
-    }
-
     /// Three numbers that are not all zero, as they are written.
     pub(crate) fn own_direction(&self, node: &Node, what: &str) -> Option<Vector3> {
         let vector = self.vector(node, what)?;

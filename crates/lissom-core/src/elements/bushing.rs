@@ -19,7 +19,7 @@ use lissom_motion::{
 };
 
 use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents, add_block};
-use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
+use crate::registry::{ModelAxis, Parameter, ParameterError, ParameterType, Parameters};
 use crate::system::{Builder, Kinematics, NodeId};
 
 /// Registry entry.
@@ -42,15 +42,15 @@ pub const KIND: ElementKind = ElementKind {
         ),
         Parameter::optional(
             "axis",
-            ParameterType::Direction,
+            ParameterType::DirectionOr(ModelAxis::X),
             "",
             "First axis at the start, global axes; default global x. The axes turn with the base.",
         ),
         Parameter::optional(
             "second_axis",
-            ParameterType::Direction,
+            ParameterType::DirectionOr(ModelAxis::Y),
             "",
-            "Second axis at the start, made perpendicular to the first; default global y.",
+            "Second axis at the start, global axes, made perpendicular to the first; default global y.",
         ),
     ],
     attachment: Attachment::TwoNodes,
@@ -71,11 +71,10 @@ pub struct Bushing {
 
 fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
     let (nodes, points) = attached.two_nodes()?;
-    let first = parameters.vector_or("axis", Vector3::x())?;
-    let second = parameters.vector_or("second_axis", Vector3::y())?;
+    let first = parameters.vector_or("axis", ModelAxis::X.direction())?;
+    let second = parameters.vector_or("second_axis", ModelAxis::Y.direction())?;
     let axes = Rotation::from_axis_and_reference(&first, &second).ok_or_else(|| {
-        let problem = "is parallel to the other axis: give both `axis` and `second_axis`";
-        ParameterError::new(if parameters.has("second_axis") { "second_axis" } else { "axis" }, problem)
+        ParameterError::new("axis", "is parallel to `second_axis`: give both `axis` and `second_axis`")
     })?;
     let frames = [0, 1].map(|side| builder.initial_frame(nodes[side]));
     let places = [0, 1].map(|side| Motion::new(axes, frames[side].transform_point(&points[side])));

@@ -117,9 +117,10 @@ pub(crate) fn sample_parameters(parameters: &[Parameter], flag: bool, random: &m
             ParameterType::Positive if parameter.name == "exponent" => Value::Number(1.7),
             ParameterType::Number => Value::Number(random.number()),
             ParameterType::Positive | ParameterType::NotNegative => Value::Number(1.5 + random.number()),
-            ParameterType::Vector | ParameterType::GlobalVector | ParameterType::Direction => {
-                Value::Vector(random.vector())
-            }
+            ParameterType::Vector
+            | ParameterType::GlobalVector
+            | ParameterType::Direction
+            | ParameterType::DirectionOr(_) => Value::Vector(random.vector()),
             ParameterType::Flag => Value::Flag(flag),
             ParameterType::Function | ParameterType::Size => {
                 Value::Function(if flag { Arc::new(Wave) } else { Arc::new(Constant(0.6)) })

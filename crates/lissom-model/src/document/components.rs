@@ -1,7 +1,7 @@
 //! Joints, springs and loads of a model file: what they are attached to, and the parameters of their kind.
 
 use lissom_core::registry::{Parameters, Value as Held};
-use lissom_motion::{Rotation, Vector3};
+use lissom_motion::Vector3;
 
 use super::connections::Places;
 use super::decode::each_of_kind;
@@ -276,14 +276,6 @@ fn axes(reader: &Reader<'_, '_>, rule: FrameRule) -> Option<Axes> {
     match rule {
         FrameRule::None => Some((None, None)),
         FrameRule::Axis => Some((Some(reader.vector("axis")?), None)),
-        FrameRule::GivenOrGlobal if reader.node("axis").is_none() && reader.node("second_axis").is_none() => {
-            let frame = reader.context.frame(reader.scope)?.rotation;
-            // In a part that is turned the axes are the part's.
-            let axis = |own: Vector3| {
-                (frame != Rotation::IDENTITY).then(|| Located::new(frame.apply(&own), reader.name))
-            };
-            Some((axis(Vector3::x()), axis(Vector3::y())))
-        }
         FrameRule::TwoAxes | FrameRule::GivenOrGlobal => {
             for (key, other) in [("axis", "second_axis"), ("second_axis", "axis")] {
                 if let (FrameRule::GivenOrGlobal, None, Some(given)) =

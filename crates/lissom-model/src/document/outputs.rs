@@ -388,18 +388,12 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
         };
         let (seen_in, relative_to) =
             (frame("in", kind.takes_axes())?, frame("relative_to", kind.takes_observer())?);
-        let axis = if kind == OutputKind::Angle { Some(axis(reader)?) } else { None };
+        let axis = if kind == OutputKind::Angle { Some(reader.vector("axis")?.value) } else { None };
         let fatigue = if kind.takes_fatigue() { fatigue(reader) } else { None };
         let name = Located::new(name.to_owned(), reader.name);
         let axes = axes.unwrap_or_default();
         Some(Output { name, kind, source, axes, seen_in, relative_to, axis, fatigue })
     })
-}
-
-/// The axis of an angle, turned as the part is in which it is written.
-fn axis(reader: &Reader<'_, '_>) -> Option<Vector3> {
-    let (axis, node) = (reader.vector("axis")?, reader.node("axis")?);
-    reader.context.turned(node.scope, &axis.value)
 }
 
 /// How cycles are counted; none where there is no exponent, and where something is wrong, which is told.

@@ -116,8 +116,8 @@ pub(crate) fn part_motion() -> Vec<Key> {
 /// Keys of `[initial]` itself.
 pub(crate) fn initial() -> Vec<Key> {
     vec![
-        optional("velocity", Shape::Vector, "m/s", "velocity of the point `about`"),
-        optional("angular_velocity", Shape::Vector, "rad/s", "global axes"),
+        optional("velocity", Shape::GlobalVector, "m/s", "velocity of the point `about`"),
+        optional("angular_velocity", Shape::GlobalVector, "rad/s", "global axes"),
         optional("about", Shape::Place, "m", "a point of the rigid motion; default the origin"),
         optional(
             "equilibrium",

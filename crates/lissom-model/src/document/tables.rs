@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use lissom_core::joints::Quantity;
+use lissom_core::registry::ModelAxis;
 
 use super::analysis_tables::analyses;
 use super::part_tables::{initial, part, placed_in, superelement};
@@ -41,7 +42,12 @@ pub const VERSION: usize = 1;
 pub(crate) static TOP: [Top; 22] = [
     top("lissom", Holds::Value(Shape::Version), true, "Version of the file format."),
     top("title", Holds::Value(Shape::Text), false, "One line about the model."),
-    top("gravity", Holds::Value(Shape::Vector), false, "Acceleration of gravity [m/s²]; none when left out."),
+    top(
+        "gravity",
+        Holds::Value(Shape::GlobalVector),
+        false,
+        "Acceleration of gravity [m/s²]; none when left out.",
+    ),
     top("parameters", Holds::Values(Shape::Number), false, "Numbers that expressions may name."),
     top("materials", Holds::Entries, false, "Isotropic elastic materials."),
     top("sections", Holds::Entries, false, "Cross sections; axis 1 along the beam, 2 and 3 across."),
@@ -343,9 +349,11 @@ fn attachment(acts_on: ActsOn) -> Vec<Key> {
             let mut keys = nodes();
             keys.push(optional("at", Shape::Place, "m", "location; default: the tip node's place"));
             if rule == FrameRule::GivenOrGlobal {
-                let axis = |name, words| optional(name, Shape::Direction, "", words);
-                keys.push(axis("axis", "direction of x at the start, global axes; default: global x"));
-                keys.push(axis("second_axis", "direction of y at the start, global axes; default: global y"));
+                let axis = |name, axis, words| optional(name, Shape::DirectionOr(axis), "", words);
+                let words = "direction of x at the start, global axes; default: global x";
+                keys.push(axis("axis", ModelAxis::X, words));
+                let words = "direction of y at the start, global axes; default: global y";
+                keys.push(axis("second_axis", ModelAxis::Y, words));
             }
             if matches!(rule, FrameRule::Axis | FrameRule::TwoAxes) {
                 keys.push(axis("axis", "direction at the start, global axes"));

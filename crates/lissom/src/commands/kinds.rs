@@ -171,7 +171,7 @@ fn holds(holds: ParameterType) -> String {
         ParameterType::Positive => "positive number".to_owned(),
         ParameterType::NotNegative => "number, not negative".to_owned(),
         ParameterType::Vector | ParameterType::GlobalVector => "three numbers".to_owned(),
-        ParameterType::Direction => "direction".to_owned(),
+        ParameterType::Direction | ParameterType::DirectionOr(_) => "direction".to_owned(),
         ParameterType::Flag => "true or false".to_owned(),
         ParameterType::Function => "number or expression of t".to_owned(),
         ParameterType::Size => "number or expression of t, inputs, signals, states and outputs".to_owned(),
