@@ -109,7 +109,7 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
         Source::Place(place, _) => touched.nodes.extend(place.nodes()),
         Source::Joint(index, _) | Source::RelativeMotion(index) | Source::Contact(index) => {
             let joint = &system.joints()[*index];
-            touched.nodes.extend(joint.frames.map(|frame| frame.node));
+            touched.nodes.extend(joint.frames.iter().chain(&joint.output_frames).map(|frame| frame.node));
             touched.coordinates.extend(&joint.coordinates);
             touched.multipliers = joint.first_multiplier..joint.first_multiplier + joint.equations();
         }

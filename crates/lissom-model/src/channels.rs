@@ -223,7 +223,7 @@ impl Channel {
             }
             Source::Place(place, start) => self.evaluate_place(place, start, at, out),
             Source::RelativeMotion(index) => {
-                let Motion { rotation, position } = system.joints()[*index].relative_motion(at);
+                let Motion { rotation, position } = system.joints()[*index].output_motion(at);
                 out.extend(position.iter().chain(rotation.logarithm().iter()));
             }
             Source::Contact(index) => evaluate_contact(&system.joints()[*index], state, out),
@@ -236,8 +236,8 @@ impl Channel {
                         out.extend_from_slice(reaction.as_slice());
                         return;
                     }
-                    ReactionAxes::Base => joint.frames[0],
-                    ReactionAxes::Tip => joint.frames[1],
+                    ReactionAxes::Base => joint.output_frames[0],
+                    ReactionAxes::Tip => joint.output_frames[1],
                 };
                 let axes = at.nodes[frame.node].frame.rotation * frame.offset.rotation;
                 for part in [translation_part(&reaction), rotation_part(&reaction)] {

@@ -66,10 +66,14 @@ pub(crate) enum Shape {
     Profile,
     /// Three numbers or expressions of `s`.
     Curve,
-    /// Three numbers or expressions of `s` and `t`.
+    /// Three numbers or expressions of `s` and `t`, in global axes; those of the part inside of one.
     Distribution,
-    /// Two vectors.
+    /// Three numbers or expressions of `s` and `t`, in the axes of the section.
+    SectionDistribution,
+    /// Two axes of a frame, in the axes around it.
     Axes,
+    /// Rotation vector of a frame, in the axes around it.
+    Rotation,
     /// A number greater than zero, or a table of a density.
     Mass,
     /// Three numbers, a 3 x 3 matrix, or a table of a solid.
@@ -113,6 +117,66 @@ pub(crate) enum Shape {
 }
 
 impl Shape {
+    /// Whether the value is expressed in model axes, so that the decoder transforms it with the part in which it is written.
+    pub(crate) fn is_in_model_axes(&self) -> bool {
+        match self {
+            Self::GlobalVector
+            | Self::Point
+            | Self::Direction
+            | Self::DirectionOr(_)
+            | Self::Place
+            | Self::PlaceOrNode
+            | Self::Places
+            | Self::Curve
+            | Self::Distribution
+            | Self::Axes
+            | Self::Rotation => true,
+            // In axes of a body, a section or an element.
+            Self::Vector
+            | Self::SectionDistribution
+            | Self::Inertia
+            | Self::Solid
+            | Self::Stiffness
+            | Self::SectionMass
+            | Self::Interfaces => false,
+            Self::Text
+            | Self::Version
+            | Self::Number
+            | Self::Positive
+            | Self::NotNegative
+            | Self::Between(..)
+            | Self::Count(..)
+            | Self::Flag
+            | Self::Names
+            | Self::Entries(_)
+            | Self::Choice(_)
+            | Self::FunctionOf(_)
+            | Self::Equation
+            | Self::Choices(_)
+            | Self::Name(_)
+            | Self::Node
+            | Self::Function
+            | Self::Size
+            | Self::Formula
+            | Self::Signal
+            | Self::Profile
+            | Self::Mass
+            | Self::Friction
+            | Self::Latch
+            | Self::Shear
+            | Self::Stations
+            | Self::Rows
+            | Self::Pair
+            | Self::Words
+            | Self::Force(_)
+            | Self::Range
+            | Self::Numbers
+            | Self::SquareMatrix
+            | Self::Coordinates
+            | Self::Table => false,
+        }
+    }
+
     /// Keys of a section's mass that is given by its parts.
     pub(crate) fn slice_mass_keys() -> Vec<Key> {
         vec![

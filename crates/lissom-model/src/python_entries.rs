@@ -168,6 +168,8 @@ fn type_of(shape: &Shape) -> String {
         | Shape::DirectionOr(_)
         | Shape::Curve
         | Shape::Distribution
+        | Shape::SectionDistribution
+        | Shape::Rotation
         | Shape::Pair
         | Shape::Numbers
         | Shape::Range => "Vector",

@@ -121,7 +121,9 @@ fn of_shape(shape: &Shape) -> Value {
         | Shape::Direction
         | Shape::DirectionOr(_)
         | Shape::Curve
-        | Shape::Distribution => vector(),
+        | Shape::Distribution
+        | Shape::SectionDistribution
+        | Shape::Rotation => vector(),
         Shape::Point => {
             let placed = json!({
                 "type": "object",

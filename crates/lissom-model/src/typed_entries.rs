@@ -214,6 +214,7 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
         Shape::Flag => "bool",
         Shape::Vector
         | Shape::GlobalVector
+        | Shape::Rotation
         | Shape::Point
         | Shape::Place
         | Shape::Direction
@@ -230,7 +231,7 @@ fn type_of(key: &Key, words: &mut Words) -> Option<String> {
         }
         Shape::PlaceOrNode => "Place",
         Shape::Node => "Node",
-        Shape::Curve | Shape::Distribution => "[Expression; 3]",
+        Shape::Curve | Shape::Distribution | Shape::SectionDistribution => "[Expression; 3]",
         Shape::Axes => "[[f64; 3]; 2]",
         Shape::Mass => "Mass",
         Shape::Inertia => "Inertia",

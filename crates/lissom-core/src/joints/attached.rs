@@ -39,6 +39,9 @@ pub struct AttachedJoint {
     pub kind: &'static str,
     /// Base and tip.
     pub frames: [CarriedFrame; 2],
+    /// The joint frames of base and tip in whose axes outputs express motions and reactions: `frames`, except those of the
+    /// last joint of a prescribed motion, whose base is a node within the chain. Their tip frames share one origin.
+    pub output_frames: [CarriedFrame; 2],
     /// Its coordinates; the first `joint.coordinates().len()` count.
     pub coordinates: Vec<CoordinateId>,
     /// Position of its first multiplier among all multipliers.
@@ -68,6 +71,7 @@ impl AttachedJoint {
             name: self.name.clone(),
             kind: self.kind,
             frames: self.frames,
+            output_frames: self.output_frames,
             coordinates: self.coordinates.clone(),
             first_multiplier: self.first_multiplier,
             impulses: self.impulses.clone(),
@@ -85,10 +89,14 @@ impl AttachedJoint {
         self.joint.as_ref()
     }
 
-    /// Relative motion of tip to base.
+    /// Relative motion of tip to base, between the frames of its equations.
     pub fn relative_motion(&self, at: &Kinematics) -> Motion {
-        let [base, tip] = self.frames.map(|frame| at.nodes[frame.node].frame * frame.offset);
-        tip.relative_to(&base)
+        motion_between(self.frames, at)
+    }
+
+    /// Relative motion of tip to base, between the frames of outputs.
+    pub fn output_motion(&self, at: &Kinematics) -> Motion {
+        motion_between(self.output_frames, at)
     }
 
     /// Relative rotation and position at the start.
@@ -341,6 +349,12 @@ impl AttachedJoint {
         let (force, moment) = split(&wrench);
         lissom_motion::screw(&rotation.apply(&force), &rotation.apply(&moment))
     }
+}
+
+/// Motion of the second frame relative to the first.
+fn motion_between(frames: [CarriedFrame; 2], at: &Kinematics) -> Motion {
+    let [base, tip] = frames.map(|frame| at.nodes[frame.node].frame * frame.offset);
+    tip.relative_to(&base)
 }
 
 /// Ad(G⁻¹)ᵀ w: the wrench moved from the tip's to the base's joint frame.

@@ -267,11 +267,20 @@ impl Builder {
         let geometry = Geometry { span, planar: self.moves_in_plane(placement, &base), axes: base.rotation };
         let mut joint = build(parameters, &geometry)?;
         let given = start_values(joint.as_ref(), parameters)?;
-        if self.start_values.is_some() && !given.is_empty() {
-            joint = build(
+        let mut base = base;
+        if !given.is_empty() {
+            let unset = build(
                 &parameters.without(given.iter().map(|&(k, _)| joint.coordinates()[k].name)),
                 &geometry,
             )?;
+            if self.start_values.is_some() {
+                joint = unset;
+            } else {
+                // Values at the start choose from where coordinates are counted: the tip's point stays at the joint's
+                // location, and the base's frame moves back.
+                let back = unset.initial().1.position - joint.initial().1.position;
+                base = base * Motion::translation(back);
+            }
         }
         let (values, relative) = joint.initial();
         let places = [base, on_tip.map_or(Ok(base), |place| place.frame(&base, placement))? * relative];
@@ -311,6 +320,7 @@ impl Builder {
             name: name.to_owned(),
             kind: kind.name,
             frames: carried,
+            output_frames: carried,
             coordinates: coordinates.clone(),
             first_multiplier,
             impulses,

@@ -26,7 +26,7 @@ pub(crate) fn part() -> Vec<Key> {
         ),
         placed_in(),
         optional("position", Shape::Place, "m", "place of its origin"),
-        optional("rotation", Shape::Vector, "rad", "rotation vector of its axes"),
+        optional("rotation", Shape::Rotation, "rad", "rotation vector of its axes"),
         optional("parameters", Shape::Table, "", "its parameters, in place of the defaults of its file"),
         optional(
             "names",
@@ -96,7 +96,7 @@ pub(super) fn superelement() -> Vec<Key> {
             "the interface that carries the floating frame, default the first",
         ),
         optional("position", Shape::Place, "m", "place of the origin of the part"),
-        optional("rotation", Shape::Vector, "rad", "rotation vector of its axes"),
+        optional("rotation", Shape::Rotation, "rad", "rotation vector of its axes"),
         optional("axes", Shape::Axes, "", "instead of rotation: first and second axis"),
     ]
 }

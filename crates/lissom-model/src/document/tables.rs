@@ -250,7 +250,7 @@ fn beam() -> Vec<Key> {
         ),
         optional(
             "section_force_per_length",
-            Shape::Distribution,
+            Shape::SectionDistribution,
             "N/m",
             "along the section's axes 1, 2 and 3, with which it turns: three numbers or expressions of s and t",
         ),
@@ -269,7 +269,7 @@ fn body() -> Vec<Key> {
             "about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid as { box = [a, b, c] }",
         ),
         optional("position", Shape::Place, "m", "place of the reference frame"),
-        optional("rotation", Shape::Vector, "rad", "rotation vector of the reference frame"),
+        optional("rotation", Shape::Rotation, "rad", "rotation vector of the reference frame"),
         optional("axes", Shape::Axes, "", "instead of rotation: first and second body axis"),
         optional("center_of_mass", Shape::Vector, "m", "in body axes, from the reference point"),
         optional(

@@ -3,6 +3,7 @@
 use lissom_motion::{Motion, Vector3};
 
 use super::{Builder, Placement, joint_rotation};
+use crate::joints::attached::CarriedFrame;
 use crate::joints::prescribed_motion::COMPONENTS;
 use crate::joints::{Frames, Quantity, prescribed_displacement, prescribed_rotation, prismatic, revolute};
 use crate::registry::{ParameterError, Parameters, Value};
@@ -53,6 +54,13 @@ impl Builder {
             self.add_drive(&own, drive, driven, &Parameters::new().with(key, function))?;
             coordinates.push(driven);
             base = tip;
+        }
+        let frame = Motion::new(axes, placement.at);
+        let carried = placement
+            .nodes
+            .map(|node| CarriedFrame { node, offset: frame.relative_to(&self.initial_frame(node)) });
+        if let Some(named) = self.joints.last_mut() {
+            named.output_frames = carried;
         }
         Ok(coordinates)
     }
