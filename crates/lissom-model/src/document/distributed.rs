@@ -28,7 +28,8 @@ pub(super) fn read(reader: &Reader<'_, '_>) -> Option<Vec<DistributedForce>> {
         let list = context.list(node, 3, &what)?;
         let mut components = Vec::new();
         for entry in list {
-            let formula = context.formula(entry, &what)?;
+            // It names nothing of the model, whose names would be those of the part.
+            let formula = context.own_formula(entry, &what)?;
             if let Some(name) = formula.arguments().iter().find(|name| name.text != "s") {
                 let place = match &entry.value {
                     Value::Text(text) => context.sources.within(entry.span, text, &name.range),
