@@ -1,6 +1,8 @@
-//! Names and units of what outputs record.
+//! Names and units of the components of outputs. One rule: a component is called by a word, by the letter of a vector with
+//! the number of its axis, or by the axes x, y and z of a position; components of one output with the same word are numbered.
 
 use lissom_core::joints::Quantity;
+use lissom_core::signals::coordinate::Of;
 use lissom_core::system::{CoordinateId, System};
 
 use crate::channels::{Source, is_aligned};
@@ -37,13 +39,13 @@ pub(crate) fn components(
         }
         (OutputKind::Reaction, Source::Coupling(index)) => {
             let coordinates = &system.couplings()[*index].coordinates;
-            let each = coordinates.iter().enumerate().map(|(k, &coordinate)| {
-                match system.layout().coordinate_quantity(coordinate) {
-                    Quantity::Angle => (format!("moment{}", k + 1), "N m"),
-                    Quantity::Length | Quantity::State => (format!("force{}", k + 1), "N"),
-                }
-            });
-            each.unzip()
+            let each =
+                coordinates.iter().map(|&coordinate| match system.layout().coordinate_quantity(coordinate) {
+                    Quantity::Angle => ("moment", "N m"),
+                    Quantity::Length | Quantity::State => ("force", "N"),
+                });
+            let (words, units): (Vec<&str>, Vec<&'static str>) = each.unzip();
+            (numbered(&words), units)
         }
         (OutputKind::Reaction, _) => {
             words(&["f1", "f2", "f3", "m1", "m2", "m3"], &["N", "N", "N", "N m", "N m", "N m"])
@@ -101,35 +103,106 @@ pub(crate) fn components(
 
 /// Components and units of accelerations of coordinates.
 fn accelerations(coordinates: Vec<CoordinateId>, system: &System) -> (Vec<String>, Vec<&'static str>) {
-    let count = coordinates.len();
-    let number = |k: usize| if count > 1 { (k + 1).to_string() } else { String::new() };
-    let each = coordinates.into_iter().enumerate().map(|(k, coordinate)| {
-        let unit = match system.layout().coordinate_quantity(coordinate) {
-            Quantity::Angle => "rad/s²",
-            Quantity::Length | Quantity::State => "m/s²",
-        };
-        (format!("a{}", number(k)), unit)
-    });
-    each.unzip()
+    let unit = |coordinate| match system.layout().coordinate_quantity(coordinate) {
+        Quantity::Angle => "rad/s²",
+        Quantity::Length | Quantity::State => "m/s²",
+    };
+    (numbered(&vec!["a"; coordinates.len()]), coordinates.into_iter().map(unit).collect())
 }
 
-/// Components of relative coordinates, numbered where there are several of a kind.
+/// Components of relative coordinates.
 fn relative(coordinates: &[CoordinateId], system: &System) -> (Vec<String>, Vec<&'static str>) {
-    let kind = |&coordinate: &CoordinateId| system.layout().coordinate_quantity(coordinate);
-    let mut components = Vec::new();
-    let mut units = Vec::new();
-    for (index, coordinate) in coordinates.iter().enumerate() {
-        let alike =
-            |others: &[CoordinateId]| others.iter().filter(|&other| kind(other) == kind(coordinate)).count();
-        let number =
-            if alike(coordinates) > 1 { alike(&coordinates[..=index]).to_string() } else { String::new() };
-        let (words, of_words) = match kind(coordinate) {
-            Quantity::Angle => (["angle", "rate"], ["rad", "rad/s"]),
-            Quantity::Length => (["displacement", "velocity"], ["m", "m/s"]),
-            Quantity::State => (["value", "rate"], ["", "1/s"]),
+    let quantities: Vec<Quantity> =
+        coordinates.iter().map(|&own| system.layout().coordinate_quantity(own)).collect();
+    coordinate_components(&quantities).into_iter().map(|own| (own.name, own.unit)).unzip()
+}
+
+/// A value or a rate of a joint's coordinates, with the name that outputs, expressions and equations have for it.
+pub(crate) struct CoordinateComponent {
+    pub(crate) name: String,
+    pub(crate) unit: &'static str,
+    /// Position of the coordinate among those of the joint.
+    pub(crate) coordinate: usize,
+    pub(crate) of: Of,
+}
+
+/// Value and rate of each of a joint's coordinates.
+pub(crate) fn coordinate_components(quantities: &[Quantity]) -> Vec<CoordinateComponent> {
+    let parts = |quantity: &Quantity| match quantity {
+        Quantity::Angle => [("angle", "rad", Of::Value), ("rate", "rad/s", Of::Rate)],
+        Quantity::Length => [("displacement", "m", Of::Value), ("velocity", "m/s", Of::Rate)],
+        Quantity::State => [("value", "", Of::Value), ("rate", "1/s", Of::Rate)],
+    };
+    let all: Vec<_> = quantities.iter().flat_map(parts).collect();
+    let words: Vec<&str> = all.iter().map(|(word, ..)| *word).collect();
+    let component = |(index, (name, (_, unit, of))): (usize, (String, (&str, &'static str, Of)))| {
+        CoordinateComponent { name, unit, coordinate: index / 2, of }
+    };
+    numbered(&words).into_iter().zip(all).enumerate().map(component).collect()
+}
+
+/// Names of components: a word, and a number from 1 where several components of an output have the same word.
+fn numbered(words: &[&str]) -> Vec<String> {
+    let alike = |own: &[&str], word: &str| own.iter().filter(|other| **other == word).count();
+    let name = |(index, word): (usize, &&str)| match alike(words, word) {
+        1 => (*word).to_owned(),
+        _ => format!("{word}{}", alike(&words[..=index], word)),
+    };
+    words.iter().enumerate().map(name).collect()
+}
+
+/// Position of the component that `asked` names among those of one output. Also accepts former and other names: `rotation`
+/// for `angle`, and a number that counts all components, such as `force2` for the only `force` if it is the second.
+pub fn component_position<'c>(known: impl IntoIterator<Item = &'c str>, asked: &str) -> Option<usize> {
+    let known: Vec<&str> = known.into_iter().collect();
+    let split = |name: &'_ str| -> (String, Option<usize>) {
+        let word = name.trim_end_matches(|letter: char| letter.is_ascii_digit());
+        (word.to_owned(), name[word.len()..].parse().ok())
+    };
+    let exact = |name: &str| known.iter().position(|own| *own == name);
+    let (word, number) = split(asked);
+    let word = if word == "rotation" && exact(asked).is_none() { "angle".to_owned() } else { word };
+    let same = match number {
+        None => exact(&word),
+        Some(number) => exact(&format!("{word}{number}")),
+    };
+    let counted = || {
+        let index = number?.checked_sub(1)?;
+        known.get(index).filter(|own| **own == word).map(|_| index)
+    };
+    exact(asked).or(same).or_else(counted)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn components_of_one_word_are_numbered() {
+        use Quantity::{Angle, Length};
+        let names = |quantities: &[Quantity]| -> Vec<String> {
+            coordinate_components(quantities).into_iter().map(|own| own.name).collect()
         };
-        components.extend(words.map(|word| format!("{word}{number}")));
-        units.extend(of_words);
+        assert_eq!(names(&[Angle]), ["angle", "rate"]);
+        assert_eq!(names(&[Angle, Length]), ["angle", "rate", "displacement", "velocity"]);
+        assert_eq!(names(&[Angle, Angle]), ["angle1", "rate1", "angle2", "rate2"]);
+        assert_eq!(numbered(&["moment", "force"]), ["moment", "force"]);
+        assert_eq!(numbered(&["force", "moment", "force"]), ["force1", "moment", "force2"]);
     }
-    (components, units)
+
+    #[test]
+    fn other_names_of_components_are_found() {
+        let angles = ["angle1", "rate1", "angle2", "rate2"];
+        assert_eq!(component_position(angles, "angle2"), Some(2));
+        assert_eq!(component_position(angles, "rotation2"), Some(2));
+        assert_eq!(component_position(angles, "rotation"), None);
+        assert_eq!(component_position(["angle", "rate"], "rotation"), Some(0));
+        // Of a spring.
+        assert_eq!(component_position(["rotation", "rate", "moment"], "rotation"), Some(0));
+        let former = ["moment", "force"];
+        assert_eq!(component_position(former, "moment1"), Some(0));
+        assert_eq!(component_position(former, "force2"), Some(1));
+        assert_eq!(component_position(former, "force1"), None);
+        assert_eq!(component_position(former, "force0"), None);
+    }
 }

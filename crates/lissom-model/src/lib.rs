@@ -50,6 +50,7 @@ pub mod toml_text;
 mod typed_entries;
 mod values;
 
+pub use channel_components::component_position;
 pub use document::Document;
 pub use library::Library;
 pub use manual::{manual, topic, topics};

@@ -24,7 +24,7 @@ A model is a TOML file. Units are SI, angles radians, axes right-handed.
   overshoot); before and after the table the end values hold. Instead of `table`, `file = \"motor.csv\"` and
   `columns = [\"time\", \"torque\"]` take two columns of a text file in the model's folder.
 - **Sizes** of loads are functions of time, or expressions that name inputs, signals, states, coordinates of joints as
-  `arm.rotation`, and components of outputs as `tip.u1`.
+  `arm.angle`, and components of outputs as `tip.u1`.
 - **Places** are three numbers or the name of an entry of `[points]`.
 - **Nodes** are `\"ground\"`, the name of a body or point mass, `\"beam.start\"`, `\"beam.end\"` or `\"beam@0.5\"`.
   Beams, bodies and point masses share one set of names.

@@ -8,7 +8,7 @@ use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector3};
 
 use crate::accumulated::{Actor, AngleAboutAxis, Work};
-use crate::channel_components::components;
+use crate::channel_components::{component_position, components};
 use crate::channels::{Channel, Resolver, Source, source};
 use crate::document::{
     AnalysisKind, Document, NodeReference, Output, OutputKind, OutputSource, ReactionAxes, interface_name,
@@ -172,10 +172,11 @@ impl Made<'_> {
                     )
                     .maybe_help(help)
             })?;
-            let index = channel.components.iter().position(|known| *known == component).ok_or_else(|| {
-                let help = suggest::help(&component, channel.components.iter().map(String::as_str));
-                fault(format!("`{}` has no component `{component}`", channel.name)).maybe_help(help)
-            })?;
+            let index = component_position(channel.components.iter().map(String::as_str), &component)
+                .ok_or_else(|| {
+                    let help = suggest::help(&component, channel.components.iter().map(String::as_str));
+                    fault(format!("`{}` has no component `{component}`", channel.name)).maybe_help(help)
+                })?;
             arguments.push((channel, index));
         }
         path.pop();
@@ -216,7 +217,6 @@ impl Made<'_> {
             axis: None,
             fatigue: None,
         };
-        // The relative rotation of a joint is called `angle` in results and also `rotation` in expressions.
-        Ok(Some((self.channel(&output, path)?, component.replace("rotation", "angle"))))
+        Ok(Some((self.channel(&output, path)?, component.to_owned())))
     }
 }

@@ -219,8 +219,8 @@ pub fn gradient(
     if system.has_feedback() || system.signals().has_samples() || !system.signals().events().is_empty() {
         return Err(GradientError::Feedback);
     }
-    let known: Vec<String> = session.columns().iter().map(crate::Column::name).collect();
-    let Some(column) = known.iter().position(|name| *name == target.column) else {
+    let Some(column) = crate::Column::named(session.columns(), &target.column) else {
+        let known: Vec<String> = session.columns().iter().map(crate::Column::name).collect();
         return Err(GradientError::Column { name: target.column.clone(), known: known.join(", ") });
     };
     let question = Question { model, overrides, target, document: &document, session: &session };

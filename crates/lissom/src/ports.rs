@@ -167,10 +167,13 @@ pub(crate) fn outputs(reached: &Reached<'_, '_>, names: &[String]) -> Result<Vec
         let own = columns(std::slice::from_ref(channel));
         all.extend(own.into_iter().enumerate().map(|(k, column)| (index, k, column)));
     }
+    let known_columns: Vec<Column> = all.iter().map(|(_, _, column)| column.clone()).collect();
     let mut found = Vec::new();
     for name in names {
+        let named = Column::named(&known_columns, name);
+        let is_meant = |index: usize| named == Some(index) || known_columns[index].output == *name;
         let meant: Vec<_> =
-            all.iter().filter(|(_, _, column)| column.name() == *name || column.output == *name).collect();
+            (0..all.len()).filter(|&index| is_meant(index)).map(|index| &all[index]).collect();
         if meant.is_empty() {
             let known: Vec<String> = all.iter().map(|(_, _, column)| column.name()).collect();
             return Err(PortError::Output { name: name.clone(), known: listed(known.iter()) });

@@ -12,6 +12,7 @@ use lissom_core::system::{Builder, CoordinateId};
 use super::Names;
 use super::measurements::measure;
 use super::order::by_name;
+use crate::channel_components::coordinate_components;
 use crate::document::{Document, EventEntry, SignalEntry};
 use crate::expression::{Formula, Line, Name, OverTime};
 use crate::report::{Located, Problem};
@@ -236,23 +237,19 @@ fn resolve(
     Ok(Argument::Measured(measured))
 }
 
-/// Components of a joint's relative coordinates, as outputs call them, numbered where there are several of a kind.
+/// Components of a joint's relative coordinates by the names that outputs have for them, and `rotation` for `angle`.
 pub(super) fn relative_components(
     coordinates: &[CoordinateId],
     builder: &Builder,
 ) -> Vec<(String, CoordinateId, Of)> {
-    let kind = |&coordinate: &CoordinateId| builder.coordinate_quantity(coordinate);
+    let quantities: Vec<Quantity> =
+        coordinates.iter().map(|&coordinate| builder.coordinate_quantity(coordinate)).collect();
     let mut components = Vec::new();
-    for (index, coordinate) in coordinates.iter().enumerate() {
-        let alike =
-            |others: &[CoordinateId]| others.iter().filter(|other| kind(other) == kind(coordinate)).count();
-        let number =
-            if alike(coordinates) > 1 { alike(&coordinates[..=index]).to_string() } else { String::new() };
-        let words: &[(&str, Of)] = match kind(coordinate) {
-            Quantity::Angle => &[("angle", Of::Value), ("rotation", Of::Value), ("rate", Of::Rate)],
-            Quantity::Length | Quantity::State => &[("displacement", Of::Value), ("velocity", Of::Rate)],
-        };
-        components.extend(words.iter().map(|(word, of)| (format!("{word}{number}"), *coordinate, *of)));
+    for component in coordinate_components(&quantities) {
+        let coordinate = coordinates[component.coordinate];
+        let other = component.name.strip_prefix("angle").map(|number| format!("rotation{number}"));
+        components.push((component.name, coordinate, component.of));
+        components.extend(other.map(|name| (name, coordinate, component.of)));
     }
     components
 }

@@ -29,6 +29,7 @@ pub use spectrum::Spectrum;
 pub use summary::Summary;
 pub use sweep_plot::{SweepAxis, SweepPicture, SweepPlot};
 
+use crate::channel_components::component_position;
 use crate::sweep::Fatigue;
 
 /// What a column of results holds.
@@ -57,6 +58,21 @@ impl Column {
     #[must_use]
     pub fn with_fatigue(self, fatigue: Option<Fatigue>) -> Self {
         Self { fatigue, ..self }
+    }
+
+    /// Position of the column of `output` and `component`, which may also have one of its other names.
+    pub fn of(columns: &[Self], output: &str, component: &str) -> Option<usize> {
+        let own: Vec<usize> = (0..columns.len()).filter(|&index| columns[index].output == output).collect();
+        let known = own.iter().map(|&index| columns[index].component.as_str());
+        component_position(known, component).map(|position| own[position])
+    }
+
+    /// Position of the column that is called `name`, such as `midspan.x`.
+    pub fn named(columns: &[Self], name: &str) -> Option<usize> {
+        let exact = columns.iter().position(|column| column.name() == name);
+        let other =
+            || name.rsplit_once('.').and_then(|(output, component)| Self::of(columns, output, component));
+        exact.or_else(other)
     }
 
     /// Name of output and component, as `midspan.x`.

@@ -27,10 +27,9 @@ pub enum RecordError {
 }
 
 impl Record {
-    /// The column of `output` and `component`.
+    /// The column of `output` and `component`, which may also have one of its other names.
     pub fn column(&self, output: &str, component: &str) -> Option<&[f64]> {
-        let found = |column: &Column| column.output == output && column.component == component;
-        self.columns.iter().position(found).map(|index| self.values[index].as_slice())
+        Column::of(&self.columns, output, component).map(|index| self.values[index].as_slice())
     }
 
     /// Reads what a [`CsvWriter`](super::CsvWriter) has written. Quantities and units are not in the text:

@@ -383,6 +383,38 @@ fn scenes_cover_every_key_that_is_expressed_in_model_axes() {
     }
 }
 
+/// Where joints lie on tips that are placed approximately, in a part and by `in`.
+#[test]
+fn positions_on_tips_are_transformed_once() {
+    let bodies = "[bodies.own]\nmass = 1\ninertia = [1, 1, 1]\nposition = [0.1, 0.2, 0.3]\n";
+    let joint = "kind = \"universal\"\nbase = \"ground\"\ntip = \"own\"\nat = [0.3, 0.1, 0]\naxis = [1, 0, 0]\nsecond_axis = [0, 1, 0]\n\
+                 at_tip = [0.3, 0.12, 0.01]\naxis_at_tip = [1, 0.1, 0.2]\nsecond_axis_at_tip = [0, 1, 0.1]\n";
+    let ending = "[assembly]\n";
+    let in_part = format!("{}{}include = \"part.toml\"\n{ending}", header(Vector3::zeros()), part());
+    let by_in = format!(
+        "{}{}points.o = [0, 0, 0]\n{bodies}in = \"p\"\n[joints.j]\nin = \"p\"\n{joint}{ending}",
+        header(Vector3::zeros()),
+        part()
+    );
+    let part = format!("{bodies}[joints.j]\n{joint}");
+    for text in [in_part, by_in] {
+        let library = Library::of_texts([("part.toml".to_owned(), part.clone())]);
+        let document = ModelText::read_with(&text, "model.toml", &[], Arc::new(library))
+            .and_then(|text| text.document(&registry(), &[]))
+            .unwrap_or_else(|report| panic!("{}", report.render(false)));
+        let on_tip = document.joints[0].on_tip.as_ref().expect("given").value;
+        let turned = |own: [f64; 3]| pose().rotation.apply(&Vector3::from(own));
+        let at = pose().transform_point(&Vector3::new(0.3, 0.12, 0.01));
+        for (found, wanted) in [
+            (Some(on_tip.at), at),
+            (on_tip.axis, turned([1.0, 0.1, 0.2])),
+            (on_tip.second_axis, turned([0.0, 1.0, 0.1])),
+        ] {
+            assert!((found.expect("given") - wanted).norm() < MOTIONS, "{found:?} {wanted}");
+        }
+    }
+}
+
 /// Descriptions say which axes are meant, and types must agree.
 #[test]
 fn descriptions_of_parameters_agree_with_their_axes() {

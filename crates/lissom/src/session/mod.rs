@@ -21,7 +21,7 @@ use lissom_model::channels::{Channel, signal_value};
 use lissom_model::lower::{Lowered, Plan};
 use lissom_model::output::{Column, Record, Writer};
 use lissom_model::sweep::Accumulator;
-use lissom_model::{Document, Report};
+use lissom_model::{Document, Report, component_position};
 
 use crate::builder::IdNames;
 use crate::prepared::Prepared;
@@ -250,7 +250,7 @@ impl Session {
         }
         let (owner, component) = name.rsplit_once('.')?;
         let channel = self.observed.channels().iter().find(|channel| channel.name == owner)?;
-        let index = channel.components.iter().position(|known| known == component)?;
+        let index = component_position(channel.components.iter().map(String::as_str), component)?;
         self.values_of(channel).get(index).copied()
     }
 

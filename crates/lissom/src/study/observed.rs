@@ -2,6 +2,7 @@
 
 use std::ops::ControlFlow;
 
+use lissom_model::component_position;
 use lissom_model::lower::{Lowered, Plan, lower};
 use lissom_model::output::Record;
 
@@ -42,7 +43,8 @@ fn parts<'a>(lowered: &Lowered, output: &'a str) -> Option<(&'a str, Option<usiz
         return Some((output, None));
     }
     let (name, component) = output.rsplit_once('.')?;
-    let index = find(name)?.components.iter().position(|known| known == component)?;
+    let known = find(name)?.components.iter().map(String::as_str);
+    let index = component_position(known, component)?;
     Some((name, Some(index)))
 }
 

@@ -28,14 +28,15 @@ pub(super) fn check(file: &SweepFile, columns: &[Column], events: &[&str]) -> Re
     let wanted = collected.map(|collected| (&collected.name, &collected.column));
     let all = wanted.chain(file.histories.iter().map(|column| (column, column)));
     let uncounted = file.collect.iter().find(|collected| {
-        let own = columns.iter().find(|column| column.name() == collected.column);
+        let own = Column::named(columns, &collected.column).map(|index| &columns[index]);
         collected.statistic == OF_FATIGUE && own.is_some_and(|column| column.fatigue.is_none())
     });
     if let Some(collected) = uncounted {
         let (name, column) = (collected.name.clone(), collected.column.clone());
         return Err(SweepError::NoExponent { name, column });
     }
-    let Some((name, column)) = all.into_iter().find(|(_, column)| !names.contains(column)) else {
+    let Some((name, column)) = all.into_iter().find(|(_, column)| Column::named(columns, column).is_none())
+    else {
         return Ok(());
     };
     let known = match names.len() {
@@ -130,7 +131,7 @@ impl<'a> Collector<'a> {
 impl Writer for Collector<'_> {
     fn begin(&mut self, columns: &[Column]) -> io::Result<()> {
         let index = |name: &String| {
-            let found = columns.iter().position(|column| column.name() == *name);
+            let found = Column::named(columns, name);
             found.ok_or_else(|| io::Error::other(format!("the model does not record `{name}`")))
         };
         let of = |collected: &Collected| {
