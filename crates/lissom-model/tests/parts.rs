@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use lissom_core::registry::ParameterType;
 use lissom_model::document::{Attachment, Document, NodeReference};
 use lissom_model::lower::registry::registry;
 use lissom_model::{Library, ModelText, Report};
@@ -330,22 +329,5 @@ fn mistakes_with_parts_are_told() {
         // Long lines are broken.
         let joined = shown.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
         assert!(joined.contains(wanted), "{wanted}: {shown}");
-    }
-}
-
-/// In a part that is turned, vectors of space turn and other lists of three numbers do not: the type of each parameter says
-/// which it is, and its description must agree.
-#[test]
-fn parameters_of_kinds_say_whether_they_turn() {
-    let registry = registry();
-    for kind in registry.joints.iter().chain(&registry.springs).chain(&registry.loads) {
-        for parameter in kind.parameters {
-            let says_global = parameter.summary.contains("global axes");
-            match parameter.holds {
-                ParameterType::GlobalVector => assert!(says_global, "{}.{}", kind.name, parameter.name),
-                ParameterType::Vector => assert!(!says_global, "{}.{}", kind.name, parameter.name),
-                _ => {}
-            }
-        }
     }
 }

@@ -205,3 +205,50 @@ fn values_at_the_start_move_nothing() {
     }
     assert!(count >= 9, "{count} kinds have values at the start");
 }
+
+/// Vectors of motions and momenta `in` the axes of a body are those in global axes, transformed by hand.
+#[test]
+fn outputs_in_axes_of_a_body_are_those_in_global_axes_transformed() {
+    let mut scene = entries(include_str!("connections.toml"));
+    let outputs = scene["outputs"].as_table_mut().expect("outputs");
+    let kinds =
+        ["position", "displacement", "velocity", "acceleration", "rotation", "angular_velocity", "momentum"];
+    for kind in kinds {
+        for (name, axes) in [("global", None), ("own", Some("block")), ("fixed", Some("ground"))] {
+            let mut output = Table::new();
+            output.insert("kind".to_owned(), kind.into());
+            if kind != "momentum" {
+                output.insert("of".to_owned(), "plate".into());
+            }
+            if let Some(axes) = axes {
+                output.insert("in".to_owned(), axes.into());
+            }
+            outputs.insert(format!("{name}_{kind}"), Value::Table(output));
+        }
+    }
+    let end = plain(&scene, STEPS).unwrap_or_else(|text| panic!("{text}"));
+    let block = end.frames[node(&end, "block")].rotation;
+    for kind in kinds {
+        let global = output(&end, &format!("global_{kind}"));
+        let turned: Vec<f64> = global
+            .chunks(3)
+            .flat_map(|own| block.apply_inverse(&Vector3::from_column_slice(own)).data.0[0])
+            .collect();
+        near(output(&end, &format!("own_{kind}")), &turned, 1e-12, kind);
+        near(output(&end, &format!("fixed_{kind}")), global, 1e-14, kind);
+    }
+}
+
+/// The manual's example: a table that is prescribed relative to the ground.
+#[test]
+fn a_prescribed_motion_is_reported_between_its_base_and_tip() {
+    let scene: Table =
+        "[bodies.b]\nmass = 2\ninertia = [0.02, 0.03, 0.04]\ncenter_of_mass = [0.1, 0.2, 0.3]\n\
+        [joints.table]\nkind = \"prescribed_motion\"\nbase = \"ground\"\ntip = \"b\"\n\
+        x = \"0.5*(t/0.006)^2\"\ny = \"0.3*(t/0.006)^2\"\nry = \"0.4*(t/0.006)^2\"\n[outputs]\n"
+            .parse()
+            .expect("a scene");
+    let end = plain(&with_outputs(&scene, "table"), STEPS).unwrap_or_else(|text| panic!("{text}"));
+    near(output(&end, "seen_motion"), &[0.5, 0.3, 0.0, 0.0, 0.4, 0.0], 1e-10, "relative motion");
+    near(output(&end, "seen_base"), output(&end, "seen_ground"), 1e-12, "the base is the ground");
+}

@@ -261,7 +261,7 @@ class Bushing(Spring):
         stiffness: 6 x 6 or its diagonal: displacements along the axes, rotations about them; default 0 [N/m, N, N m/rad]; six numbers or a 6 x 6 matrix, or nothing.
         damping: 6 x 6 or its diagonal, likewise; default 0 [N s/m, N s, N m s/rad]; six numbers or a 6 x 6 matrix, or nothing.
         axis: First axis at the start, global axes; default global x. The axes turn with the base; three numbers, not all zero, or nothing.
-        second_axis: Second axis at the start, made perpendicular to the first; default global y; three numbers, not all zero, or nothing.
+        second_axis: Second axis at the start, global axes, made perpendicular to the first; default global y; three numbers, not all zero, or nothing.
     """
 
     _form: ClassVar[str] = "bushing"

@@ -167,7 +167,7 @@ entry! {
     damping: Matrix = "damping";
     /// First axis at the start, global axes; default global x. The axes turn with the base.
     axis: [f64; 3] = "axis";
-    /// Second axis at the start, made perpendicular to the first; default global y.
+    /// Second axis at the start, global axes, made perpendicular to the first; default global y.
     second_axis: [f64; 3] = "second_axis";
 }
 
