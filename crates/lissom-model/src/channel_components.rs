@@ -204,5 +204,14 @@ mod tests {
         assert_eq!(component_position(former, "force2"), Some(1));
         assert_eq!(component_position(former, "force1"), None);
         assert_eq!(component_position(former, "force0"), None);
+        let columns = ["angle", "rate"].map(|own| crate::output::Column::new("p.arm", own, "relative", ""));
+        for (name, found) in [
+            ("p.arm.angle", Some(0)),
+            ("p.arm.rotation", Some(0)),
+            ("p.arm.rate", Some(1)),
+            ("arm.rate", None),
+        ] {
+            assert_eq!(crate::output::Column::named(&columns, name), found, "{name}");
+        }
     }
 }

@@ -131,15 +131,15 @@ impl Shape {
             | Self::Distribution
             | Self::Axes
             | Self::Rotation => true,
-            // In axes of a body, a section or an element.
+            // The first seven are in axes of a body, a section or an element; the others have no axes.
             Self::Vector
             | Self::SectionDistribution
             | Self::Inertia
             | Self::Solid
             | Self::Stiffness
             | Self::SectionMass
-            | Self::Interfaces => false,
-            Self::Text
+            | Self::Interfaces
+            | Self::Text
             | Self::Version
             | Self::Number
             | Self::Positive
