@@ -2,6 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::io::{BufRead, BufReader};
+use std::os::unix::process::CommandExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 use std::time::Instant;
@@ -187,6 +188,8 @@ impl Trials {
         command
             .envs(self.programs.started.iter().map(|(name, path)| (format!("CARGO_BIN_EXE_{name}"), path)));
         command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::null());
+        // A group of its own, so that all of it can be killed: what a test has started would keep the pipe open.
+        command.process_group(0);
         let began = Instant::now();
         let mut child = command.spawn().map_err(MutantsError::about("prlimit timeout"))?;
         let (mut passed, mut failed, mut output) = (BTreeSet::new(), None, String::new());
@@ -201,7 +204,8 @@ impl Trials {
                     failed = Some(test.to_owned());
                     if limit.is_some() {
                         let mut end = Command::new("kill");
-                        end.arg(child.id().to_string()).status().map_err(MutantsError::about("kill"))?;
+                        end.args(["-KILL", "--", &format!("-{}", child.id())]);
+                        end.status().map_err(MutantsError::about("kill"))?;
                     }
                 }
                 _ => {}

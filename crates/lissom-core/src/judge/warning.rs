@@ -87,7 +87,7 @@ pub enum Warning {
     /// What meets a contact is stopped by it faster than steps resolve.
     #[error(
         "at t = {time:.6e} s {what} stops what meets it within two steps: a contact so short is not resolved, and its \
-         energy may be lost or won; take steps of at most a tenth of the contact, or set `relative_tolerance` instead of \
+         energy may be lost or won; take steps of at most a fiftieth of the contact, or set `relative_tolerance` instead of \
          `step`, which ends steps where contacts begin"
     )]
     ContactTooShort {
@@ -293,7 +293,9 @@ pub enum Warning {
     },
     /// An output that goes on along the motion could not go on.
     #[error(
-        "at t = {time:.6e} s the output `{output}` cannot go on: from one step to the next it changes by more than can be told,          and is not a number from there on; take smaller steps; an angle about an axis has no value where the axis is turned          by half a turn"
+        "at t = {time:.6e} s the output `{output}` cannot go on: from one step to the next it changes by more than can be followed, \
+         and is not a number from there on; take smaller steps; an angle about an axis has no value where the axis is turned \
+         by half a turn"
     )]
     AccumulationLost {
         /// End of the first step over which it could not be told [s].

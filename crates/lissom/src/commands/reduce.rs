@@ -23,7 +23,7 @@ const LISTED: usize = 6;
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
-  lissom reduce examples/cantilever.toml --interfaces beam.start,beam.end --modes 6
+  lissom reduce examples/tip-crank.toml --interfaces beam.start,beam.end --modes 6
   lissom reduce turbine.toml --part blade1 --interfaces blade1.beam.start --modes 10 --name blade
 
 Exit code: 0 all is done; 2 wrong model or command line; 3 no state, or no elastic assembly.")]

@@ -388,7 +388,7 @@ fn footer(robot: &Robot, placed: &[Placed]) -> String {
             let _ = write!(text, "\n[outputs.{0}]\nkind = \"relative\"\nof = \"{0}\"\n", place.joint);
         }
     }
-    text + "\n[outputs.energy]\nkind = \"energy\"\n\n[analysis]\nkind = \"dynamics\"\nend = 1.0\nstep = 1e-3\n"
+    text + "\n[outputs.energy]\nkind = \"energy\"\n\n[analysis]\nkind = \"dynamics\"\nend = 1.0\n"
 }
 
 /// Numbers as the model file has them. A zero has no sign: it would be noise in the text.
