@@ -88,7 +88,16 @@ impl About {
         document: &Document,
         then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
     ) -> Result<T, E> {
-        handed_over(then, |hand| match self {
+        handed_over(then, |hand| {
+            self.find(document, &mut |mut reached| {
+                reached.warnings.extend(kink_warning(reached.model));
+                hand(reached);
+            })
+        })
+    }
+
+    fn find(self, document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {
+        match self {
             Self::Undeformed => undeformed(document, hand),
             Self::Rotation => in_rotation(document, hand),
             Self::Static if !matches!(document.analysis.kind, AnalysisKind::Statics { .. }) => {
@@ -96,8 +105,19 @@ impl About {
             }
             Self::Static => after(document, document.analysis.end, hand),
             Self::Time(time) => after(document, time, hand),
-        })
+        }
     }
+}
+
+/// A warning where a force has a kink at the state.
+fn kink_warning(model: &LinearModel<'_>) -> Option<String> {
+    let kink = model.kink()?;
+    let quantity = if kink.is_of_rate { "damping" } else { "stiffness" };
+    Some(format!(
+        "the state is on a kink or a jump of a force ({}): the {quantity} differs on its two sides, and the linear model is that of \
+         one side; move the state off the kink, or make the law smooth there",
+        kink.name
+    ))
 }
 
 /// What takes the state that was found.
@@ -195,7 +215,12 @@ pub(crate) fn now<T, E: From<ModesError>>(
     document: &Document,
     then: impl FnOnce(Reached<'_, '_>) -> Result<T, E>,
 ) -> Result<T, E> {
-    handed_over(then, |hand| where_it_stands(session, document, hand))
+    handed_over(then, |hand| {
+        where_it_stands(session, document, &mut |mut reached| {
+            reached.warnings.extend(kink_warning(reached.model));
+            hand(reached);
+        })
+    })
 }
 
 fn where_it_stands(session: &Session, document: &Document, hand: Hand<'_>) -> Result<(), ModesError> {

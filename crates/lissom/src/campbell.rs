@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 
 use crate::about::{About, Reached};
 use crate::model::{Model, Override};
-use crate::modes::{ModesError, constant_coefficients, in_axes_at_rest};
+use crate::modes::{AT_REST, ModesError, Reliable, reliable};
 
 /// Shapes that are less alike are not of one line.
 const ALIKE: f64 = 0.3;
@@ -202,17 +202,15 @@ impl Search<'_> {
         let document = self.model.document(&changed).map_err(CampbellError::Model)?;
         let failed = |error| CampbellError::Modes { path: path.clone(), value, error: Box::new(error) };
         let count = self.request.count;
+        let mut doubts = Vec::new();
         let find = |reached: Reached<'_, '_>| -> Result<Option<Point>, ModesError> {
             let options = ModeOptions { count, shift: None };
-            let mut found = reached.model.modes(&options)?.modes;
-            let at_rest;
-            let mut model = reached.model;
-            if let Err(refused) = constant_coefficients(model, (model, &found)) {
-                at_rest = in_axes_at_rest(model, refused)?;
-                found = at_rest.modes(&options)?.modes;
-                constant_coefficients(model, (&at_rest, &found))?;
-                model = &at_rest;
-            }
+            let found = reached.model.modes(&options)?;
+            let Reliable { found, at_rest, warnings } = reliable(reached.model, found, &options)?;
+            let found = found.modes;
+            let model = at_rest.as_ref().unwrap_or(reached.model);
+            let at_value = warnings.into_iter().filter(|words| words != AT_REST).chain(reached.warnings);
+            doubts.extend(at_value.map(|words| format!("at `{path}` = {value}: {words}")));
             if before.is_some_and(|before| different(before, &found)) {
                 return Ok(None);
             }
@@ -238,6 +236,7 @@ impl Search<'_> {
             ModesError::Model(report) => CampbellError::Model(report),
             other => failed(other),
         })?;
+        self.warnings.extend(doubts);
         let point = point.ok_or_else(|| CampbellError::Unlike(path.clone()))?;
         for of in point.modes.iter().filter(|of| of.assurance.is_some_and(|alike| alike < DOUBTFUL)) {
             self.warnings.push(format!(

@@ -6,8 +6,8 @@ use std::time::{Duration, Instant};
 
 use lissom_core::analysis::{InitialError, StepError};
 use lissom_core::linear::{
-    Completeness, EffectiveMasses, LinearError, LinearModel, Mode, ModeError, ModeKind, ModeOptions,
-    NodeShape, SteadyError,
+    Completeness, Departure, EffectiveMasses, LinearError, LinearModel, Mode, ModeError, ModeKind,
+    ModeOptions, Modes, NodeShape, SteadyError,
 };
 use lissom_core::system::Kinematics;
 use lissom_model::document::AnalysisKind;
@@ -27,6 +27,10 @@ const FAR: f64 = 0.25;
 
 /// A mode that departs by more from being one when the model has turned belongs to coefficients that change.
 const CONSTANT: f64 = 3e-4;
+/// Departures up to so many times what round-off makes of them cannot be told from it …
+const BEYOND_ROUND_OFF: f64 = 30.0;
+/// … unless round-off leaves nothing of the comparison.
+const MOST_ROUND_OFF: f64 = 1e-2;
 
 /// What is asked for beyond the model; what is left out is as the model's table `[analysis]` says if it is of kind `modes`.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -191,15 +195,16 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
         return Err(ModesError::Shift(frequency));
     }
     let mut report = about.linearized(&document, |reached| -> Result<ModeReport, ModesError> {
-        let mut report = tell(reached.model, count, shift)?;
-        if about == About::Rotation
-            && let Err(refused) = constant_coefficients(reached.model, (reached.model, &report.modes))
-        {
-            let at_rest = in_axes_at_rest(reached.model, refused)?;
-            report = tell(&at_rest, count, shift)?;
-            constant_coefficients(reached.model, (&at_rest, &report.modes))?;
-            report.warnings.push(AT_REST.to_owned());
-        }
+        let options = ModeOptions { count, shift };
+        let found = reached.model.modes(&options)?;
+        let mut report = if about == About::Rotation {
+            let Reliable { found, at_rest, warnings } = reliable(reached.model, found, &options)?;
+            let mut report = tell(at_rest.as_ref().unwrap_or(reached.model), found, count);
+            report.warnings.extend(warnings);
+            report
+        } else {
+            tell(reached.model, found, count)
+        };
         report.warnings.extend(reached.warnings);
         Ok(report)
     })?;
@@ -218,48 +223,94 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
 }
 
 /// What is told of modes in axes at rest.
-const AT_REST: &str = "the coefficients are constant in axes at rest alone, with multi-blade coordinates: frequencies are those seen \
+pub(crate) const AT_REST: &str = "the coefficients are constant in axes at rest alone, with multi-blade coordinates: frequencies are those seen \
     from there, shapes those of this instant";
 
-/// Whether `modes` of `own`, which is `model` or the same in axes at rest, go on as they are while it turns.
-pub(crate) fn constant_coefficients(
-    model: &LinearModel<'_>,
-    (own, modes): (&LinearModel<'_>, &[Mode]),
-) -> Result<(), ModesError> {
+/// Modes whose coefficients stay constant while the model turns.
+pub(crate) struct Reliable<'a> {
+    /// The modes.
+    pub(crate) found: Modes,
+    /// The model in axes at rest, if they are its modes.
+    pub(crate) at_rest: Option<LinearModel<'a>>,
+    /// The modes that are left out, and the axes.
+    pub(crate) warnings: Vec<String>,
+}
+
+/// A mode whose coefficients are not constant.
+struct Inconstant {
+    number: usize,
+    frequency: f64,
+    departure: f64,
+}
+
+/// Those of the modes `found` of `model` whose coefficients stay constant while it turns, in the axes of the nodes or in axes at
+/// rest, whichever has more of them.
+///
+/// # Errors
+/// If no mode is among them.
+pub(crate) fn reliable<'a>(
+    model: &LinearModel<'a>,
+    found: Modes,
+    options: &ModeOptions,
+) -> Result<Reliable<'a>, ModesError> {
     if model.is_at_rest() {
-        return Ok(());
+        return Ok(Reliable { found, at_rest: None, warnings: Vec::new() });
     }
     let later = model.turned()?;
-    for (index, mode) in modes.iter().enumerate() {
-        let departure = own.departure_of(mode, &later)?;
-        if departure.is_nan() || departure > CONSTANT {
-            let reason = "they change in the multi-blade coordinates of its rotor, too";
-            return Err(ModesError::Periodic {
-                number: index + 1,
-                frequency: mode.frequency,
-                departure,
-                reason,
-            });
+    let (found, inconstant) = divide(found, model, &later)?;
+    if inconstant.is_empty() {
+        return Ok(Reliable { found, at_rest: None, warnings: Vec::new() });
+    }
+    let (mut chosen, mut left_out) = (Reliable { found, at_rest: None, warnings: Vec::new() }, inconstant);
+    let mut reason = "they change in the multi-blade coordinates of its rotor, too";
+    match model.in_axes_at_rest() {
+        Err(no) => reason = no.words(),
+        Ok(at_rest) => {
+            let (found, inconstant) = divide(at_rest.modes(options)?, &at_rest, &later)?;
+            if found.modes.len() > chosen.found.modes.len() {
+                let warnings = vec![AT_REST.to_owned()];
+                chosen = Reliable { found, at_rest: Some(at_rest), warnings };
+                left_out = inconstant;
+            }
         }
     }
-    Ok(())
-}
-
-/// The model in axes at rest, where its coefficients change in those of its nodes.
-pub(crate) fn in_axes_at_rest<'a>(
-    model: &LinearModel<'a>,
-    refused: ModesError,
-) -> Result<LinearModel<'a>, ModesError> {
-    match refused {
-        ModesError::Periodic { number, frequency, departure, .. } => model
-            .in_axes_at_rest()
-            .map_err(|no| ModesError::Periodic { number, frequency, departure, reason: no.words() }),
-        other => Err(other),
+    let Some(&Inconstant { number, frequency, departure }) = left_out.first() else { return Ok(chosen) };
+    let has_elastic = chosen.found.modes.iter().any(|mode| mode.kind != ModeKind::Rigid);
+    if !has_elastic {
+        return Err(ModesError::Periodic { number, frequency, departure, reason });
     }
+    let names: Vec<String> = left_out.iter().map(|mode| format!("{:.4e} Hz", mode.frequency)).collect();
+    chosen.warnings.push(format!(
+        "{} of {} modes are left out ({}): their coefficients change as the model turns, because parts that turn and parts that do \
+         not are coupled across the axis, and {reason}; such modes need Floquet's theory, which is not there",
+        left_out.len(),
+        left_out.len() + chosen.found.modes.len(),
+        names.join(", ")
+    ));
+    Ok(chosen)
 }
 
-fn tell(model: &LinearModel<'_>, count: usize, shift: Option<f64>) -> Result<ModeReport, ModesError> {
-    let found = model.modes(&ModeOptions { count, shift })?;
+/// Divides modes of `own` by whether they are modes of `later`, too, the model a part of a turn later.
+fn divide(
+    found: Modes,
+    own: &LinearModel<'_>,
+    later: &LinearModel<'_>,
+) -> Result<(Modes, Vec<Inconstant>), ModesError> {
+    let Modes { modes, completeness } = found;
+    let (mut constant, mut inconstant) = (Vec::new(), Vec::new());
+    for (index, mode) in modes.into_iter().enumerate() {
+        let Departure { size, round_off } = own.departure_of(&mode, later)?;
+        if size <= CONSTANT || (size <= BEYOND_ROUND_OFF * round_off && round_off <= MOST_ROUND_OFF) {
+            constant.push(mode);
+        } else {
+            let frequency = mode.frequency;
+            inconstant.push(Inconstant { number: index + 1, frequency, departure: size });
+        }
+    }
+    Ok((Modes { modes: constant, completeness }, inconstant))
+}
+
+fn tell(model: &LinearModel<'_>, found: Modes, count: usize) -> ModeReport {
     let mut warnings = Vec::new();
     let unstable = found.modes.iter().filter(|mode| mode.kind.is_unstable()).count();
     if unstable > 0 {
@@ -274,7 +325,7 @@ fn tell(model: &LinearModel<'_>, count: usize, shift: Option<f64>) -> Result<Mod
         Completeness::NotCounted | Completeness::Counted | Completeness::Missing(_) => {}
     }
     let layout = model.system().layout();
-    Ok(ModeReport {
+    ModeReport {
         state: model.kinematics().clone(),
         shapes: found.modes.iter().map(|mode| model.shape(mode)).collect(),
         shares: found.modes.iter().map(|mode| model.kinetic_shares(mode)).collect(),
@@ -290,7 +341,7 @@ fn tell(model: &LinearModel<'_>, count: usize, shift: Option<f64>) -> Result<Mod
         unknowns: [layout.coordinate_count(), layout.multiplier_rows().len()],
         warnings,
         wall: Duration::ZERO,
-    })
+    }
 }
 
 impl ModeReport {

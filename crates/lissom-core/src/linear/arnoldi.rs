@@ -13,10 +13,12 @@
 use nalgebra::{DMatrix, Schur};
 use num_complex::Complex64;
 
+use super::completion::Spectrum;
 use super::krylov::{Krylov, Operator, complex, product};
 use super::lanczos::{VIOLATED, round_off};
 use super::mode::{Completeness, Mode, ModeError, ModeOptions, Modes};
 use super::model::{LinearError, LinearModel};
+use super::schur::schur;
 use super::shifted::{GeneralShift, Shift, small_square};
 use crate::interrupt;
 use crate::joints::Quantity;
@@ -42,12 +44,19 @@ const SOLVED: f64 = 1e-5;
 const EIGENVECTOR: f64 = 1e-2;
 /// Rigid modes whose shapes differ by less are one.
 const SAME: f64 = 1e-4;
+/// An eigenvalue nearer to the shift than this part of it leaves nothing of all others but round-off.
+const TOO_NEAR: f64 = 1e-4;
+/// How far the shift is moved then.
+const ASIDE: f64 = 0.03;
+const MAX_SHIFTS: usize = 3;
+/// Shifts over the least eigenvalue, of which the one is taken that is farthest from all eigenvalues.
+const CANDIDATES: [f64; 6] = [1.0, 0.85, 1.2, 0.7, 1.45, 0.55];
 
 /// Positions and velocities, in units of the model's length and of a rate.
-struct Inverse<'m, 's, 'a, S> {
+pub(super) struct Inverse<'m, 's, 'a, S> {
     model: &'m LinearModel<'a>,
     solver: &'s mut GeneralShift<'a, S>,
-    shift: S,
+    pub(super) shift: S,
     rate: f64,
     units: Vec<f64>,
     room: Vec<S>,
@@ -56,7 +65,7 @@ struct Inverse<'m, 's, 'a, S> {
 }
 
 /// The field of a shift, in which the basis is.
-trait Field: Shift {
+pub(super) trait Field: Shift {
     /// Another shift nearby.
     fn beside(self, change: f64) -> Self;
     /// The operator's image of a complex vector.
@@ -75,8 +84,7 @@ impl Field for Complex64 {
     }
 
     fn schur(matrix: &DMatrix<Self>) -> Option<(DMatrix<Complex64>, DMatrix<Complex64>)> {
-        let rounds = 100 * matrix.nrows().max(10);
-        Schur::try_new(matrix.clone(), f64::EPSILON, rounds).map(Schur::unpack)
+        schur(matrix.clone())
     }
 }
 
@@ -97,9 +105,10 @@ impl Field for f64 {
     }
 
     fn schur(matrix: &DMatrix<Self>) -> Option<(DMatrix<Complex64>, DMatrix<Complex64>)> {
-        let rounds = 100 * matrix.nrows().max(10);
+        // It needs two or three for each eigenvalue where it succeeds at all.
+        let rounds = 10 * matrix.nrows().max(10);
         let Some(schur) = Schur::try_new(matrix.clone(), f64::EPSILON, rounds) else {
-            return Complex64::schur(&matrix.map(Complex64::from));
+            return schur(matrix.map(Complex64::from));
         };
         let (vectors, triangle) = schur.unpack();
         let (mut vectors, mut triangle) = (vectors.map(Complex64::from), triangle.map(Complex64::from));
@@ -137,6 +146,17 @@ fn make_triangular(vectors: &mut DMatrix<Complex64>, triangle: &mut DMatrix<Comp
             }
         }
         triangle[(k, k - 1)] = Complex64::default();
+    }
+}
+
+impl<S: Field> Inverse<'_, '_, '_, S> {
+    /// Positions and velocities of a mode in the operator's units.
+    pub(super) fn vector_of(&self, mode: &Mode) -> Vec<Complex64> {
+        let positions = mode.shape.iter().zip(&self.units).map(|(value, unit)| value * unit);
+        let positions: Vec<Complex64> = positions.collect();
+        let velocities = positions.iter().map(|value| value * mode.eigenvalue / self.rate);
+        let velocities: Vec<Complex64> = velocities.collect();
+        [positions, velocities].concat()
     }
 }
 
@@ -226,26 +246,47 @@ fn find_near<'a, S: Field>(
     (solver, shift): (&mut GeneralShift<'a, S>, S),
     mut wanted: usize,
 ) -> Result<Modes, ModeError> {
-    let mut operator = inverse(model, solver, shift)?;
-    let mut krylov = Krylov::new(operator.size());
-    let mut is_exhausted = krylov.start(&mut operator, BLOCK, 2) == 0;
+    let mut shift = shift;
     let mut modes: Vec<Mode>;
-    loop {
-        let estimates = search(&mut krylov, &mut operator, wanted, &mut is_exhausted)?;
-        let found = estimates.iter().filter_map(|estimate| mode(model, &mut operator, &krylov, estimate));
-        modes = found.collect();
-        keep_independent_rigid_modes(&mut modes);
-        if modes.len() >= options.count || is_exhausted {
-            break;
+    let is_empty;
+    let mut attempt = 0;
+    'shifts: loop {
+        let mut operator = inverse(model, solver, shift)?;
+        let mut krylov = Krylov::new(operator.size());
+        let mut is_exhausted = krylov.start(&mut operator, BLOCK, 2) == 0;
+        loop {
+            let estimates = search(&mut krylov, &mut operator, wanted, &mut is_exhausted)?;
+            let largest = estimates.first().map_or(0.0, |estimate| estimate.value.norm());
+            if attempt < MAX_SHIFTS && largest * TOO_NEAR * operator.shift.size() > 1.0 {
+                shift = shift.beside(ASIDE);
+                attempt += 1;
+                continue 'shifts;
+            }
+            let found = estimates.iter().filter_map(|estimate| mode(model, &mut operator, &krylov, estimate));
+            modes = found.collect();
+            keep_independent_rigid_modes(&mut modes);
+            if modes.len() >= options.count || is_exhausted {
+                is_empty = modes.is_empty() && krylov.order() > 0;
+                break 'shifts;
+            }
+            wanted += 2 * BLOCK;
         }
-        wanted += 2 * BLOCK;
     }
-    // No pivots count modes here, but there are at most two eigenvalues for each freedom that the constraints leave.
+    // No pivots count modes here. Small models have all their eigenvalues computed; in others there are at most two for each
+    // freedom that the constraints leave, unless constraints repeat each other.
+    let spectrum = Spectrum::of(model, shift.size());
+    if let Some(spectrum) = &spectrum {
+        spectrum.complete(model, &mut modes, complex(shift), options.count);
+    }
     let eigenvalues: usize = modes.iter().map(|mode| if mode.eigenvalue.im == 0.0 { 1 } else { 2 }).sum();
     let layout = model.system.layout();
     let freedoms = layout.coordinate_count().saturating_sub(layout.multiplier_rows().len());
-    let is_empty = modes.is_empty() && krylov.order() > 0;
-    if is_empty || (freedoms > 0 && eigenvalues > 2 * freedoms) {
+    let most = match &spectrum {
+        Some(spectrum) => spectrum.values.len(),
+        None if freedoms == 0 || solver.has_redundant_constraints() => usize::MAX,
+        None => 2 * freedoms,
+    };
+    if (is_empty && modes.is_empty()) || eigenvalues > most {
         return Err(ModeError::NotConverged);
     }
     modes.truncate(options.count);
@@ -265,17 +306,25 @@ fn first_shift<'a>(model: &LinearModel<'a>, solver: &mut GeneralShift<'a, f64>) 
         }
     }
     let estimates = estimates(&krylov)?;
-    let least = estimates
+    let found: Vec<Complex64> = estimates
         .iter()
         .filter_map(|estimate| mode(model, &mut operator, &krylov, estimate))
-        .map(|mode| mode.eigenvalue.norm())
-        .filter(|&size| size > 0.0)
-        .fold(f64::INFINITY, f64::min);
-    // Nearer to zero the pivots of rigid modes vanish, and what they leave of the other eigenvalues is round-off.
-    Ok(if least.is_finite() { least.max(rate) } else { rate })
+        .map(|mode| mode.eigenvalue)
+        .filter(|eigenvalue| eigenvalue.norm() > 0.0)
+        .collect();
+    let least = found.iter().map(|value| value.norm()).fold(f64::INFINITY, f64::min);
+    if !least.is_finite() {
+        return Ok(rate);
+    }
+    // At a growing real eigenvalue the matrix is singular. Nearer to zero the pivots of rigid modes vanish, and what they leave of
+    // the other eigenvalues is round-off.
+    let distance = |shift: f64| found.iter().map(|value| (value - shift).norm() / shift).fold(1.0, f64::min);
+    let best =
+        CANDIDATES.iter().map(|part| part * least).max_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+    Ok(best.unwrap_or(least).max(rate))
 }
 
-fn inverse<'m, 's, 'a, S: Field>(
+pub(super) fn inverse<'m, 's, 'a, S: Field>(
     model: &'m LinearModel<'a>,
     solver: &'s mut GeneralShift<'a, S>,
     shift: S,
@@ -379,27 +428,51 @@ fn mode<S: Field>(
     krylov: &Krylov<S>,
     estimate: &Estimate,
 ) -> Option<Mode> {
-    let mut eigenvalue = complex(operator.shift) + estimate.value.inv();
+    let eigenvalue = complex(operator.shift) + estimate.value.inv();
+    // The conjugate is among the estimates.
+    if eigenvalue.im < -REAL * eigenvalue.norm() && !is_defective(eigenvalue, operator.shift.size()) {
+        return None;
+    }
+    let vector = krylov.combine_complex(&estimate.weights);
+    mode_of(model, operator, vector, estimate.value).map(|mut mode| {
+        mode.residual = estimate.residual / estimate.value.norm();
+        mode
+    })
+}
+
+/// Whether an eigenvalue is so small against the shift that it may be one of a defective pair at zero.
+fn is_defective(eigenvalue: Complex64, shift: f64) -> bool {
+    eigenvalue.norm_sqr() <= DEFECTIVE * shift.powi(2) * SOLVED
+}
+
+/// The mode of an eigenvector of the operator, positions and velocities, and its eigenvalue 1/(s - σ); none where it is no mode.
+pub(super) fn mode_of<S: Field>(
+    model: &LinearModel<'_>,
+    operator: &mut Inverse<'_, '_, '_, S>,
+    mut vector: Vec<Complex64>,
+    value: Complex64,
+) -> Option<Mode> {
+    let mut eigenvalue = complex(operator.shift) + value.inv();
     if eigenvalue.im.abs() <= REAL * eigenvalue.norm() {
         eigenvalue.im = 0.0;
     }
     let square_of_shift = operator.shift.size().powi(2);
-    let is_defective = eigenvalue.norm_sqr() <= DEFECTIVE * square_of_shift * SOLVED;
+    let is_defective = is_defective(eigenvalue, operator.shift.size());
     if eigenvalue.im < 0.0 && !is_defective {
         return None;
     }
-    let mut vector = krylov.combine_complex(&estimate.weights);
     let mut image = vec![Complex64::default(); vector.len()];
     for _ in 0..2 {
         S::image(operator, &vector, &mut image);
         std::mem::swap(&mut vector, &mut image);
     }
     let size = |values: &[Complex64]| product(values, values).re.sqrt();
+    let mut residual = 0.0;
     if !is_defective {
         S::image(operator, &vector, &mut image);
-        let missed: Vec<Complex64> =
-            image.iter().zip(&vector).map(|(image, x)| image - estimate.value * x).collect();
-        let is_one = size(&missed) <= EIGENVECTOR * size(&image);
+        let missed: Vec<Complex64> = image.iter().zip(&vector).map(|(image, x)| image - value * x).collect();
+        residual = size(&missed) / size(&image);
+        let is_one = residual <= EIGENVECTOR;
         if !is_one {
             return None;
         }
@@ -416,7 +489,7 @@ fn mode<S: Field>(
     if model.violation(&shape) >= VIOLATED {
         return None;
     }
-    (eigenvalue.im >= 0.0).then(|| Mode::new(eigenvalue, shape, estimate.residual / estimate.value.norm()))
+    (eigenvalue.im >= 0.0).then(|| Mode::new(eigenvalue, shape, residual))
 }
 
 /// Unit modal mass, the largest entry real; the largest entry 1 where the mode has no mass.

@@ -11,10 +11,12 @@
 
 mod arnoldi;
 mod buckling;
+mod completion;
 mod corrections;
 mod energy_shares;
 mod free;
 mod geometric;
+mod kinks;
 mod krylov;
 mod lanczos;
 mod mode;
@@ -23,6 +25,7 @@ mod multiblade;
 mod output;
 mod reduction;
 mod response;
+mod schur;
 mod shapes;
 mod shifted;
 mod state_space;
@@ -31,6 +34,7 @@ mod whirl;
 
 pub use buckling::{Buckling, BucklingError, BucklingMode};
 pub use energy_shares::EffectiveMasses;
+pub use kinks::Kink;
 pub use mode::{Completeness, Mode, ModeError, ModeKind, ModeOptions, Modes};
 pub use model::{LinearError, LinearModel};
 pub use multiblade::NoMultiblade;
@@ -39,5 +43,5 @@ pub use reduction::{Assembly, Reduction, ReductionError};
 pub use response::{FrequencyResponse, ResponseError};
 pub use shapes::NodeShape;
 pub use state_space::{StateSpace, StateSpaceError};
-pub use steady::{SteadyError, steady};
+pub use steady::{Departure, SteadyError, steady};
 pub use whirl::Whirl;

@@ -85,6 +85,26 @@ impl LinearModel<'_> {
         reduced.with_outputs(self, outputs, inputs)
     }
 
+    /// A of ẋ = A x with at most `most` states, velocities in units of `rate` [1/s]; none where there are no such equations or they
+    /// would be larger.
+    pub(super) fn first_order(&self, most: usize, rate: f64) -> Option<DMatrix<f64>> {
+        let freedoms = self.coordinate_count().saturating_sub(self.system.layout().multiplier_rows().len());
+        if 2 * freedoms > most || self.coordinate_count() > MOST_COORDINATES || self.system.sees_multipliers()
+        {
+            return None;
+        }
+        let reduced = self.reduced(&[]).ok()?;
+        let (z, x) = (reduced.t.ncols(), reduced.s.ncols());
+        let states = 2 * z + x;
+        let mut a = DMatrix::zeros(states, states);
+        a.view_mut((0, z + x), (z, z)).fill_with_identity();
+        a.rows_mut(z, x).copy_from(&reduced.rates);
+        a.rows_mut(z + x, z).copy_from(&reduced.accelerations);
+        a.columns_mut(z + x, z).scale_mut(rate);
+        a.rows_mut(z + x, z).scale_mut(rate.recip());
+        (states <= most).then_some(a)
+    }
+
     /// Full matrices of the rows and columns of coordinates.
     fn full(&self, values: &[f64]) -> DMatrix<f64> {
         let count = self.coordinate_count();

@@ -13,7 +13,7 @@ use lissom_motion::{Motion, Vector3, Vector6, rotation_part};
 use lissom_solver::SolverKind;
 use num_complex::Complex64;
 
-use super::krylov::product;
+use super::krylov::{Noise, product};
 use super::mode::Mode;
 use super::model::{LinearError, LinearModel, nothing, point, stopped};
 use super::shifted::ComplexShift;
@@ -34,6 +34,19 @@ const SMALL: f64 = 1e-3;
 const TURN: f64 = 0.7;
 /// The shift at which that is seen, relative to the eigenvalue.
 const BESIDE: f64 = 0.9;
+/// Round-off of a row, relative to the terms that it is made of.
+const ROUND_OFF_OF_TERMS: f64 = 4.0 * f64::EPSILON;
+/// Samples of what round-off does to a mode.
+const SAMPLES: usize = 3;
+
+/// How far a mode is from being one of another model, over its size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Departure {
+    /// The departure.
+    pub size: f64,
+    /// What round-off in the terms of the mode's own equations makes of it.
+    pub round_off: f64,
+}
 
 /// A steady rotation that was not found.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -190,15 +203,17 @@ impl<'a> LinearModel<'a> {
     ///
     /// # Errors
     /// If the matrices cannot be factored.
-    pub fn departure_of(&self, mode: &Mode, other: &LinearModel<'_>) -> Result<f64, LinearError> {
+    pub fn departure_of(&self, mode: &Mode, other: &LinearModel<'_>) -> Result<Departure, LinearError> {
         let s = mode.eigenvalue;
         if s.norm() == 0.0 {
-            return Ok(0.0);
+            return Ok(Departure { size: 0.0, round_off: 0.0 });
         }
         let mut shifted = ComplexShift::new(other.system, &other.representative);
         shifted.factor(&other.parts, BESIDE * s).map_err(|error| other.stopped(&error))?;
         let pattern = other.pattern();
         let mut right = vec![Complex64::default(); pattern.size()];
+        // Sums of the sizes of what each row is made of.
+        let mut terms = vec![0.0; pattern.size()];
         let count = self.coordinate_count();
         let [places, rates, accelerations] = match self.generator() {
             Some(generator) => generator.in_nodes(mode, TURN),
@@ -207,18 +222,36 @@ impl<'a> LinearModel<'a> {
         for column in 0..count {
             for at in pattern.column_starts()[column]..pattern.column_starts()[column + 1] {
                 let row = pattern.row_indices()[at];
-                right[row] += if row < count {
-                    accelerations[column] * other.parts.mass[at]
-                        + rates[column] * other.parts.damping[at]
-                        + places[column] * other.parts.stiffness[at]
+                let parts = if row < count {
+                    [
+                        accelerations[column] * other.parts.mass[at],
+                        rates[column] * other.parts.damping[at],
+                        places[column] * other.parts.stiffness[at],
+                    ]
                 } else {
-                    places[column] * other.parts.constraint[at]
+                    [places[column] * other.parts.constraint[at], Complex64::default(), Complex64::default()]
                 };
+                for part in parts {
+                    right[row] += part;
+                    terms[row] += part.norm();
+                }
             }
         }
-        shifted.solve(&mut right);
         let size = |values: &[Complex64]| product(values, values).re.sqrt();
-        Ok(size(&right[..count]) / size(&mode.shape))
+        let whole = size(&mode.shape);
+        let mut departure_by = |mut forces: Vec<Complex64>| {
+            shifted.solve(&mut forces);
+            size(&forces[..count]) / whole
+        };
+        let mut noise = Noise(5);
+        let mut round_off = 0.0_f64;
+        for _ in 0..SAMPLES {
+            let forces = terms
+                .iter()
+                .map(|term| Complex64::new(noise.number(), noise.number()) * (ROUND_OFF_OF_TERMS * term));
+            round_off = round_off.max(departure_by(forces.collect()));
+        }
+        Ok(Departure { size: departure_by(right), round_off })
     }
 
     /// How alike two shapes are, weighed with the mass of this model: 1 for the same, 0 for orthogonal ones.

@@ -4,6 +4,7 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use lissom::core::linear::Completeness;
 use lissom::core::system::Kinematics;
 use lissom::modes::{About, ModeReport, ModeRequest, ModesError, modes, of_request};
 use lissom::motion::{Motion, MotionRecorder};
@@ -55,6 +56,10 @@ pub(super) struct Modes {
     #[arg(long, value_name = "DIR")]
     out: Option<PathBuf>,
 
+    /// Draw no picture of the shapes.
+    #[arg(long)]
+    no_plots: bool,
+
     /// Nothing on the terminal.
     #[arg(long, short)]
     quiet: bool,
@@ -66,7 +71,7 @@ impl Modes {
         let count = self.count.map(|count| count as usize);
         let request = ModeRequest { count, about: self.about, shift: self.shift };
         let folder = self.model.folder(self.out, "modes");
-        report((&model, &self.model.set, &document), &request, &folder, self.quiet)
+        report((&model, &self.model.set, &document), &request, &folder, (!self.no_plots, self.quiet))
     }
 }
 
@@ -75,7 +80,7 @@ pub(super) fn report(
     (model, overrides, document): (&Model, &[Override], &Document),
     request: &ModeRequest,
     folder: &Path,
-    quiet: bool,
+    (plots, quiet): (bool, bool),
 ) -> Result<Exit, Failure> {
     show_warnings(document);
     let found = match modes(model, overrides, request) {
@@ -91,7 +96,9 @@ pub(super) fn report(
     folder.write_table("participation.csv", &found.participation_csv()).map_err(unwritable)?;
     folder.write_table("shapes.csv", &found.shapes_csv()).map_err(unwritable)?;
     write_state(&folder, document, &found)?;
-    draw_shapes(&folder, document, &found)?;
+    if plots {
+        draw_shapes(&folder, document, &found)?;
+    }
     folder.write_summary(&found.summary(model.name(), overrides, document)).map_err(unwritable)?;
     if !quiet {
         for warning in &found.warnings {
@@ -146,7 +153,11 @@ fn told(heading: &str, found: &ModeReport, folder: &Path) -> String {
     let [coordinates, multipliers] = found.unknowns;
     let number = found.modes.len();
     let fewer = if number < found.asked {
-        format!(" (asked for {}: there are no more)", found.asked)
+        let reason = match found.completeness {
+            Completeness::Counted => "there are no more",
+            _ => "no more were found",
+        };
+        format!(" (asked for {}: {reason})", found.asked)
     } else {
         String::new()
     };
@@ -155,8 +166,8 @@ fn told(heading: &str, found: &ModeReport, folder: &Path) -> String {
         text,
         "  {number} modes{fewer} about {}, {coordinates} coordinates, {multipliers} multipliers, {}, {:.3} s",
         found.about,
-        match found.completeness.name() {
-            "counted" => "none missed by a count of pivots",
+        match found.completeness {
+            Completeness::Counted => "none missed by a count of pivots",
             _ => "not counted",
         },
         found.wall.as_secs_f64()

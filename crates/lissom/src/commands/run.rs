@@ -113,7 +113,12 @@ impl Run {
         let asked = (&task.model, &task.overrides[..], &document);
         match document.analysis.kind {
             AnalysisKind::Modes { .. } => {
-                return super::modes::report(asked, &ModeRequest::default(), &task.folder, self.quiet);
+                return super::modes::report(
+                    asked,
+                    &ModeRequest::default(),
+                    &task.folder,
+                    (task.plots, self.quiet),
+                );
             }
             AnalysisKind::Buckling { .. } => {
                 return super::buckling::report(asked, None, &task.folder, self.quiet);

@@ -1,0 +1,170 @@
+//! Modes that a search in a Krylov basis has missed, from the eigenvalues of the first-order equations of small models.
+//!
+//! Far from the shift the digits of an eigenvector are lost against those of nearer ones. There the eigenvalue of the full matrix is
+//! the shift of an inverse iteration, which has its eigenvector to round-off.
+
+use nalgebra::linalg::balancing;
+use num_complex::Complex64;
+
+use super::arnoldi::{Field, inverse, mode_of};
+use super::krylov::{Noise, Operator, product};
+use super::mode::Mode;
+use super::model::LinearModel;
+use super::shifted::GeneralShift;
+
+/// States of a model whose eigenvalues are all computed, at most.
+const MAX_STATES: usize = 200;
+/// Eigenvalues of the search and of the full matrix that differ by less than this part are the same …
+const EQUAL: f64 = 1e-4;
+/// … or by less than this part of the largest one.
+const ROUND_OFF: f64 = 1e-11;
+/// Eigenvalues whose squares are below this part of that of the largest one cannot be told from zero.
+const ZERO: f64 = 1e-13;
+/// Eigenvalues of the search and of an inverse iteration that differ by less than this part are the same.
+const SAME: f64 = 1e-6;
+/// What an inverse iteration may leave of an eigenvector.
+const SETTLED: f64 = 1e-6;
+/// Solves of an inverse iteration.
+const SOLVES: usize = 4;
+/// Its shift, beside the eigenvalue by this part of it.
+const BESIDE: f64 = 1e-5;
+/// What is left of a vector that is one of those known, relative to its size.
+const KNOWN: f64 = 1e-3;
+
+/// Eigenvalues of a small model.
+pub(super) struct Spectrum {
+    /// All of them.
+    pub(super) values: Vec<Complex64>,
+    largest: f64,
+}
+
+impl Spectrum {
+    /// That of `model`; none where it is large, or where velocities are no states.
+    pub(super) fn of(model: &LinearModel<'_>, rate: f64) -> Option<Self> {
+        let mut a = model.first_order(MAX_STATES, rate)?;
+        if a.nrows() == 0 {
+            return Some(Self { values: Vec::new(), largest: 0.0 });
+        }
+        balancing::balance_parlett_reinsch(&mut a);
+        let (_, triangle) = f64::schur(&a)?;
+        let values: Vec<Complex64> = triangle.diagonal().iter().copied().collect();
+        let largest = values.iter().fold(0.0, |most: f64, value| most.max(value.norm()));
+        Some(Self { values, largest })
+    }
+
+    /// Distance at which eigenvalues are the same.
+    fn tolerance(&self, value: Complex64) -> f64 {
+        EQUAL * value.norm() + ROUND_OFF * self.largest
+    }
+
+    /// Adds to `modes` those near `shift` that are missing among the `count` nearest ones.
+    pub(super) fn complete(
+        &self,
+        model: &LinearModel<'_>,
+        modes: &mut Vec<Mode>,
+        shift: Complex64,
+        count: usize,
+    ) {
+        let mut wanted: Vec<Complex64> = self
+            .values
+            .iter()
+            .copied()
+            .filter(|value| value.im >= -ROUND_OFF * self.largest)
+            .filter(|value| value.norm() > ZERO.sqrt() * self.largest)
+            .collect();
+        let distance = |value: Complex64| (value - shift).norm();
+        wanted.sort_by(|a, b| distance(*a).total_cmp(&distance(*b)));
+        // Rigid modes are left to the search, and take their part of the count.
+        let rigid = modes.iter().filter(|mode| mode.eigenvalue == Complex64::default()).count();
+        wanted.truncate(count.saturating_sub(rigid));
+        let mut is_matched = vec![false; modes.len()];
+        let mut missing = Vec::new();
+        for value in wanted {
+            let free = (0..modes.len()).filter(|&k| !is_matched[k]);
+            let nearest = free
+                .map(|k| (k, (modes[k].eigenvalue - value).norm()))
+                .min_by(|a, b| a.1.total_cmp(&b.1))
+                .filter(|&(_, apart)| apart <= self.tolerance(value));
+            match nearest {
+                Some((k, _)) => is_matched[k] = true,
+                None => missing.push(value),
+            }
+        }
+        for value in missing {
+            if let Some(mode) = self.mode_at(model, modes, value) {
+                modes.push(mode);
+            }
+        }
+        modes.sort_by(|a, b| distance(a.eigenvalue).total_cmp(&distance(b.eigenvalue)));
+    }
+
+    /// The mode whose eigenvalue is nearest to `value`, if it is none of `known`: the eigenvalues of the full matrix have an error of
+    /// their own.
+    fn mode_at(&self, model: &LinearModel<'_>, known: &[Mode], value: Complex64) -> Option<Mode> {
+        let mut solver =
+            GeneralShift::<Complex64>::on(model.system, model.structure(), &model.representative);
+        let shift = value * Complex64::new(1.0 + BESIDE, BESIDE);
+        let mut operator = inverse(model, &mut solver, shift).ok()?;
+        let mut noise = Noise(7);
+        let mut vector: Vec<Complex64> =
+            (0..operator.size()).map(|_| Complex64::new(noise.number(), noise.number())).collect();
+        let mut image = vec![Complex64::default(); vector.len()];
+        let alike: Vec<Vec<Complex64>> = known
+            .iter()
+            .filter(|mode| (mode.eigenvalue - value).norm() <= self.tolerance(value))
+            .map(|mode| operator.vector_of(mode))
+            .collect();
+        for _ in 0..SOLVES {
+            operator.apply(&vector, &mut image);
+            std::mem::swap(&mut vector, &mut image);
+            normalise(&mut vector)?;
+            let mut basis: Vec<Vec<Complex64>> = Vec::new();
+            for own in &alike {
+                let mut own = own.clone();
+                remove(&mut own, &basis);
+                if normalise(&mut own).is_some_and(|left| left > KNOWN) {
+                    basis.push(own);
+                }
+            }
+            remove(&mut vector, &basis);
+            if normalise(&mut vector)? <= KNOWN {
+                return None;
+            }
+        }
+        operator.apply(&vector, &mut image);
+        let quotient = product(&vector, &image);
+        let found = operator.shift + quotient.inv();
+        let is_known = known.iter().any(|mode| {
+            let is_alike = (mode.eigenvalue - value).norm() <= self.tolerance(value);
+            !is_alike && (mode.eigenvalue - found).norm() <= SAME * found.norm() + ROUND_OFF * self.largest
+        });
+        let is_settled = {
+            let rest = image.iter().zip(&vector).map(|(image, own)| (image - quotient * own).norm_sqr());
+            rest.sum::<f64>().sqrt() <= SETTLED * quotient.norm()
+        };
+        let is_new = is_settled && !is_known && found.im >= -SAME * found.norm();
+        is_new.then(|| mode_of(model, &mut operator, vector, quotient)).flatten()
+    }
+}
+
+/// Takes the parts along an orthonormal basis away.
+fn remove(vector: &mut [Complex64], basis: &[Vec<Complex64>]) {
+    for known in basis {
+        let part = product(known, vector);
+        for (value, own) in vector.iter_mut().zip(known) {
+            *value -= part * own;
+        }
+    }
+}
+
+/// Brings a vector to unit size; gives the size it had, none where it has none.
+fn normalise(vector: &mut [Complex64]) -> Option<f64> {
+    let size = product(vector, vector).re.sqrt();
+    if !(size.is_finite() && size > 0.0) {
+        return None;
+    }
+    for value in vector {
+        *value /= size;
+    }
+    Some(size)
+}

@@ -1,0 +1,162 @@
+//! Schur form of a complex matrix by the single-shift QR algorithm [Golub and Van Loan 2013, section 7.5], with exceptional shifts
+//! and deflation where the diagonal vanishes: matrices of shift-and-invert operators have many eigenvalues at zero, beside
+//! which a subdiagonal entry is never small relative to its neighbours on the diagonal.
+
+use nalgebra::{DMatrix, Hessenberg};
+use num_complex::Complex64;
+
+/// Iterations per eigenvalue.
+const MAX_ITERATIONS: usize = 300;
+/// An exceptional shift follows so many iterations without deflation.
+const EXCEPTIONAL: usize = 10;
+/// A subdiagonal entry below this part of the matrix's norm, times the round-off, is zero whatever its neighbours.
+const TINY: f64 = 1e-12;
+
+/// Unitary Q and upper triangular T with A = Q T Qᴴ; none if an entry is not finite or the iteration does not converge.
+pub(super) fn schur(matrix: DMatrix<Complex64>) -> Option<(DMatrix<Complex64>, DMatrix<Complex64>)> {
+    let order = matrix.nrows();
+    let norm = matrix.norm();
+    if !norm.is_finite() {
+        return None;
+    }
+    if order < 2 {
+        return Some((DMatrix::identity(order, order), matrix));
+    }
+    let (mut q, mut h) = Hessenberg::new(matrix).unpack();
+    let mut high = order - 1;
+    let mut iterations = 0;
+    while high > 0 {
+        let low = block_start(&mut h, high, norm);
+        if low == high {
+            high -= 1;
+            iterations = 0;
+            continue;
+        }
+        iterations += 1;
+        if iterations > MAX_ITERATIONS {
+            return None;
+        }
+        let shift = if iterations % EXCEPTIONAL == 0 {
+            h[(high, high)] + 0.75 * h[(high, high - 1)].norm()
+        } else {
+            wilkinson(&h, high)
+        };
+        sweep((&mut q, &mut h), low, high, shift);
+    }
+    Some((q, h))
+}
+
+/// The first row of the unreduced block that ends at `high`; negligible entries below the diagonal become zero.
+fn block_start(h: &mut DMatrix<Complex64>, high: usize, norm: f64) -> usize {
+    let mut low = high;
+    while low > 0 {
+        let below = h[(low, low - 1)].norm();
+        let beside = h[(low, low)].norm() + h[(low - 1, low - 1)].norm();
+        if below <= f64::EPSILON * beside.max(TINY * norm) {
+            h[(low, low - 1)] = Complex64::default();
+            break;
+        }
+        low -= 1;
+    }
+    low
+}
+
+/// The eigenvalue of the last block of two that is nearest to its last entry.
+fn wilkinson(h: &DMatrix<Complex64>, high: usize) -> Complex64 {
+    let (a, b) = (h[(high - 1, high - 1)], h[(high - 1, high)]);
+    let (c, d) = (h[(high, high - 1)], h[(high, high)]);
+    let half = 0.5 * (a - d);
+    let root = (half * half + b * c).sqrt();
+    let [plus, minus] = [half + root, half - root];
+    d + if plus.norm() < minus.norm() { plus } else { minus }
+}
+
+/// One QR step of the block from `low` to `high`.
+fn sweep(
+    (q, h): (&mut DMatrix<Complex64>, &mut DMatrix<Complex64>),
+    low: usize,
+    high: usize,
+    shift: Complex64,
+) {
+    let order = h.nrows();
+    let (mut x, mut y) = (h[(low, low)] - shift, h[(low + 1, low)]);
+    for k in low..high {
+        let (cosine, sine) = rotation(x, y);
+        for column in k.saturating_sub(1).max(low)..order {
+            let (upper, lower) = (h[(k, column)], h[(k + 1, column)]);
+            h[(k, column)] = cosine * upper + sine * lower;
+            h[(k + 1, column)] = cosine * lower - sine.conj() * upper;
+        }
+        let turn = |matrix: &mut DMatrix<Complex64>, rows: usize| {
+            for row in 0..rows {
+                let (left, right) = (matrix[(row, k)], matrix[(row, k + 1)]);
+                matrix[(row, k)] = cosine * left + sine.conj() * right;
+                matrix[(row, k + 1)] = cosine * right - sine * left;
+            }
+        };
+        turn(h, (k + 3).min(high + 1));
+        turn(q, order);
+        if k > low {
+            h[(k + 1, k - 1)] = Complex64::default();
+        }
+        if k + 1 < high {
+            (x, y) = (h[(k + 1, k)], h[(k + 2, k)]);
+        }
+    }
+}
+
+/// c and s with c x + s y = r, c y - s̄ x = 0.
+fn rotation(x: Complex64, y: Complex64) -> (f64, Complex64) {
+    let size = x.norm().hypot(y.norm());
+    if size == 0.0 {
+        (1.0, Complex64::default())
+    } else if x.norm() == 0.0 {
+        (0.0, y.conj() / y.norm())
+    } else {
+        (x.norm() / size, x / x.norm() * y.conj() / size)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::linear::krylov::Noise;
+
+    fn check(matrix: DMatrix<Complex64>) {
+        let (q, t) = schur(matrix.clone()).expect("converges");
+        let again = &q * &t * q.adjoint();
+        assert!((again - &matrix).norm() <= 1e-13 * matrix.norm().max(f64::MIN_POSITIVE));
+        for row in 1..t.nrows() {
+            assert!((0..row).all(|column| t[(row, column)] == Complex64::default()));
+        }
+    }
+
+    #[test]
+    fn full_and_nilpotent_matrices_have_a_schur_form() {
+        let mut noise = Noise(3);
+        let mut number = || Complex64::new(noise.number(), noise.number());
+        check(DMatrix::from_fn(30, 30, |_, _| number()));
+        // Half of the eigenvalues are zero, in chains of two.
+        let left = DMatrix::from_fn(24, 24, |_, _| number());
+        let inverse = left.clone().try_inverse().expect("regular");
+        let chains = DMatrix::from_fn(24, 24, |row, column| match (row, column) {
+            (row, column) if row < 12 && column == row + 1 && row % 2 == 0 => Complex64::new(1.0, 0.0),
+            (row, column) if row == column && row >= 12 => Complex64::new(row as f64, 1.0),
+            _ => Complex64::default(),
+        });
+        check(left * chains * inverse);
+        check(DMatrix::zeros(5, 5));
+    }
+
+    #[test]
+    fn a_cyclic_permutation_needs_exceptional_shifts() {
+        check(DMatrix::from_fn(8, 8, |row, column| {
+            if row == (column + 1) % 8 { Complex64::new(1.0, 0.0) } else { Complex64::default() }
+        }));
+    }
+
+    #[test]
+    fn what_is_not_finite_has_no_schur_form() {
+        assert!(schur(DMatrix::from_element(3, 3, Complex64::new(f64::NAN, 0.0))).is_none());
+    }
+}
