@@ -9,6 +9,8 @@ const CHANGE: (f64, f64) = (0.5, 1.7);
 const LARGEST_TURN: f64 = 0.2;
 /// Cosine of the angle by which the direction may turn in a step; below the second number the step is given up.
 const BENT: (f64, f64) = (0.96, 0.8);
+/// Angle between the chord of a step and the mean of its tangents: part of the angle between these, and what is allowed besides [rad].
+const OFF_THE_ARC: (f64, f64) = (0.3, 0.05);
 /// Steps longer than this part of the longest one so far are refined where much happens in them.
 const WORTH_REFINING: f64 = 1e-3;
 /// Steps shorter than this part of the longest one so far are not tried.
@@ -40,6 +42,13 @@ impl ArcControl {
     /// Whether the path has turned so far in a step, by the cosine of the angle, that it may have gone over to another one.
     pub(crate) fn is_too_bent(cosine: f64) -> bool {
         cosine < BENT.1
+    }
+
+    /// Whether the chord of a step is farther from the mean of the tangents than the bend of a smooth path explains, by the cosine of
+    /// that angle and that of the angle between the tangents.
+    pub(crate) fn is_off_the_arc(of_chord: f64, of_tangents: f64) -> bool {
+        let [chord, tangents] = [of_chord, of_tangents].map(|cosine| cosine.clamp(-1.0, 1.0).acos());
+        chord > OFF_THE_ARC.0 * tangents + OFF_THE_ARC.1
     }
 
     /// Whether a step is long enough to be worth refining where it passes several critical points.

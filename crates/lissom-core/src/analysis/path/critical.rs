@@ -20,6 +20,9 @@ const MOST_FAILURES: usize = 2;
 /// Over this part of the step the signature is straight: the square of it is what its zero errs by.
 const STRAIGHT: f64 = 1e-4;
 
+/// At a singular stiffness the signature on both sides is at most this part of what it is at the ends of the step.
+const CONTINUOUS: f64 = 1e-2;
+
 /// A critical point is known well where its rate or its place is known to this part of the step.
 const LOCATED: f64 = 1e-6;
 
@@ -65,6 +68,16 @@ struct Trial {
     rate: f64,
     unstable: usize,
     signature: f64,
+}
+
+/// A change of the number of unstable directions.
+struct ChangeOfCount {
+    at: Trial,
+    /// The nearest point known on its far side.
+    beyond: Trial,
+    is_located: bool,
+    /// Whether both sides are near enough for other changes to be beyond.
+    is_split: bool,
 }
 
 /// A point between two, the load factor by the cubic that has the rates of both.
@@ -115,9 +128,19 @@ impl EquilibriumPath {
             let after = if changes == 0 { last.unstable } else { at.unstable };
             points.push(self.point(CriticalKind::Limit, (at, is_located), [first.unstable, after]));
         }
-        if changes > 0 {
-            let found = self.change_of_count(start, (first, last), iterations);
-            points.push(self.point(CriticalKind::Bifurcation, found, [first.unstable, last.unstable]));
+        // Several bifurcations in one step are told apart by the number of unstable directions between them.
+        let mut low = first;
+        while changes > 0 {
+            let found = self.change_of_count(start, (low, last), iterations);
+            let after = if found.is_split && low.unstable.abs_diff(found.beyond.unstable) < changes {
+                found.beyond
+            } else {
+                last
+            };
+            let unstable = [low.unstable, after.unstable];
+            points.push(self.point(CriticalKind::Bifurcation, (found.at, found.is_located), unstable));
+            changes = changes.saturating_sub(low.unstable.abs_diff(after.unstable).max(1));
+            low = after;
         }
         points.sort_by(|a, b| a.arc.total_cmp(&b.arc));
         points
@@ -185,7 +208,7 @@ impl EquilibriumPath {
         start: &State,
         (first, last): (Trial, Trial),
         iterations: &mut usize,
-    ) -> (Trial, bool) {
+    ) -> ChangeOfCount {
         let (mut low, mut high) = (first, last);
         let mut failures = 0;
         for trial in 0..MOST_TRIALS {
@@ -216,14 +239,22 @@ impl EquilibriumPath {
             if next.unstable == first.unstable { low = next } else { high = next }
         }
         let width = high.distance - low.distance;
-        let known = width <= LOCATED * last.distance
-            || low.signature.abs().min(high.signature.abs())
-                <= LOCATED * first.signature.abs().max(last.signature.abs());
+        let largest = first.signature.abs().max(last.signature.abs());
+        let is_singular = low.signature.abs().min(high.signature.abs()) <= LOCATED * largest;
+        // Where the count changes although the stiffness is not singular, the search has gone over to another path.
+        let is_continuous = low.signature.abs().max(high.signature.abs()) <= CONTINUOUS * largest;
+        let is_straight = low.signature * high.signature < 0.0 && width <= STRAIGHT * last.distance;
+        let is_located = is_singular || (is_continuous && (is_straight || width <= LOCATED * last.distance));
+        let is_split = width <= STRAIGHT * last.distance;
         // The signature is proportional to the eigenvalue that vanishes, and straight on so short a way.
-        if low.signature * high.signature < 0.0 && width > 0.0 {
+        let at = if low.signature * high.signature < 0.0 && width > 0.0 {
             let part = low.signature / (low.signature - high.signature);
-            return (between(low, high, part), known || width <= STRAIGHT * last.distance);
-        }
-        (if low.signature.abs() < high.signature.abs() { low } else { high }, known)
+            between(low, high, part)
+        } else if low.signature.abs() < high.signature.abs() {
+            low
+        } else {
+            high
+        };
+        ChangeOfCount { at, beyond: high, is_located, is_split }
     }
 }

@@ -13,6 +13,7 @@ use super::super::workspace::sizes;
 use super::systems::PathSystems;
 use super::{PathSettings, Solution, Tangent};
 use crate::equilibration::Equilibration;
+use crate::joints::Quantity;
 use crate::joints::attached::Increments;
 use crate::newton::{Correction, Equations, Failure};
 use crate::numbers::{Number, Numbers};
@@ -26,6 +27,9 @@ use crate::system::{
 const LARGEST_CORRECTION: f64 = 0.5;
 /// Iterations for the softest direction: at a bifurcation that is known to 1e-10 the first one finds it.
 const INVERSE_ITERATIONS: usize = 4;
+
+/// Violations below this, of angles and of parts of the model's length, are round-off.
+const ROUND_OFF: f64 = 1e-14;
 
 /// The equation for the load factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -77,6 +81,8 @@ pub(super) struct PathWork {
     weights: Vec<f64>,
     /// Scaled size of a unit of each row.
     sizes: Vec<f64>,
+    /// Scaled size of a unit of each violation.
+    violation_sizes: Vec<f64>,
     /// A right-hand side in no particular direction.
     probe: Vec<f64>,
 }
@@ -90,6 +96,10 @@ impl PathWork {
         let linearization = Linearization::of_state(unloaded, &state.kinematics);
         let representative = Representative::of(unloaded, &state.kinematics, &linearization);
         let sizes = sizes(layout, &representative);
+        let violation_size = |quantity: &Quantity| match quantity {
+            Quantity::Length => 1.0 / representative.length,
+            Quantity::Angle | Quantity::State => 1.0,
+        };
         let mut noise = 1.0_f64;
         let zeros = vec![0.0; size];
         let nothing = Change { rows: zeros.clone(), load: 0.0 };
@@ -116,6 +126,7 @@ impl PathWork {
             last: nothing.clone(),
             before: nothing,
             correction: 0.0,
+            violation_sizes: layout.quantities()[count..].iter().map(violation_size).collect(),
             weights: sizes.iter().map(|size| size / (count as f64).sqrt()).collect(),
             probe: (0..count)
                 .map(|_| {
@@ -480,9 +491,14 @@ impl Equations for PathEquations<'_> {
         rows.copy_from_slice(&self.work.residual);
         let count = self.systems.any().layout().coordinate_count();
         let work = &mut *self.work;
-        if let Some(compliance) = &work.compliance {
-            let factor = work.scaled.multiplier_factor() * work.scaled.scale();
-            compliance.relax(factor, &work.multipliers, &mut rows[count..]);
+        if work.compliance.is_some() {
+            // The compliance is in the factors alone, and violations are corrected whole. What cannot be corrected, because
+            // constraints repeat each other, is round-off, and would accumulate in the multipliers.
+            for (value, unit) in rows[count..].iter_mut().zip(&work.violation_sizes) {
+                if (*value * unit).abs() <= ROUND_OFF {
+                    *value = 0.0;
+                }
+            }
         }
         self.solve(&mut rows);
         for value in &mut rows {

@@ -483,13 +483,22 @@ impl EquilibriumPath {
         let cosine = self.work.inner(&self.tangent.direction, &found.tangent.direction);
         let changes = found.tangent.unstable.abs_diff(self.tangent.unstable);
         let turns = found.tangent.load_rate * self.tangent.load_rate < 0.0;
-        if ArcControl::is_too_bent(cosine) || (changes > 2 && self.control.is_long(size)) {
+        // A limit point changes the count by one: with another number of changes there is a bifurcation in the step as well.
+        let are_mixed = changes > 2 || (turns && changes != 1);
+        let is_long = self.control.is_long(size);
+        if ArcControl::is_too_bent(cosine)
+            || (is_long && (are_mixed || self.has_left_the_arc(&found, cosine)))
+        {
             return Ok(false);
         }
         let length = self.work.length_of_last();
         let mut critical = Vec::new();
         if turns || changes > 0 {
             critical = self.critical_points(&start, length, &found, &mut report.iterations);
+            // A change that no point of the step explains belongs to another path, on which the step has ended.
+            if is_long && critical.iter().any(|point| !point.is_located) {
+                return Ok(false);
+            }
         }
         if self.stop_at_bifurcation(&start, length, &mut critical)? {
             report.critical = critical;
@@ -502,6 +511,17 @@ impl EquilibriumPath {
         self.steps += 1;
         self.is_finished = is_last;
         Ok(true)
+    }
+
+    /// Whether the chord of the last solution is not the mean of the tangents at its ends, as on a smooth path: then it may have ended
+    /// on another one.
+    fn has_left_the_arc(&self, found: &Solution, cosine: f64) -> bool {
+        let chord = self.work.total();
+        let length = self.work.length_of_last();
+        let (own, other) = (&self.tangent.direction, &found.tangent.direction);
+        let along = self.work.inner(chord, own) + self.work.inner(chord, other);
+        let of_mean = (2.0 + 2.0 * cosine.clamp(-1.0, 1.0)).sqrt();
+        ArcControl::is_off_the_arc(along / (length * of_mean), cosine)
     }
 
     fn take(&mut self, found: Solution, length: f64) {
