@@ -2,6 +2,7 @@
 
 mod confirmation;
 mod course;
+mod runs;
 mod ways;
 
 use std::fmt::Write;
@@ -18,6 +19,7 @@ use crate::session::{Session, SessionError};
 pub use confirmation::Confirmation;
 use confirmation::{Carried, confirm};
 use course::Course;
+use runs::by_runs;
 use ways::{Question, Ways};
 
 /// Newton's tolerance, at least: what it leaves is divided by the distance of the neighbours.
@@ -128,6 +130,16 @@ pub enum GradientError {
          drive has a kink or jump there; choose a smaller step, steps that end at the kinks, or smooth them out"
     )]
     InParts(f64),
+    /// Differences of runs depend on their distance.
+    #[error(
+        "no derivative by `{path}`: forces switch during the run, as where a stop is met or a spring goes slack, and differences of \
+         runs over two distances do not agree. The output is not smooth in this number, or a switch happens at the very time of the \
+         output; choose another time, a smaller `analysis.relative_tolerance`, or compare runs"
+    )]
+    NotSmooth {
+        /// Path of the number.
+        path: String,
+    },
     /// Runs of neighbouring models have other derivatives.
     #[error(
         "the derivatives add up to a change of {expected:e} where runs of the model with all numbers changed a little change by \
@@ -177,8 +189,30 @@ pub struct Derivative {
     pub number: f64,
     /// Derivative of the measure by it.
     pub value: f64,
-    /// Whether the state's derivatives were carried along the steps; otherwise neighbouring models took the same steps.
-    pub is_carried: bool,
+    /// How it was found.
+    pub method: Method,
+}
+
+/// How a derivative was found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Method {
+    /// The state's derivatives were carried along the steps.
+    Carried,
+    /// Neighbouring models took the same steps.
+    Neighbours,
+    /// Whole runs were compared, because forces switch on the way.
+    Runs,
+}
+
+impl Method {
+    /// Its word in `summary.json`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Carried => "carried",
+            Self::Neighbours => "neighbours",
+            Self::Runs => "runs",
+        }
+    }
 }
 
 /// Derivatives of a measure of an output.
@@ -227,8 +261,16 @@ pub fn gradient(
     let mut ways = Ways::new(&question, paths)?;
     let mut course = Course::new(target.measure);
     course.note(&session, column, &mut |column| ways.derivatives(&session, column));
+    let mut switches = Switches::default();
+    let is_dynamic = matches!(document.analysis.kind, AnalysisKind::Dynamics { .. });
+    switches.have_changed(&session);
     while !session.is_finished() {
         session.advance()?;
+        // Equilibria do not depend on the way to them.
+        if is_dynamic && switches.have_changed(&session) {
+            let numbers = ways.into_numbers().0.into_iter().map(|(path, number, _)| (path, number)).collect();
+            return across_switches((model, overrides, target), column, numbers, began);
+        }
         ways.advance(&mut session)?;
         course.note(&session, column, &mut |column| ways.derivatives(&session, column));
     }
@@ -238,7 +280,10 @@ pub fn gradient(
     let derivatives: Vec<Derivative> = numbers
         .into_iter()
         .zip(derivatives)
-        .map(|((path, number, is_carried), value)| Derivative { path, number, value, is_carried })
+        .map(|((path, number, is_carried), value)| {
+            let method = if is_carried { Method::Carried } else { Method::Neighbours };
+            Derivative { path, number, value, method }
+        })
         .collect();
     let confirmation = if confirms {
         confirmed((model, overrides, target), column, (value, course.largest()), &derivatives)?
@@ -248,32 +293,107 @@ pub fn gradient(
     Ok(GradientReport { value, time, derivatives, steps, corrections, confirmation, wall: began.elapsed() })
 }
 
-/// Compares derivatives that were carried with runs of neighbouring models.
+/// The signs of the numbers that change theirs where forces have a kink or a jump.
+#[derive(Default)]
+struct Switches {
+    signs: Vec<i8>,
+    values: Vec<f64>,
+}
+
+impl Switches {
+    /// Whether a force has switched since the last call.
+    fn have_changed(&mut self, session: &Session) -> bool {
+        let simulation = session.simulation();
+        self.values.clear();
+        simulation.system().switches(&simulation.state().kinematics, &mut self.values);
+        self.signs.resize(self.values.len(), 0);
+        let mut have_changed = false;
+        for (sign, value) in self.signs.iter_mut().zip(&self.values) {
+            let own = if *value > 0.0 { 1 } else { -1 };
+            have_changed |= *sign == -own;
+            *sign = own;
+        }
+        have_changed
+    }
+}
+
+/// What is differentiated, of which model.
+type Asked<'a> = (&'a Model, &'a [Override], &'a Target);
+
+/// Largest error of a step in runs that are compared.
+const TOLERANCE_OF_RUNS: f64 = 1e-9;
+
+/// A run with other values of the numbers at `paths`.
+fn run(
+    (model, overrides, target): Asked<'_>,
+    values: impl Iterator<Item = (String, f64)>,
+    column: usize,
+    tolerance: Option<f64>,
+) -> Result<Course, GradientError> {
+    let mut changed = overrides.to_vec();
+    changed.extend(values.map(|(path, value)| (path, format!("{value:?}"))));
+    let mut document = prepared(model, &changed, target)?;
+    if let (AnalysisKind::Dynamics { control: Some(control), .. }, Some(tolerance)) =
+        (&mut document.analysis.kind, tolerance)
+    {
+        control.relative_tolerance = control.relative_tolerance.min(tolerance);
+    }
+    let mut session = Session::new(&document)?;
+    let mut course = Course::new(target.measure);
+    let mut nothing = |_| Vec::new();
+    course.note(&session, column, &mut nothing);
+    while !session.is_finished() {
+        session.advance()?;
+        course.note(&session, column, &mut nothing);
+    }
+    Ok(course)
+}
+
+/// Derivatives of a measure by numbers where forces switch during the run.
+fn across_switches(
+    asked: Asked<'_>,
+    column: usize,
+    numbers: Vec<(String, f64)>,
+    began: Instant,
+) -> Result<GradientReport, GradientError> {
+    let tolerance = Some(TOLERANCE_OF_RUNS);
+    let own = run(asked, std::iter::empty(), column, tolerance)?;
+    let (value, time, _) = own.measured();
+    let (mut derivatives, mut missed, mut runs) = (Vec::new(), 0.0_f64, 0);
+    for (path, number) in numbers {
+        let mut measure = |value: f64| {
+            let changed = std::iter::once((path.clone(), value));
+            Ok(run(asked, changed, column, tolerance)?.measured().0)
+        };
+        let found = by_runs(&path, number, own.largest(), &mut measure)?;
+        missed = missed.max(found.missed);
+        runs += found.runs;
+        derivatives.push(Derivative { path, number, value: found.value, method: Method::Runs });
+    }
+    Ok(GradientReport {
+        value,
+        time,
+        derivatives,
+        steps: own.steps(),
+        corrections: 0,
+        confirmation: Some(Confirmation::Confirmed { missed, runs }),
+        wall: began.elapsed(),
+    })
+}
+
+/// Compares derivatives with runs of neighbouring models.
 fn confirmed(
-    (model, overrides, target): (&Model, &[Override], &Target),
+    asked: Asked<'_>,
     column: usize,
     values: (f64, f64),
     derivatives: &[Derivative],
 ) -> Result<Option<Confirmation>, GradientError> {
-    let known: Vec<&Derivative> = derivatives.iter().filter(|of| of.is_carried).collect();
-    if known.is_empty() {
-        return Ok(None);
-    }
     let carried: Vec<Carried> =
-        known.iter().map(|of| Carried { number: of.number, derivative: of.value }).collect();
+        derivatives.iter().map(|of| Carried { number: of.number, derivative: of.value }).collect();
     let mut measure = |changes: &[f64]| {
-        let mut changed = overrides.to_vec();
-        let values = known.iter().zip(changes);
-        changed.extend(values.map(|(of, change)| (of.path.clone(), format!("{:?}", of.number + change))));
-        let mut session = Session::new(&prepared(model, &changed, target)?)?;
-        let mut course = Course::new(target.measure);
-        let mut nothing = |_| Vec::new();
-        course.note(&session, column, &mut nothing);
-        while !session.is_finished() {
-            session.advance()?;
-            course.note(&session, column, &mut nothing);
-        }
-        Ok(course.measured().0)
+        let changed =
+            derivatives.iter().zip(changes).map(|(of, change)| (of.path.clone(), of.number + change));
+        Ok(run(asked, changed, column, None)?.measured().0)
     };
     confirm(&carried, values, &mut measure).map(Some)
 }
@@ -320,10 +440,16 @@ impl GradientReport {
 
     /// A reason to doubt the derivatives, if there is one, after its code.
     pub fn doubt(&self) -> Option<&'static str> {
-        matches!(self.confirmation, Some(Confirmation::Untold { .. })).then_some(
-            "gradient-unconfirmed: runs of the model with numbers changed a little neither confirm nor deny the derivatives: the output changes by \
-             less than is left of a run, or not smoothly",
-        )
+        match self.confirmation {
+            Some(Confirmation::Confirmed { .. }) => None,
+            Some(Confirmation::Untold { .. }) => Some(
+                "gradient-unconfirmed: runs of the model with numbers changed a little neither confirm nor deny the derivatives: the output changes by \
+                 less than is left of a run, or not smoothly",
+            ),
+            None => Some(
+                "gradient-unconfirmed: the derivatives were not compared with runs of the model with numbers changed a little",
+            ),
+        }
     }
 
     /// The facts of `summary.json`.
@@ -334,10 +460,7 @@ impl GradientReport {
         tell("of", json!(of));
         tell("value", json!(self.value));
         tell("time", json!(self.time));
-        let derivative = |of: &Derivative| {
-            let way = if of.is_carried { "carried" } else { "neighbours" };
-            json!({ "path": of.path, "number": of.number, "derivative": of.value, "way": way })
-        };
+        let derivative = |of: &Derivative| json!({ "path": of.path, "number": of.number, "derivative": of.value, "way": of.method.name() });
         tell("derivatives", self.derivatives.iter().map(derivative).collect());
         tell("steps", json!(self.steps));
         tell("corrections", json!(self.corrections));
