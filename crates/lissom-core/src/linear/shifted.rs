@@ -11,7 +11,7 @@ use lissom_solver::{
 };
 use num_complex::Complex64;
 
-use crate::analysis::compliance::Compliance;
+use crate::analysis::compliance::{Compliance, Refinement};
 use crate::equilibration::Equilibration;
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
@@ -22,73 +22,6 @@ pub(super) const SMALL: f64 = 1e-6;
 
 /// The pivot of a redundant constraint's multiplier is this part of the terms it is made of, or less.
 const REDUNDANT: f64 = 1e-12;
-
-/// Corrections of a solution whose factors have the compliance of redundant constraints, at most …
-const MAX_REFINEMENTS: usize = 40;
-/// … and the part of the right-hand side, per row, below which the residual is round-off.
-const RESIDUAL: f64 = 1e-15;
-/// The least reduction of the residual by a correction that is worth another one.
-const REDUCTION: f64 = 0.5;
-
-/// Iterative refinement of solutions with the matrix of redundant constraints, whose factors have a compliance in them. The
-/// right-hand sides of the constraints are consistent, so that the solution without the compliance exists.
-struct Refinement<S> {
-    is_needed: bool,
-    values: Vec<S>,
-    right: Vec<S>,
-    residual: Vec<S>,
-    solution: Vec<S>,
-}
-
-impl<S: Scalar> Refinement<S> {
-    fn new() -> Self {
-        let empty = Vec::new;
-        Self { is_needed: false, values: empty(), right: empty(), residual: empty(), solution: empty() }
-    }
-
-    /// Stores the matrix before the compliance enters it.
-    fn start(&mut self, values: &[S]) {
-        self.is_needed = true;
-        self.values.clear();
-        self.values.extend_from_slice(values);
-    }
-
-    /// Solves in place.
-    fn solve(&mut self, pattern: &Pattern, right: &mut [S], mut solve: impl FnMut(&mut [S])) {
-        if !self.is_needed {
-            return solve(right);
-        }
-        self.right.clear();
-        self.right.extend_from_slice(right);
-        self.residual.clear();
-        self.residual.extend_from_slice(right);
-        self.solution.clear();
-        self.solution.resize(right.len(), S::zero());
-        let size = |values: &[S]| values.iter().fold(0.0_f64, |most, value| most.max(value.magnitude()));
-        let mut last = size(right);
-        let enough = RESIDUAL * last;
-        for _ in 0..MAX_REFINEMENTS {
-            solve(&mut self.residual);
-            for (value, &change) in self.solution.iter_mut().zip(&self.residual) {
-                *value += change;
-            }
-            self.residual.copy_from_slice(&self.right);
-            for (column, &factor) in self.solution.iter().enumerate() {
-                let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
-                for (&row, &value) in pattern.row_indices()[range.clone()].iter().zip(&self.values[range]) {
-                    self.residual[row] += S::zero() - factor * value;
-                }
-            }
-            let rest = size(&self.residual);
-            // Also left where the residual is not a number.
-            if !(rest > enough && rest <= REDUCTION * last) {
-                break;
-            }
-            last = rest;
-        }
-        right.copy_from_slice(&self.solution);
-    }
-}
 
 /// Solves with K - λ M and the constraints, symmetric, for a real λ = s².
 pub(super) struct RealShift<'a> {
@@ -135,7 +68,7 @@ impl<'a> RealShift<'a> {
         let count = self.system.layout().coordinate_count();
         self.equilibration.apply(pattern, &mut self.values);
         let mut report = self.solver.factor(&self.values);
-        self.refinement.is_needed = false;
+        self.refinement.stop();
         if repeats(&report, count) {
             self.refinement.start(&self.values);
             let mut compliance = Compliance::new(pattern, count);
@@ -233,7 +166,7 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
         let count = self.system.layout().coordinate_count();
         self.equilibration.apply(pattern, &mut self.values);
         let mut report = self.solver.factor(&self.values);
-        self.refinement.is_needed = false;
+        self.refinement.stop();
         if repeats(&report, count) {
             self.refinement.start(&self.values);
             let mut compliance = Compliance::new(pattern, count);
@@ -257,7 +190,7 @@ impl<'a, S: Shift> GeneralShift<'a, S> {
 
     /// Whether constraints repeat each other in the matrix that was factored.
     pub(super) fn has_redundant_constraints(&self) -> bool {
-        self.refinement.is_needed
+        self.refinement.is_needed()
     }
 
     /// What brings rows in SI to the size of the matrix that is factored.

@@ -4,10 +4,10 @@
 use std::sync::Arc;
 
 use lissom_motion::{Motion, Vector6};
-use lissom_solver::{FactorError, FactorReport, LinearSolver};
+use lissom_solver::{FactorError, FactorReport, LinearSolver, Pattern};
 
 use super::super::StepError;
-use super::super::compliance::Compliance;
+use super::super::compliance::{Compliance, Refinement};
 use super::super::step_error::{NO_STEP_HELPS, pivot_hint};
 use super::super::workspace::sizes;
 use super::systems::PathSystems;
@@ -30,6 +30,9 @@ const INVERSE_ITERATIONS: usize = 4;
 
 /// Violations below this, of angles and of parts of the model's length, are round-off.
 const ROUND_OFF: f64 = 1e-14;
+
+/// Entries of the equilibrated tangent that differ from their mirror images by more have no energy.
+const UNEQUAL: f64 = 1e-7;
 
 /// The equation for the load factor.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +58,9 @@ pub(super) struct PathWork {
     solver: Box<dyn LinearSolver<f64>>,
     equilibration: Equilibration,
     compliance: Option<Compliance>,
+    refinement: Refinement<f64>,
+    /// Whether the tangent factored last is symmetric: without that its negative pivots count nothing but the sign of its determinant.
+    is_symmetric: bool,
     values: Vec<f64>,
     other_values: Vec<f64>,
     scratch: Scratch,
@@ -108,6 +114,8 @@ impl PathWork {
             solver: (settings.solver.real)(loaded.structure()),
             equilibration: Equilibration::new(size, count),
             compliance: None,
+            refinement: Refinement::new(),
+            is_symmetric: true,
             values: vec![0.0; entries],
             other_values: vec![0.0; entries],
             scratch: Scratch::default(),
@@ -172,6 +180,19 @@ impl PathWork {
             if scaled <= most { most } else { scaled }
         })
     }
+}
+
+/// Whether the rows and columns of the coordinates, those before `count`, of equilibrated values on `pattern` are symmetric: loads that
+/// follow the motion have no energy, and their tangent is not.
+fn is_symmetric(pattern: &Pattern, values: &[f64], count: usize) -> bool {
+    (0..count).all(|column| {
+        let range = pattern.column_starts()[column]..pattern.column_starts()[column + 1];
+        let entries = pattern.row_indices()[range.clone()].iter().zip(&values[range]);
+        entries.filter(|&(&row, _)| row > column && row < count).all(|(&row, &value)| {
+            let mirror = pattern.position(column, row).map_or(0.0, |at| values[at]);
+            (value - mirror).abs() <= UNEQUAL
+        })
+    })
 }
 
 /// One step from `start`.
@@ -345,7 +366,9 @@ impl PathEquations<'_> {
         (work.values, work.other_values, work.scratch) = (values, other, scratch);
         let pattern = &system.structure().pattern;
         work.equilibration.apply(pattern, &mut work.values);
+        work.is_symmetric = is_symmetric(pattern, &work.values, count);
         if let Some(compliance) = &mut work.compliance {
+            work.refinement.start(&work.values);
             compliance.enter(work.scaled.scale(), Some(&work.equilibration), &mut work.values);
         }
         let mut result = work.solver.factor(&work.values);
@@ -354,6 +377,7 @@ impl PathEquations<'_> {
             && work.compliance.is_none()
         {
             let mut compliance = Compliance::new(pattern, count);
+            work.refinement.start(&work.values);
             compliance.enter(work.scaled.scale(), Some(&work.equilibration), &mut work.values);
             work.compliance = Some(compliance);
             result = work.solver.factor(&work.values);
@@ -373,7 +397,8 @@ impl PathEquations<'_> {
         let work = &mut *self.work;
         work.scaled.scale_residual(self.systems.any().layout(), right);
         work.equilibration.scale(right);
-        work.solver.solve(right);
+        let pattern = &self.systems.any().structure().pattern;
+        work.refinement.solve(pattern, right, |right| work.solver.solve(right));
         work.equilibration.scale(right);
     }
 
@@ -403,6 +428,9 @@ impl PathEquations<'_> {
         tangent.turn = work.largest(&tangent.direction[..count]);
         let negative = work.report.and_then(|report| report.negative_pivots).unwrap_or(multiplier_count);
         tangent.unstable = negative.saturating_sub(multiplier_count);
+        if !work.is_symmetric {
+            tangent.unstable = (negative + multiplier_count) % 2;
+        }
         if let Some(before) = self.tangent
             && work.inner(&before.direction, &tangent.direction) < 0.0
         {
