@@ -135,12 +135,21 @@ impl Line {
         Matrix3::from_columns(&[along, second * cosine + third * sine, third * cosine - second * sine])
     }
 
+    /// Where the line runs along `up`, if anywhere. There axis 3, which leans to `up`, changes to the other side.
+    pub(crate) fn parallel_at(&self, up: &Vector3) -> Option<f64> {
+        let mut before: Option<Vector3> = None;
+        (0..=SAMPLES).map(|i| f64::from(i) / f64::from(SAMPLES)).find(|&s| {
+            let tangent = self.derivative(s);
+            let along = tangent.normalize();
+            let across = up - along * along.dot(up);
+            let turns = before.replace(across).is_some_and(|before| before.dot(&across) <= 0.0);
+            turns || are_parallel(&tangent, up)
+        })
+    }
+
     /// Whether the line runs along `up` somewhere.
     pub(crate) fn is_parallel_somewhere(&self, up: &Vector3) -> bool {
-        (0..=SAMPLES).any(|i| {
-            let tangent = self.derivative(f64::from(i) / f64::from(SAMPLES));
-            are_parallel(&tangent, up)
-        })
+        self.parallel_at(up).is_some()
     }
 
     /// Where the line stands still or has no place, if anywhere.

@@ -293,7 +293,18 @@ fn finish(context: &Context<'_>, draft: Draft, line: Line) -> Option<Beam> {
     let up = match draft.up {
         // The same direction in each of many parts, however they are turned.
         None => {
-            let inside = line.clone().moved(&draft.frame.inverse()).default_up();
+            let own = line.clone().moved(&draft.frame.inverse());
+            let inside = own.default_up();
+            if let Some(s) = own.parallel_at(&inside) {
+                let message = format!(
+                    "beam `{}` has no default for `up`: its line runs along x, y and z, where axis 3 would flip to the other side",
+                    draft.name.value
+                );
+                let help = format!(
+                    "give it an `up` that is nowhere along the line; the default is z, parallel near s = {s:.3}"
+                );
+                return context.fail(draft.line_span, message, help);
+            }
             if draft.frame.rotation == Rotation::IDENTITY {
                 inside
             } else {
@@ -301,7 +312,13 @@ fn finish(context: &Context<'_>, draft: Draft, line: Line) -> Option<Beam> {
             }
         }
         Some(up) if line.is_parallel_somewhere(&up.value) => {
-            let message = format!("`up` of beam `{}` is parallel to the beam", draft.name.value);
+            let message = match line.parallel_at(&up.value) {
+                Some(s) if s > 0.0 => format!(
+                    "`up` of beam `{}` is parallel to the beam near s = {s:.3}, where axis 3 would flip to the other side",
+                    draft.name.value
+                ),
+                _ => format!("`up` of beam `{}` is parallel to the beam", draft.name.value),
+            };
             let problem = Problem::error(up.span, message).label("along the beam");
             context.tell(
                 problem.help("axis 3 leans to `up`: choose a direction across the beam, or leave it out"),
