@@ -59,6 +59,9 @@ const SUFFICIENT: f64 = 1e-9;
 /// trapezoidal rule follows badly, as with all of a load at once, misses up to a third.
 const JUMP: f64 = 0.6;
 
+/// Energy that the first load step may release, over what a linear model says of it.
+const RELEASED: f64 = 4.0;
+
 /// A system on its way through time.
 pub struct Simulation {
     pub(crate) system: Arc<System>,
@@ -120,6 +123,8 @@ pub struct Simulation {
     pub(crate) accumulation: Accumulation,
     /// Whether the workspace still holds the step that led to the state.
     pub(crate) is_last_step_known: bool,
+    /// Energy that the first load step releases because its start is no equilibrium [J].
+    released: f64,
     /// Whether a first load step without solution is looked for by relaxation, which takes load steps itself.
     pub(super) may_relax: bool,
 }
@@ -140,7 +145,8 @@ impl Simulation {
         Ok(simulation)
     }
 
-    /// As [`new`](Self::new); with `known` representative values, where they are not those of `state`.
+    /// As [`new`](Self::new); with `known` representative values, where they are not those of `state`. The multipliers of `state` stay
+    /// then.
     pub(crate) fn start(
         system: Arc<System>,
         state: State,
@@ -158,19 +164,24 @@ impl Simulation {
         });
         let mut velocity_correction = 0.0;
         let mut held_values = None;
+        let mut released = 0.0;
         if settings.scheme.dynamic {
             let mut initial = Initial::new(&system, &state, &representative, pivoting_unless(&settings));
             let given = state.kinematics.clone();
             velocity_correction = initial.given_velocities(&system, &mut state)?;
             let rates = initial.constraint_rates(&system, &state);
-            let largest = representative.largest_speed(&system, &state.kinematics);
-            judge::start::rates(&system, &representative, (&rates, largest))?;
-            let doubts = judge::start::velocities(&system, &representative, &given, &state.kinematics)?;
+            // Beside given velocities of which nothing remains, what remains is round-off of theirs.
+            let [told, used] =
+                [&given, &state.kinematics].map(|at| representative.largest_speed(&system, at));
+            let negligible = judge::start::negligible(&representative, settings.step_size);
+            judge::start::rates(&system, &representative, (&rates, told.max(used), negligible))?;
+            let doubts =
+                judge::start::velocities(&system, &representative, &given, &state.kinematics, negligible)?;
             warnings.extend(doubts);
             settle(&system, &mut state, &mut initial, &settings)?;
             held_values = may_jump(&system, &state).then_some(initial);
-        } else {
-            equilibrium::hold_start(&system, &mut state, settings.solver);
+        } else if known.is_none() {
+            released = equilibrium::hold_start(&system, &mut state, settings.solver);
         }
         state.violations = vec![0.0; system.layout().multiplier_count];
         system.violations(&state.kinematics, &mut state.violations);
@@ -208,6 +219,7 @@ impl Simulation {
         watch.hold_sides(&system, &mut state.kinematics);
         let is_planned = settings.scheme.dynamic && controller.is_none();
         Ok(Self {
+            released,
             impacts: if is_planned { Impacts::new(&system, &state.kinematics) } else { Impacts::default() },
             resolution: Resolution::new(if is_planned { system.layout().coordinate_count() } else { 0 }),
             constraint_rates: ConstraintRates::new(&system, &state.kinematics),
@@ -484,7 +496,14 @@ impl Simulation {
             return;
         }
         let missing = after.missing_work(before);
-        if missing > JUMP {
+        // A start that is no equilibrium, as one with prestress, releases energy that no load has put in.
+        let is_release =
+            self.totals.steps == 0 && after.unexplained_work(before).abs() <= RELEASED * self.released;
+        // Relaxation leaves the path, and has a warning of its own.
+        let is_relaxed = self.warnings.iter().any(
+            |warning| matches!(warning, Warning::Relaxed { time, .. } if *time == self.next.kinematics.time),
+        );
+        if missing > JUMP && !is_release && !is_relaxed {
             let start = self.state.kinematics.time;
             let work = after.loads + after.drives - before.loads - before.drives;
             warn(&mut self.warnings, Warning::Jump { start, time, work: missing * work.abs() });

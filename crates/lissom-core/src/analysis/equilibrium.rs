@@ -17,18 +17,19 @@ use crate::system::{State, System};
 const HELD: f64 = 1e-9;
 
 /// Gives the start of load steps the multipliers that hold it, where loads act at once and constraints alone bear them: it is an
-/// equilibrium then, whose reactions are told and whose work begins with them.
-pub(crate) fn hold_start(system: &System, state: &mut State, solver: &SolverKind) {
+/// equilibrium then, whose reactions are told and whose work begins with them. Otherwise gives the energy that the unbalanced forces
+/// release on the way to equilibrium, by the linear model [J].
+pub(crate) fn hold_start(system: &System, state: &mut State, solver: &SolverKind) -> f64 {
     let mut still = state.clone();
     for node in &mut still.kinematics.nodes {
         node.twist.fill(0.0);
     }
-    if let Ok(model) = LinearModel::of(system, &still, solver)
-        && model.imbalance() <= HELD
-        && model.multipliers().iter().all(|value| value.is_finite())
-    {
-        state.multipliers.copy_from_slice(model.multipliers());
+    let Ok(model) = LinearModel::of(system, &still, solver) else { return 0.0 };
+    if model.imbalance() > HELD || !model.multipliers().iter().all(|value| value.is_finite()) {
+        return model.released_energy();
     }
+    state.multipliers.copy_from_slice(model.multipliers());
+    0.0
 }
 
 /// Moves a motion's start into equilibrium, where that is asked for.

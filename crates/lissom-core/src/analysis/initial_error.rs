@@ -47,13 +47,12 @@ pub enum InitialError {
         given: String,
     },
     /// Drives or joints ask for different velocities.
-    #[error(
-        "at the start {violated} contradict each other: no velocities satisfy them all, because two drives prescribe the \
-         same motion differently, or one prescribes what the joints exclude; remove one, or change what is prescribed"
-    )]
+    #[error("at the start {violated} contradict each other: no velocities satisfy them all, {cause}")]
     RatesContradict {
         /// Names of the constraints.
         violated: String,
+        /// The cause, and what to try.
+        cause: &'static str,
     },
     /// Normal forces and the creep forces that they allow do not agree.
     #[error(

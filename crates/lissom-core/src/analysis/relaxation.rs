@@ -9,10 +9,12 @@ use std::sync::Arc;
 use super::dynamics::{Settings, Simulation, warn};
 use super::step_error::StepError;
 use crate::judge::Warning;
+use crate::mechanisms::Mechanism;
 use crate::newton::Memory;
+use crate::scaling::Representative;
 use crate::schemes::relaxation::relaxation;
 use crate::schemes::statics;
-use crate::system::{Kinematics, State, System};
+use crate::system::{Kinematics, Linearization, State, System};
 
 /// Steps until there is no equilibrium to be found.
 const MOST_STEPS: usize = 300;
@@ -25,7 +27,11 @@ const NEAR: f64 = 0.1;
 const FAR: f64 = 1e3;
 /// The first step, in units of the time √(m/k) of the stiffest parts.
 const FIRST: f64 = 10.0;
-/// The next step over the last, and the same after a step that had to be taken in parts.
+/// Iterations of a step, which is tried again shorter if they are not enough.
+const ITERATIONS: usize = 15;
+/// Steps without solution until there is no equilibrium to be found.
+const MOST_FAILURES: usize = 60;
+/// The next step over the last, and the same after a step without solution.
 const LONGER: f64 = 2.0;
 const SHORTER: f64 = 0.125;
 
@@ -47,22 +53,26 @@ pub(crate) fn relax(
 ) -> Option<(State, Vec<Warning>)> {
     let mut settings =
         Settings { scheme: relaxation(), control: None, from_equilibrium: false, ..settings.clone() };
+    // A shorter step costs less than iterations that do not lead to the end of a long one, and than its parts.
+    settings.limits.max_iterations = settings.limits.max_iterations.min(ITERATIONS);
+    settings.limits.without = settings.limits.without.and(Mechanism::Parts);
     let mut reached = state.clone();
-    let mut next_step = None;
+    let mut failures = 0;
+    let unloaded = Linearization::of_state(system, &state.kinematics);
+    let representative = Representative::of(system, &state.kinematics, &unloaded);
+    let length = representative.length;
+    let shortest = (representative.mass / representative.stiffness).sqrt();
+    let mut step_size = if shortest.is_finite() && shortest > 0.0 { FIRST * shortest } else { 1e-3 };
     for _ in 0..MOST_STEPS {
         settings.scheme = relaxation();
-        settings.step_size = next_step.unwrap_or(1.0);
-        let mut simulation = begin(system, &reached, &settings, time)?;
-        let representative = *simulation.representative();
-        let length = representative.length;
-        if next_step.is_none() {
-            let shortest = (representative.mass / representative.stiffness).sqrt();
-            settings.step_size = if shortest.is_finite() && shortest > 0.0 { FIRST * shortest } else { 1e-3 };
-            simulation = begin(system, &reached, &settings, time)?;
-        }
-        let step_size = settings.step_size;
-        let Ok(report) = simulation.step() else {
-            next_step = Some(SHORTER * step_size);
+        settings.step_size = step_size;
+        let mut simulation = begin(system, &reached, &settings, &representative, time)?;
+        let Ok(_) = simulation.step() else {
+            step_size *= SHORTER;
+            failures += 1;
+            if failures > MOST_FAILURES {
+                return None;
+            }
             continue;
         };
         let moved = distance(&reached.kinematics, &simulation.state().kinematics);
@@ -70,13 +80,13 @@ pub(crate) fn relax(
             return None;
         }
         reached = simulation.state().clone();
-        next_step = Some(step_size * if report.parts == 1 { LONGER } else { 1.0 });
+        step_size *= LONGER;
         if moved > SLOW * length {
             continue;
         }
         settings.scheme = statics::statics();
         settings.step_size = 1.0;
-        let mut last = begin(system, &reached, &settings, time)?;
+        let mut last = begin(system, &reached, &settings, &representative, time)?;
         if last.step().is_ok() && distance(&reached.kinematics, &last.state().kinematics) <= NEAR * length {
             let distance = distance(&state.kinematics, &last.state().kinematics);
             let is_instability = |warning: &&Warning| matches!(warning, Warning::Unstable { .. });
@@ -111,7 +121,13 @@ impl Simulation {
 }
 
 /// A step of the settings' size that ends at `time` begins at rest.
-fn begin(system: &Arc<System>, state: &State, settings: &Settings, time: f64) -> Option<Simulation> {
+fn begin(
+    system: &Arc<System>,
+    state: &State,
+    settings: &Settings,
+    representative: &Representative,
+    time: f64,
+) -> Option<Simulation> {
     let mut state = state.clone();
     state.kinematics.time = time - settings.step_size;
     state.time_remainder = 0.0;
@@ -122,7 +138,8 @@ fn begin(system: &Arc<System>, state: &State, settings: &Settings, time: f64) ->
     for coordinate in &mut state.kinematics.coordinates {
         (coordinate.rate, coordinate.acceleration) = (0.0, 0.0);
     }
-    let mut simulation = Simulation::new(Arc::clone(system), state, settings.clone()).ok()?;
+    let mut simulation =
+        Simulation::start(Arc::clone(system), state, settings.clone(), Some(representative)).ok()?;
     simulation.may_relax = false;
     Some(simulation)
 }

@@ -64,7 +64,7 @@ impl InitialError {
             Self::ZeroPivot { unknown, .. } | Self::NotFinite { unknown } => named(unknown),
             Self::StateInStatics(words) | Self::Free { free: words } => named(words),
             Self::VelocityImpossible { part, .. } => Some(part.as_str()),
-            Self::RatesContradict { violated } => named(violated),
+            Self::RatesContradict { violated, .. } => named(violated),
             Self::NormalForces { .. } => None,
         };
         Whereabouts { time: None, part }

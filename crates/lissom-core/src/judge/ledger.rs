@@ -201,4 +201,10 @@ impl Ledger {
         let turned_over = stored.abs() + loads.abs() + drives.abs();
         (stored - loads - drives).abs() / (turned_over + self.least_known())
     }
+
+    /// The energy stored in the last load step beyond the work done in it [J].
+    pub(crate) fn unexplained_work(&self, before: &Self) -> f64 {
+        let stored = self.energy.strain - before.energy.strain;
+        stored - (self.loads - before.loads) - (self.drives - before.drives)
+    }
 }

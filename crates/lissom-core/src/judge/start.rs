@@ -23,6 +23,11 @@ const JOLT: f64 = 1e-3;
 /// Deformation rates below are round-off of a model at rest [1/s].
 const STILL: f64 = 1e-9;
 
+/// Speeds that move nothing by more than the round-off of places in a step of `step_size` [s].
+pub(crate) fn negligible(representative: &Representative, step_size: f64) -> f64 {
+    f64::EPSILON * representative.length / step_size
+}
+
 /// Speed of a node, a turn counting as that of an arc at `length`.
 fn speed(twist: &lissom_motion::Vector6, length: f64) -> f64 {
     let (velocity, angular) = split(twist);
@@ -38,8 +43,12 @@ pub(crate) fn velocities(
     representative: &Representative,
     told: &Kinematics,
     used: &Kinematics,
+    negligible: f64,
 ) -> Result<Vec<Warning>, InitialError> {
     let length = representative.length;
+    if representative.largest_speed(system, told) <= negligible {
+        return Ok(Vec::new());
+    }
     let given = &told.nodes;
     let largest = given.iter().chain(&used.nodes).map(|node| speed(&node.twist, length)).fold(0.0, f64::max);
     let of_coordinates = rates_of_coordinates(system, (length, largest), told, used)?;
@@ -121,7 +130,7 @@ fn words(node: &NodeMotion) -> String {
 pub(crate) fn rates(
     system: &System,
     representative: &Representative,
-    (rates, largest): (&[f64], f64),
+    (rates, largest, negligible): (&[f64], f64, f64),
 ) -> Result<(), InitialError> {
     let layout = system.layout();
     let quantities = &layout.quantities()[layout.coordinate_count()..];
@@ -130,7 +139,7 @@ pub(crate) fn rates(
         Quantity::Angle => rates[k].abs() * representative.length,
     };
     let worst = (0..rates.len()).map(relative).fold(0.0, f64::max);
-    if worst <= LARGEST_RATE * largest {
+    if worst <= (LARGEST_RATE * largest).max(negligible) {
         return Ok(());
     }
     let mut violated: Vec<String> = Vec::new();
@@ -141,7 +150,13 @@ pub(crate) fn rates(
             violated.push(name);
         }
     }
-    Err(InitialError::RatesContradict { violated: violated.join(", ") })
+    let cause = if system.drives().is_empty() {
+        "because the joints exclude each other's motion; remove one, or look at their axes"
+    } else {
+        "because two drives prescribe the same motion differently, or one prescribes what the joints exclude; remove one, or change \
+         what is prescribed"
+    };
+    Err(InitialError::RatesContradict { violated: violated.join(", "), cause })
 }
 
 impl Representative {

@@ -94,6 +94,7 @@ pub struct LinearModel<'a> {
     pub(super) is_conservative: bool,
     is_at_rest: bool,
     imbalance: f64,
+    released: f64,
     unsteadiness: f64,
     multipliers: Vec<f64>,
     /// What finds accelerations.
@@ -127,7 +128,7 @@ impl<'a> LinearModel<'a> {
         let unloaded = Linearization::of_state(system, &state.kinematics);
         let representative = Representative::of(system, &state.kinematics, &unloaded);
         let time = state.kinematics.time;
-        let (mut imbalance, mut unsteadiness) = (0.0, 0.0);
+        let ([mut imbalance, mut released], mut unsteadiness) = ([0.0; 2], 0.0);
         if is_at_rest {
             for node in &mut state.kinematics.nodes {
                 node.acceleration.fill(0.0);
@@ -135,7 +136,7 @@ impl<'a> LinearModel<'a> {
             for coordinate in &mut state.kinematics.coordinates {
                 coordinate.acceleration = 0.0;
             }
-            imbalance = hold(system, &mut state, &unloaded, &representative, &zeros)?;
+            [imbalance, released] = hold(system, &mut state, &unloaded, &representative, &zeros)?;
         } else {
             let mut initial = Initial::new(system, &state, &representative, solver);
             initial
@@ -166,6 +167,7 @@ impl<'a> LinearModel<'a> {
             is_conservative,
             is_at_rest,
             imbalance,
+            released,
             unsteadiness,
             multipliers: state.multipliers,
             solver,
@@ -188,6 +190,7 @@ impl<'a> LinearModel<'a> {
             is_conservative: false,
             is_at_rest: self.is_at_rest,
             imbalance: self.imbalance,
+            released: self.released,
             unsteadiness: self.unsteadiness,
             multipliers: self.multipliers.clone(),
             solver: self.solver,
@@ -256,6 +259,11 @@ impl<'a> LinearModel<'a> {
     /// unbalanced forces cause [-]. Zero for a moving state.
     pub fn imbalance(&self) -> f64 {
         self.imbalance
+    }
+
+    /// Energy that the unbalanced forces of a state at rest release on their way to equilibrium [J].
+    pub(crate) fn released_energy(&self) -> f64 {
+        self.released
     }
 
     /// How fast the twists of a moving state change in the axes of their nodes, relative to how fast they turn [-]: zero in a
@@ -381,14 +389,14 @@ impl<'a> Holding<'a> {
     }
 }
 
-/// Multipliers that hold a state at rest, from a solve with stiffness and mass; gives what is left as a displacement.
+/// Multipliers that hold a state at rest, from a solve with stiffness and mass; gives what is left as a displacement, and its energy.
 fn hold(
     system: &System,
     state: &mut State,
     unloaded: &Linearization,
     representative: &Representative,
     zeros: &[f64],
-) -> Result<f64, LinearError> {
+) -> Result<[f64; 2], LinearError> {
     let time = state.kinematics.time;
     let layout = system.layout();
     let count = layout.coordinate_count();
@@ -407,8 +415,9 @@ fn hold(
     }
     let (still, unchanged) = nothing(&state.kinematics);
     let mut residual = vec![0.0; layout.size()];
+    let mut forces = vec![0.0; count];
     state.multipliers.fill(0.0);
-    let mut imbalance = 0.0;
+    let (mut imbalance, mut released) = (0.0, 0.0);
     // Refined: multipliers are as exact as forces.
     for _ in 0..3 {
         state.kinematics.show_multipliers(&state.multipliers);
@@ -416,14 +425,16 @@ fn hold(
         system.residual(&at, &mut residual);
         // Places stay: violations are none of the state's concern here.
         residual[count..].fill(0.0);
+        forces.copy_from_slice(&residual[..count]);
         solver.solve(&mut residual, count);
+        released = 0.5 * forces.iter().zip(&residual).map(|(force, way)| force * way).sum::<f64>().abs();
         for (multiplier, change) in state.multipliers.iter_mut().zip(&residual[count..]) {
             *multiplier -= change;
         }
         let displacements = residual[..count].iter().zip(&units);
         imbalance = displacements.fold(0.0_f64, |most, (value, unit)| most.max((value * unit).abs()));
     }
-    Ok(imbalance)
+    Ok([imbalance, released])
 }
 
 /// Largest change of a twist in its node's axes against the squares of the rates there are.
