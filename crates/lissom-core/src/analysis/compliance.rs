@@ -129,6 +129,15 @@ impl Compliance {
         }
     }
 
+    /// Violations that the compliance would allow at these multipliers, likewise.
+    pub(crate) fn allowances<'a>(
+        &'a self,
+        factor: f64,
+        multipliers: &'a [f64],
+    ) -> impl Iterator<Item = f64> + 'a {
+        self.of.iter().zip(multipliers).map(move |(of, multiplier)| (of * multiplier / factor).abs())
+    }
+
     /// Lets residuals of the constraints yield to the multipliers; `factor` is what a scaled residual times a unit of
     /// the scaled multipliers is in SI.
     pub(crate) fn relax(&self, factor: f64, multipliers: &[f64], constraints: &mut [f64]) {

@@ -112,6 +112,8 @@ impl Simulation {
         self.resize(size)?;
         self.memory = Memory::default();
         self.next = reached;
+        // That of a step of unit length has lost digits.
+        self.next.kinematics.time = time;
         self.judge_step()?;
         for doubt in doubts {
             warn(&mut self.warnings, doubt);

@@ -152,16 +152,19 @@ impl LinearModel<'_> {
         let constrained = absolute(&self.parts.constraint, &displacements);
         let reactions = absolute(&self.parts.constraint, &multipliers);
         let weights = absolute(&self.parts.mass, &vec![self.system.gravity().norm(); size]);
+        let acting = |row: usize| zero[row].abs() + reactions[row] + weights[row];
+        // Levers cancel in moments about a node, whose terms are forces times positions.
+        let largest = (0..count).map(|row| acting(row) / self.unit_of(row)).fold(0.0, f64::max);
         (0..size)
             .map(|row| {
-                let terms = match (row < count, is_of_rate) {
-                    (true, false) => stiff[row],
-                    (true, true) => rate * damped[row] + BESIDE_DAMPING * stiff[row],
-                    (false, _) => constrained[row],
+                let (terms, forces) = match (row < count, is_of_rate) {
+                    (true, false) => (stiff[row], acting(row) + largest * self.unit_of(row)),
+                    (true, true) => (
+                        rate * damped[row] + BESIDE_DAMPING * stiff[row],
+                        acting(row) + largest * self.unit_of(row),
+                    ),
+                    (false, _) => (constrained[row], 1.0 / self.unit_of(row)),
                 };
-                let position = if row < count { 0.0 } else { 1.0 / self.unit_of(row) };
-                let forces =
-                    if row < count { zero[row].abs() + reactions[row] + weights[row] } else { position };
                 MATTERS * terms + ROUND_OFF * (forces + stiff[row]) / STEPS[2]
             })
             .collect()

@@ -519,11 +519,15 @@ impl Equations for PathEquations<'_> {
         rows.copy_from_slice(&self.work.residual);
         let count = self.systems.any().layout().coordinate_count();
         let work = &mut *self.work;
-        if work.compliance.is_some() {
+        if let Some(compliance) = &work.compliance {
             // The compliance is in the factors alone, and violations are corrected whole. What cannot be corrected, because
             // constraints repeat each other, is round-off, and would accumulate in the multipliers.
-            for (value, unit) in rows[count..].iter_mut().zip(&work.violation_sizes) {
-                if (*value * unit).abs() <= ROUND_OFF {
+            let factor = work.scaled.multiplier_factor() * work.scaled.scale();
+            let allowances = compliance.allowances(factor, &work.multipliers);
+            for ((value, unit), allowance) in
+                rows[count..].iter_mut().zip(&work.violation_sizes).zip(allowances)
+            {
+                if (*value * unit).abs() <= ROUND_OFF && value.abs() <= allowance {
                     *value = 0.0;
                 }
             }
