@@ -166,20 +166,8 @@ impl Simulation {
         let mut held_values = None;
         let mut released = 0.0;
         if settings.scheme.dynamic {
-            let mut initial = Initial::new(&system, &state, &representative, pivoting_unless(&settings));
-            let given = state.kinematics.clone();
-            velocity_correction = initial.given_velocities(&system, &mut state)?;
-            let rates = initial.constraint_rates(&system, &state);
-            // Beside given velocities of which nothing remains, what remains is round-off of theirs.
-            let [told, used] =
-                [&given, &state.kinematics].map(|at| representative.largest_speed(&system, at));
-            let negligible = judge::start::negligible(&representative, settings.step_size);
-            judge::start::rates(&system, &representative, (&rates, told.max(used), negligible))?;
-            let doubts =
-                judge::start::velocities(&system, &representative, &given, &state.kinematics, negligible)?;
-            warnings.extend(doubts);
-            settle(&system, &mut state, &mut initial, &settings)?;
-            held_values = may_jump(&system, &state).then_some(initial);
+            (velocity_correction, held_values) =
+                begin_motion(&system, &mut state, &representative, &settings, &mut warnings)?;
         } else if known.is_none() {
             released = equilibrium::hold_start(&system, &mut state, settings.solver);
         }
@@ -602,6 +590,29 @@ fn yielding(system: &System, singular: &SingularPositions) -> Option<(Compliance
     let multiplier = singular.first_repeating()?;
     let count = system.layout().coordinate_count();
     Some((Compliance::new(&system.structure().pattern, count), count + multiplier))
+}
+
+/// Makes velocities, accelerations and multipliers of a motion's start consistent. Gives the largest change of a velocity, and what finds
+/// accelerations where they may jump.
+fn begin_motion(
+    system: &System,
+    state: &mut State,
+    representative: &Representative,
+    settings: &Settings,
+    warnings: &mut Vec<Warning>,
+) -> Result<(f64, Option<Initial>), InitialError> {
+    let mut initial = Initial::new(system, state, representative, pivoting_unless(settings));
+    let given = state.kinematics.clone();
+    let velocity_correction = initial.given_velocities(system, state)?;
+    let rates = initial.constraint_rates(system, state);
+    // Beside given velocities of which nothing remains, what remains is round-off of theirs.
+    let [told, used] = [&given, &state.kinematics].map(|at| representative.largest_speed(system, at));
+    let negligible = judge::start::negligible(representative, settings.step_size);
+    judge::start::rates(system, representative, (&rates, told.max(used), negligible))?;
+    warnings.extend(judge::start::velocities(system, representative, &given, &state.kinematics, negligible)?);
+    settle(system, state, &mut initial, settings)?;
+    let held_values = may_jump(system, state).then_some(initial);
+    Ok((velocity_correction, held_values))
 }
 
 /// Whether accelerations may jump: with values that are held, and where functions of time do.
