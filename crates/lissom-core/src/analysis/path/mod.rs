@@ -483,8 +483,10 @@ impl EquilibriumPath {
         let cosine = self.work.inner(&self.tangent.direction, &found.tangent.direction);
         let changes = found.tangent.unstable.abs_diff(self.tangent.unstable);
         let turns = found.tangent.load_rate * self.tangent.load_rate < 0.0;
-        // A limit point changes the count by one: with another number of changes there is a bifurcation in the step as well.
-        let are_mixed = changes > 2 || (turns && changes != 1);
+        // A limit point changes the count by one: with another number of changes there is a bifurcation in the step as well. Along a
+        // number the model may have no stiffness that could change.
+        let is_along_loads = matches!(self.systems, PathSystems::Loads(_));
+        let are_mixed = changes > 2 || (turns && (changes == 2 || (changes == 0 && is_along_loads)));
         let is_long = self.control.is_long(size);
         if ArcControl::is_too_bent(cosine)
             || (is_long && (are_mixed || self.has_left_the_arc(&found, cosine)))
