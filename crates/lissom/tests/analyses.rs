@@ -11,7 +11,7 @@ use lissom::modes::{About, ModeReport, ModeRequest, modes};
 use lissom::path::PathEnd;
 use lissom::{Model, Override, Session};
 use lissom_core::analysis::path::CriticalKind;
-use paths::follow;
+use paths::{follow, near};
 
 const NEAR_GROWTH: &str = include_str!("defects/modes-near-growth.toml");
 const STIFF_BLADE: &str = include_str!("defects/stiff-blade.toml");
@@ -31,10 +31,6 @@ fn set(overrides: &[(&str, &str)]) -> Vec<Override> {
 fn find(text: &str, overrides: &[(&str, &str)], request: &ModeRequest) -> ModeReport {
     modes(&Model::from_text("model.toml", text), &set(overrides), request)
         .unwrap_or_else(|error| panic!("{error}"))
-}
-
-fn near(found: f64, exact: f64, tolerance: f64) {
-    assert!((found - exact).abs() <= tolerance * exact.abs(), "{found} for {exact}");
 }
 
 /// Eigenvalues of a chain of masses on a rail, in ascending order of size, by the companion matrix.

@@ -113,12 +113,8 @@ impl Run {
         let asked = (&task.model, &task.overrides[..], &document);
         match document.analysis.kind {
             AnalysisKind::Modes { .. } => {
-                return super::modes::report(
-                    asked,
-                    &ModeRequest::default(),
-                    &task.folder,
-                    (task.plots, self.quiet),
-                );
+                let shown = (task.plots, self.quiet);
+                return super::modes::report(asked, &ModeRequest::default(), &task.folder, shown);
             }
             AnalysisKind::Buckling { .. } => {
                 return super::buckling::report(asked, None, &task.folder, self.quiet);
