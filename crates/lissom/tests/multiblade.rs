@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use lissom::Model;
 use lissom::campbell::{CampbellRequest, campbell};
-use lissom::modes::{About, ModeRequest, ModesError, modes};
+use lissom::modes::{About, ModeRequest, modes};
 use num_complex::Complex64;
 
 const HINGE: f64 = 0.2;
