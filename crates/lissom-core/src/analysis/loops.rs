@@ -1,17 +1,19 @@
 //! Closed loops of joints: where else than in them constraints can repeat each other. The rest is taken away from the
 //! ends: a node that one joint alone holds, with this joint; a coordinate that one relation alone knows, with this
-//! relation.
+//! relation; a slider whose tip, or whose beams, nothing else holds.
 
 use nalgebra::DMatrix;
 
 use crate::joints::Quantity;
 use crate::joints::derivatives::{OWN, TIP};
+use crate::joints::slider;
 use crate::system::{Kinematics, LOCKED, System};
 
-/// Joints, drives and couplings that close loops with each other.
+/// Joints, sliders, drives and couplings that close loops with each other.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Loop {
     joints: Vec<usize>,
+    sliders: Vec<usize>,
     drives: Vec<usize>,
     couplings: Vec<usize>,
     /// Multiplier of every equation.
@@ -41,6 +43,12 @@ pub(crate) fn of(system: &System) -> Vec<Loop> {
                 found.joints.push(index);
                 found.multipliers.extend(joint.first_multiplier..joint.first_multiplier + joint.equations());
             }
+            Relation::Slider(index) => {
+                let slider = &system.sliders[index];
+                let first = slider.first_multiplier;
+                found.sliders.push(index);
+                found.multipliers.extend(first..first + slider.equations());
+            }
             Relation::Drive(index) => {
                 found.drives.push(index);
                 found.multipliers.push(system.drives[index].multiplier);
@@ -58,12 +66,17 @@ pub(crate) fn of(system: &System) -> Vec<Loop> {
         found
     };
     // Relations without a joint between nodes close no loop that could change.
-    loops.into_values().filter(|found| !found.joints.is_empty()).map(sorted).collect()
+    loops
+        .into_values()
+        .filter(|found| !(found.joints.is_empty() && found.sliders.is_empty()))
+        .map(sorted)
+        .collect()
 }
 
 #[derive(Clone, Copy)]
 enum Relation {
     Joint(usize),
+    Slider(usize),
     Drive(usize),
     Coupling(usize),
 }
@@ -71,6 +84,7 @@ enum Relation {
 /// What has not been taken away.
 struct Kept {
     joints: Vec<bool>,
+    sliders: Vec<bool>,
     drives: Vec<bool>,
     couplings: Vec<bool>,
 }
@@ -80,6 +94,7 @@ impl Kept {
         let layout = system.layout();
         let mut kept = Self {
             joints: system.joints.iter().map(|joint| joint.equations() > 0).collect(),
+            sliders: vec![true; system.sliders.len()],
             drives: vec![true; system.drives.len()],
             couplings: vec![true; system.couplings.len()],
         };
@@ -89,11 +104,35 @@ impl Kept {
                 at_node[frame.node].push(index);
             }
         }
+        let mut sliders_at: Vec<Vec<usize>> = vec![Vec::new(); layout.node_count()];
+        for (index, slider) in system.sliders.iter().enumerate() {
+            for node in slider.carriers() {
+                sliders_at[node].push(index);
+            }
+        }
         let freedoms = |node: usize| layout.rows_of_node(node).iter().filter(|&&row| row != LOCKED).count();
         let mut open: Vec<usize> = (0..layout.node_count()).collect();
         while let Some(node) = open.pop() {
             let mut here = at_node[node].iter().copied().filter(|&joint| kept.joints[joint]);
-            let (Some(joint), None) = (here.next(), here.next()) else { continue };
+            let mut sliders = sliders_at[node].iter().copied().filter(|&slider| kept.sliders[slider]);
+            let joint = match (here.next(), here.next(), sliders.next(), sliders.next()) {
+                (Some(joint), None, None, _) => joint,
+                (None, _, Some(index), None) => {
+                    let slider = &system.sliders[index];
+                    let is_alone = |&node: &usize| {
+                        !at_node[node].iter().any(|&joint| kept.joints[joint])
+                            && !sliders_at[node].iter().any(|&other| other != index && kept.sliders[other])
+                    };
+                    let is_end = (node == slider.tip.node && slider.equations() <= freedoms(node))
+                        || slider.nodes.iter().all(|point| is_alone(&point.node));
+                    if is_end {
+                        kept.sliders[index] = false;
+                        open.extend(slider.carriers());
+                    }
+                    continue;
+                }
+                _ => continue,
+            };
             // Equations on fewer freedoms than they are may repeat each other without any loop.
             if system.joints[joint].equations() <= freedoms(node) {
                 kept.joints[joint] = false;
@@ -133,6 +172,12 @@ impl Kept {
             let mut rows: Vec<usize> = nodes.filter(|&&row| row != LOCKED).map(|&row| row as usize).collect();
             rows.extend(joint.coordinates.iter().map(|&own| layout.row_of_coordinate(own)));
             all.push((Relation::Joint(index), rows));
+        }
+        for (index, slider) in system.sliders.iter().enumerate().filter(|(index, _)| self.sliders[*index]) {
+            let nodes = slider.carriers().flat_map(|node| layout.rows_of_node(node));
+            let mut rows: Vec<usize> = nodes.filter(|&&row| row != LOCKED).map(|&row| row as usize).collect();
+            rows.push(layout.row_of_coordinate(slider.coordinate));
+            all.push((Relation::Slider(index), rows));
         }
         for (index, drive) in system.drives.iter().enumerate().filter(|(index, _)| self.drives[*index]) {
             let row = layout.row_of_coordinate(drive.prescribed.coordinate);
@@ -186,6 +231,23 @@ impl Loop {
                 enter(equation, row, is_turn(row), &mut of(OWN + k));
             }
             equation += joint.equations();
+        }
+        for &index in &self.sliders {
+            let slider = &system.sliders[index];
+            let position = slider.place(at);
+            let local = slider.gradient(&position, at);
+            let of = |column: usize| (0..slider.equations()).map(move |own| local[own][column]);
+            let nodes = slider.nodes_of(position.interval);
+            for (which, node) in nodes.into_iter().enumerate().filter_map(|(k, node)| Some((k, node?))) {
+                for (k, &row) in
+                    layout.rows_of_node(node).iter().enumerate().filter(|(_, row)| **row != LOCKED)
+                {
+                    enter(equation, row as usize, k >= 3, &mut of(6 * which + k));
+                }
+            }
+            let row = layout.row_of_coordinate(slider.coordinate);
+            enter(equation, row, is_turn(row), &mut of(slider::OWN));
+            equation += slider.equations();
         }
         for &index in &self.drives {
             let row = layout.row_of_coordinate(system.drives[index].prescribed.coordinate);

@@ -35,8 +35,8 @@ pub(super) fn first_kink(steps: &[Step], count: usize) -> Option<Kink> {
         return Some(Kink { variable: f64::NAN, arguments: vec![f64::NAN; count] });
     }
     let of = Switched { steps, dimension: count + 1 };
-    let lines = DECADES.flat_map(|decade| of.lines(10_f64.powi(decade)));
-    lines.filter_map(|line| of.kink_along(&line)).next()
+    let mut lines = DECADES.flat_map(|decade| of.lines(10_f64.powi(decade)));
+    lines.find_map(|line| of.kink_along(&line))
 }
 
 /// An expression over points of variable and arguments.

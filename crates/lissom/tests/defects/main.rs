@@ -6,5 +6,7 @@ mod refused;
 #[path = "../support/sessions.rs"]
 mod sessions;
 
+mod analyses;
 mod clocks;
 mod jumps;
+mod loops;

@@ -1,6 +1,6 @@
 //! Models on which an analysis once gave a wrong result without a warning, or was rejected without a reason.
 
-#[path = "support/paths.rs"]
+#[path = "../support/paths.rs"]
 mod paths;
 
 use std::f64::consts::TAU;
@@ -13,16 +13,16 @@ use lissom::{Model, Override, Session};
 use lissom_core::analysis::path::CriticalKind;
 use paths::{follow, near};
 
-const NEAR_GROWTH: &str = include_str!("defects/modes-near-growth.toml");
-const STIFF_BLADE: &str = include_str!("defects/stiff-blade.toml");
-const DAMPED_ROTOR: &str = include_str!("defects/damped-rotor.toml");
-const GEARED_TRAIN: &str = include_str!("defects/geared-train.toml");
-const FOLLOWER_PATH: &str = include_str!("defects/follower-path.toml");
-const TWO_BIFURCATIONS: &str = include_str!("defects/two-bifurcations.toml");
-const IMPERFECT: &str = include_str!("defects/imperfect-bifurcation.toml");
-const STOP: &str = include_str!("defects/stop.toml");
-const GUYED_MAST: &str = include_str!("defects/guyed-mast.toml");
-const SLACK_CABLE: &str = include_str!("defects/slack-cable.toml");
+const NEAR_GROWTH: &str = include_str!("modes-near-growth.toml");
+const STIFF_BLADE: &str = include_str!("stiff-blade.toml");
+const DAMPED_ROTOR: &str = include_str!("damped-rotor.toml");
+const GEARED_TRAIN: &str = include_str!("geared-train.toml");
+const FOLLOWER_PATH: &str = include_str!("follower-path.toml");
+const TWO_BIFURCATIONS: &str = include_str!("two-bifurcations.toml");
+const IMPERFECT: &str = include_str!("imperfect-bifurcation.toml");
+const STOP: &str = include_str!("stop.toml");
+const GUYED_MAST: &str = include_str!("guyed-mast.toml");
+const SLACK_CABLE: &str = include_str!("slack-cable.toml");
 
 fn set(overrides: &[(&str, &str)]) -> Vec<Override> {
     overrides.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect()
