@@ -143,15 +143,15 @@ pub(super) fn answer(
         503 => "Service Unavailable",
         _ => "Bad Request",
     };
-    let mut head = format!("HTTP/1.1 {status} {reason}\r\nConnection: close\r\n");
+    let mut head = format!("HTTP/1.1 {status} {reason}\r\nConnection: close\r\n").into_bytes();
     if status != 204 {
-        head.push_str(&format!("Content-Length: {}\r\n", body.len()));
+        write!(head, "Content-Length: {}\r\n", body.len())?;
     }
     for (name, value) in headers {
-        head.push_str(&format!("{name}: {value}\r\n"));
+        write!(head, "{name}: {value}\r\n")?;
     }
-    head.push_str("\r\n");
-    stream.write_all(head.as_bytes())?;
+    head.extend(b"\r\n");
+    stream.write_all(&head)?;
     if status != 204 {
         stream.write_all(body)?;
     }
