@@ -23,9 +23,9 @@ const JOLT: f64 = 1e-3;
 /// Deformation rates below are round-off of a model at rest [1/s].
 const STILL: f64 = 1e-9;
 
-/// Speeds that move nothing by more than the round-off of places in a step of `step_size` [s].
-pub(crate) fn negligible(representative: &Representative, step_size: f64) -> f64 {
-    f64::EPSILON * representative.length / step_size
+/// Speeds that move nothing by more than the round-off of positions within `duration` [s].
+pub(crate) fn negligible(representative: &Representative, duration: f64) -> f64 {
+    f64::EPSILON * representative.length / duration
 }
 
 /// Speed of a node, a turn counting as that of an arc at `length`.
@@ -46,15 +46,14 @@ pub(crate) fn velocities(
     negligible: f64,
 ) -> Result<Vec<Warning>, InitialError> {
     let length = representative.length;
-    if representative.largest_speed(system, told) <= negligible {
-        return Ok(Vec::new());
-    }
+    let are_given = representative.largest_speed(system, told) > negligible;
     let given = &told.nodes;
     let largest = given.iter().chain(&used.nodes).map(|node| speed(&node.twist, length)).fold(0.0, f64::max);
-    let of_coordinates = rates_of_coordinates(system, (length, largest), told, used)?;
+    let of_coordinates =
+        if are_given { rates_of_coordinates(system, (length, largest), told, used)? } else { None };
     let mut warnings: Vec<Warning> = of_coordinates.into_iter().collect();
     let changed = |node: usize| {
-        let is_given = given[node].twist.norm_squared() > 0.0;
+        let is_given = are_given && given[node].twist.norm_squared() > 0.0;
         if is_given { speed(&(used.nodes[node].twist - given[node].twist), length) } else { 0.0 }
     };
     let worst = (0..given.len()).max_by(|&a, &b| changed(a).total_cmp(&changed(b))).unwrap_or(0);

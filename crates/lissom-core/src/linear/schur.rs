@@ -22,11 +22,11 @@ pub(super) fn schur(matrix: DMatrix<Complex64>) -> Option<(DMatrix<Complex64>, D
     if order < 2 {
         return Some((DMatrix::identity(order, order), matrix));
     }
-    let (mut q, mut h) = Hessenberg::new(matrix).unpack();
+    let (mut q, mut hessenberg) = Hessenberg::new(matrix).unpack();
     let mut high = order - 1;
     let mut iterations = 0;
     while high > 0 {
-        let low = block_start(&mut h, high, norm);
+        let low = block_start(&mut hessenberg, high, norm);
         if low == high {
             high -= 1;
             iterations = 0;
@@ -37,23 +37,23 @@ pub(super) fn schur(matrix: DMatrix<Complex64>) -> Option<(DMatrix<Complex64>, D
             return None;
         }
         let shift = if iterations % EXCEPTIONAL == 0 {
-            h[(high, high)] + 0.75 * h[(high, high - 1)].norm()
+            hessenberg[(high, high)] + 0.75 * hessenberg[(high, high - 1)].norm()
         } else {
-            wilkinson(&h, high)
+            wilkinson(&hessenberg, high)
         };
-        sweep((&mut q, &mut h), low, high, shift);
+        sweep((&mut q, &mut hessenberg), low, high, shift);
     }
-    Some((q, h))
+    Some((q, hessenberg))
 }
 
 /// The first row of the unreduced block that ends at `high`; negligible entries below the diagonal become zero.
-fn block_start(h: &mut DMatrix<Complex64>, high: usize, norm: f64) -> usize {
+fn block_start(hessenberg: &mut DMatrix<Complex64>, high: usize, norm: f64) -> usize {
     let mut low = high;
     while low > 0 {
-        let below = h[(low, low - 1)].norm();
-        let beside = h[(low, low)].norm() + h[(low - 1, low - 1)].norm();
+        let below = hessenberg[(low, low - 1)].norm();
+        let beside = hessenberg[(low, low)].norm() + hessenberg[(low - 1, low - 1)].norm();
         if below <= f64::EPSILON * beside.max(TINY * norm) {
-            h[(low, low - 1)] = Complex64::default();
+            hessenberg[(low, low - 1)] = Complex64::default();
             break;
         }
         low -= 1;
@@ -62,9 +62,9 @@ fn block_start(h: &mut DMatrix<Complex64>, high: usize, norm: f64) -> usize {
 }
 
 /// The eigenvalue of the last block of two that is nearest to its last entry.
-fn wilkinson(h: &DMatrix<Complex64>, high: usize) -> Complex64 {
-    let (a, b) = (h[(high - 1, high - 1)], h[(high - 1, high)]);
-    let (c, d) = (h[(high, high - 1)], h[(high, high)]);
+fn wilkinson(hessenberg: &DMatrix<Complex64>, high: usize) -> Complex64 {
+    let (a, b) = (hessenberg[(high - 1, high - 1)], hessenberg[(high - 1, high)]);
+    let (c, d) = (hessenberg[(high, high - 1)], hessenberg[(high, high)]);
     let half = 0.5 * (a - d);
     let root = (half * half + b * c).sqrt();
     let [plus, minus] = [half + root, half - root];
@@ -73,19 +73,19 @@ fn wilkinson(h: &DMatrix<Complex64>, high: usize) -> Complex64 {
 
 /// One QR step of the block from `low` to `high`.
 fn sweep(
-    (q, h): (&mut DMatrix<Complex64>, &mut DMatrix<Complex64>),
+    (q, hessenberg): (&mut DMatrix<Complex64>, &mut DMatrix<Complex64>),
     low: usize,
     high: usize,
     shift: Complex64,
 ) {
-    let order = h.nrows();
-    let (mut x, mut y) = (h[(low, low)] - shift, h[(low + 1, low)]);
+    let order = hessenberg.nrows();
+    let (mut x, mut y) = (hessenberg[(low, low)] - shift, hessenberg[(low + 1, low)]);
     for k in low..high {
         let (cosine, sine) = rotation(x, y);
         for column in k.saturating_sub(1).max(low)..order {
-            let (upper, lower) = (h[(k, column)], h[(k + 1, column)]);
-            h[(k, column)] = cosine * upper + sine * lower;
-            h[(k + 1, column)] = cosine * lower - sine.conj() * upper;
+            let (upper, lower) = (hessenberg[(k, column)], hessenberg[(k + 1, column)]);
+            hessenberg[(k, column)] = cosine * upper + sine * lower;
+            hessenberg[(k + 1, column)] = cosine * lower - sine.conj() * upper;
         }
         let turn = |matrix: &mut DMatrix<Complex64>, rows: usize| {
             for row in 0..rows {
@@ -94,13 +94,13 @@ fn sweep(
                 matrix[(row, k + 1)] = cosine * right - sine * left;
             }
         };
-        turn(h, (k + 3).min(high + 1));
+        turn(hessenberg, (k + 3).min(high + 1));
         turn(q, order);
         if k > low {
-            h[(k + 1, k - 1)] = Complex64::default();
+            hessenberg[(k + 1, k - 1)] = Complex64::default();
         }
         if k + 1 < high {
-            (x, y) = (h[(k + 1, k)], h[(k + 2, k)]);
+            (x, y) = (hessenberg[(k + 1, k)], hessenberg[(k + 2, k)]);
         }
     }
 }

@@ -6,7 +6,7 @@
 //! with its constraints, so that what cannot move has no error, w₂ M its part from inertia, τ relative tolerance.
 //!
 //! ```text
-//! m_n = z - z_predicted = O(h³)
+//! m_n = z - z_predicted = O(h³)     or, where it is larger,     m_v = (q'_end - q'_start - q''_start)/3
 //! third order:   e = κ m_n,                             ε = |J⁻¹ w₂ M e| / (reference · τ^(3/2)/2)
 //! fourth order:  e = (m_n - r³ m_{n-1}) 4/(1 + 3/r),    ε = (|J⁻¹ w₂ M e| / (reference · τ^(4/3)/2))^(3/4)
 //! ```

@@ -49,7 +49,7 @@ fn the_same_arm_in_both_formats_moves_alike() {
     let there = described(include_str!("robots/two_links.urdf"));
     let fall = |robot: &Robot| {
         let text = model(robot, &[("shoulder", 0.3), ("elbow", -0.8)], &[("shoulder", 1.0), ("elbow", -2.0)]);
-        run(&text, &[set("analysis.end", "0.5")])
+        run(&text, &[set("analysis.end", "0.5"), set("analysis.step", "1e-3")])
     };
     let (here, there) = (fall(&here), fall(&there));
     for joint in ["shoulder", "elbow"] {
@@ -87,7 +87,7 @@ fn a_slide_oscillates_with_its_armature() {
          <joint name='lift' type='slide' axis='0 0 1' stiffness='90' springref='0.1' armature='0.5'/></body>",
     );
     let text = model(&robot, &[], &[]);
-    let record = run(&text, &[set("analysis.scheme", "radau-iia")]);
+    let record = run(&text, &[set("analysis.scheme", "radau-iia"), set("analysis.step", "1e-3")]);
     let (rest, omega) = (0.1 - 2.0 * 9.81 / 90.0, (90.0 / 2.5_f64).sqrt());
     let found = last(&record, "lift", "displacement");
     assert!((found - rest * (1.0 - omega.cos())).abs() < 1e-7, "{found}");
@@ -248,7 +248,10 @@ fn slides_in_a_plane_with_a_hinge_become_a_planar_joint() {
     let found = accelerations(&text, "rooty");
     assert!(near(found[0], -5.0 * 0.3 / 0.25), "{found:?}");
     let placed = format!("{text}\n[outputs.at]\nkind = \"position\"\nof = \"body1\"\n");
-    let record = run(&placed, &[set("analysis.end", "0.2"), set("analysis.scheme", "radau-iia")]);
+    let record = run(
+        &placed,
+        &[set("analysis.end", "0.2"), set("analysis.scheme", "radau-iia"), set("analysis.step", "1e-3")],
+    );
     let at = ["x", "y", "z"].map(|letter| last(&record, "at", letter));
     let wanted = [0.2 + 0.7 * 0.2, 0.0, 1.0 - 0.5 * 9.81 * 0.04];
     assert!(at.iter().zip(wanted).all(|(found, wanted)| (found - wanted).abs() < 1e-9), "{at:?} {wanted:?}");

@@ -117,7 +117,10 @@ fn what_comes_back_moves_as_the_model_does() {
     let text = text
         + "\n[outputs.shoulder_acceleration]\nkind = \"relative_acceleration\"\nof = \"shoulder\"\n\
            [outputs.rail_acceleration]\nkind = \"relative_acceleration\"\nof = \"rail\"\n";
-    let there = run(&text, &[set("analysis.scheme", "radau-iia"), set("analysis.end", "0.3")]);
+    let there = run(
+        &text,
+        &[set("analysis.end", "0.3"), set("analysis.step", "1e-3"), set("analysis.scheme", "radau-iia")],
+    );
     let here = run(ARM, &[]);
     for (output, component) in [
         ("shoulder_acceleration", "a"),
