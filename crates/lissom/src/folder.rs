@@ -97,6 +97,14 @@ pub enum FolderError {
         /// What is wrong with it.
         error: SceneError,
     },
+    /// There are no results where they were expected.
+    #[error("`{path}` {is}: pass a folder of results, such as `lissom run MODEL.toml --out DIR` leaves")]
+    NoResults {
+        /// The folder or file.
+        path: String,
+        /// What it is instead.
+        is: &'static str,
+    },
     /// There is no motion to be shown.
     #[error("`{path}` holds {holds}")]
     NoMotion {
@@ -214,6 +222,13 @@ impl ResultFolder {
     /// If there is no table, or a text that is none.
     pub fn open(path: &Path) -> Result<(Self, Record, String), FolderError> {
         let history = path.join(HISTORY);
+        let no_results = |is| Err(FolderError::NoResults { path: path.display().to_string(), is });
+        if path.is_file() {
+            return no_results("is a file");
+        }
+        if path.is_dir() && !history.exists() {
+            return no_results("is a folder without results (`history.csv`)");
+        }
         let text = files::read_text(&history)?;
         let mut record = Record::from_csv(&text)
             .map_err(|error| FolderError::Record { path: history.display().to_string(), error })?;

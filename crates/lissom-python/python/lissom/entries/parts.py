@@ -53,12 +53,12 @@ class Body(Entry):
     Args:
         in_: body, point mass or part in whose frame at the start places and directions are given; default the one around; a text, or nothing.
         mass: mass, or { density } of the solid in `inertia` [kg]; a number > 0, or `{ density }`.
-        inertia: about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid as { box = [a, b, c] } [kg m²]; three numbers, a 3 x 3 matrix, or `{ box | cylinder | tube | sphere }`.
+        inertia: about the centre of mass, in body axes: 3 numbers, 3 x 3, or a solid as { box = [a, b, c] } [kg m²]; three numbers, a 3 x 3 matrix, or `{ box, cylinder, tube or sphere }`.
         position: place of the reference frame [m]; a place, or nothing.
         rotation: rotation vector of the reference frame [rad]; three numbers, or nothing.
         axes: instead of rotation: first and second body axis; two vectors, or nothing.
         center_of_mass: in body axes, from the reference point [m]; three numbers, or nothing.
-        shape: drawn about the centre of mass, instead of what has its inertia; `{ box | cylinder | tube | sphere }`, or nothing.
+        shape: drawn about the centre of mass, instead of what has its inertia; `{ box, cylinder, tube or sphere }`, or nothing.
         mesh: instead of `shape`: an STL or glTF file in metres and body axes; relative to the file that names it; a text, or nothing.
         velocity: of the reference point at the start, global axes [m/s]; three numbers, or nothing.
         angular_velocity: at the start, body axes [rad/s]; three numbers, or nothing.
