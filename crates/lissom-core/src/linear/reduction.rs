@@ -15,6 +15,7 @@
 //! ```
 
 use lissom_motion::{Matrix3, Vector3, skew};
+use lissom_solver::Pattern;
 use nalgebra::DMatrix;
 
 use super::mode::{Completeness, ModeError, ModeOptions};
@@ -27,6 +28,8 @@ use crate::system::{Chart, LOCKED, Linearization, NodeId, State, System};
 const BALANCED: f64 = 1e-7;
 /// Forces of rigid displacements below this part of the terms they are made of are round-off.
 const RIGID: f64 = 1e-6;
+/// Forces of rigid displacements below this part of the norm of the stiffness are round-off.
+const ROUND_OFF: f64 = 1e-12;
 /// Preload that displaces by less than this part of the model's length is none.
 const NO_PRELOAD: f64 = 1e-9;
 
@@ -352,12 +355,21 @@ impl Whole {
         forces
     }
 
+    /// Roots of the diagonal of the stiffness: rows and columns divided by them have one unit.
+    fn scale(&self, pattern: &Pattern) -> Vec<f64> {
+        (0..self.size)
+            .map(|row| pattern.position(row, row).map_or(0.0, |at| self.parts.stiffness[at].abs().sqrt()))
+            .collect()
+    }
+
     /// Fails where a rigid motion has forces: coordinates of joints stay as they are in it.
     fn check_rigid(&self, assembly: &Assembly<'_>) -> Result<(), ReductionError> {
         let (system, at) = (assembly.free, &assembly.state.kinematics);
         let layout = system.layout();
         let pattern = system.pattern();
         let origin = at.nodes[assembly.interfaces[0]].frame.position;
+        let sizes: Vec<f64> = self.parts.stiffness.iter().map(|value| value.abs()).collect();
+        let scale = self.scale(&pattern);
         for k in 0..6 {
             let axis = Vector3::ith(k % 3, 1.0);
             let (mut motion, mut forces, mut terms) =
@@ -376,12 +388,12 @@ impl Whole {
                 }
             }
             pattern.multiply(&self.parts.stiffness, &motion, &mut forces);
-            let sizes: Vec<f64> = self.parts.stiffness.iter().map(|value| value.abs()).collect();
             let motion: Vec<f64> = motion.iter().map(|value| value.abs()).collect();
             pattern.multiply(&sizes, &motion, &mut terms);
-            let largest = terms.iter().fold(0.0_f64, |most, &value| most.max(value));
+            // Terms may be round-off themselves: the norm of the stiffness, scaled to one unit by its diagonal, bounds that.
+            let norm = motion.iter().zip(&scale).map(|(own, scale)| own * scale).fold(0.0, f64::max);
             let wrong = (0..layout.coordinate_count())
-                .find(|&row| forces[row].abs() > RIGID * terms[row] + f64::EPSILON * largest);
+                .find(|&row| forces[row].abs() > RIGID * terms[row] + ROUND_OFF * scale[row] * norm);
             if let Some(row) = wrong {
                 return Err(ReductionError::Held {
                     unknown: layout.name_of(row),

@@ -133,14 +133,16 @@ fn check_rigid(matrix: &DMatrix<f64>, places: &[Vector3], name: &str) -> Result<
     let size = matrix.nrows();
     let words = ["translation along x", "translation along y", "translation along z"];
     let turns = ["rotation about x", "rotation about y", "rotation about z"];
+    let scale: Vec<f64> = (0..size).map(|row| matrix[(row, row)].abs().sqrt()).collect();
     for (k, word) in words.iter().chain(&turns).enumerate() {
         let column = rigid_column(places, size, k);
+        // Terms may be round-off themselves: the norm of the matrix, scaled to one unit by its diagonal, bounds that.
+        let norm = column.iter().zip(&scale).map(|(own, scale)| own.abs() * scale).fold(0.0, f64::max);
         for row in 0..size {
             let terms = column.iter().enumerate().map(|(j, value)| matrix[(row, j)] * value);
             let (sum, most) =
                 terms.fold((0.0_f64, 0.0_f64), |(sum, most), term| (sum + term, most + term.abs()));
-            // Rows that nothing acts on are round-off of the largest ones.
-            let least = ROUND_OFF * matrix[(row, row)].abs();
+            let least = ROUND_OFF * scale[row] * norm;
             if sum.abs() > RIGID * most + least {
                 return problem(
                     name,
