@@ -1,5 +1,6 @@
 //! Superelements: reduced beams against beams, rigid motion, prestress, files, and all schemes.
 
+mod free_blades;
 mod load_stiffness;
 mod moments;
 mod outputs;
