@@ -222,12 +222,8 @@ impl ResultFolder {
     /// If there is no table, or a text that is none.
     pub fn open(path: &Path) -> Result<(Self, Record, String), FolderError> {
         let history = path.join(HISTORY);
-        let no_results = |is| Err(FolderError::NoResults { path: path.display().to_string(), is });
         if path.is_file() {
-            return no_results("is a file");
-        }
-        if path.is_dir() && !history.exists() {
-            return no_results("is a folder without results (`history.csv`)");
+            return Err(FolderError::NoResults { path: path.display().to_string(), is: "is a file" });
         }
         let text = files::read_text(&history)?;
         let mut record = Record::from_csv(&text)
