@@ -150,8 +150,8 @@ pub fn reduce(
         solver: settings.solver,
     };
     // The lowest mode tells whether something moves freely while the interfaces are held, also where no mode is asked for.
-    let sought =
-        if request.corrections { SOUGHT[0] * request.modes + SOUGHT[1] } else { request.modes.max(1) };
+    // Those that are left out tell what loads do to the stiffness by them, whether they are corrected for or not.
+    let sought = SOUGHT[0] * request.modes + SOUGHT[1];
     let found = assembly.reduce(sought.min(inner))?.with_modes(request.modes, request.corrections);
     if found.frequencies.len() < request.modes {
         let number = found.frequencies.len();

@@ -184,6 +184,7 @@ pub fn of_run(summary: &mut Summary, session: &Session, report: &RunReport) {
             "work_of_drives": ledger.drives,
             "lost_in_latches": ledger.latches,
             "surplus": ledger.surplus,
+            "lost": ledger.lost,
             "turned_over": ledger.turned_over,
         }),
     );

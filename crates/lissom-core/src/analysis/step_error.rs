@@ -186,6 +186,18 @@ pub enum StepError {
         /// Length of the beam [m].
         length: f64,
     },
+    /// The kinetic energy of a superelement is negative in some motion.
+    #[error(
+        "step to t = {time:.6e} s: the superelement with the interface `{interface}` is deformed beyond the range of its second-order \
+         matrices: its kinetic energy is no longer positive; reduce the part in several pieces, with more modes or static corrections, or \
+         model it by beams"
+    )]
+    NegativeKineticEnergy {
+        /// End of the step [s].
+        time: f64,
+        /// Name of the first interface.
+        interface: String,
+    },
     /// Energy that nothing put in.
     #[error(
         "step to t = {time:.6e} s: there are {surplus:.3e} J more than anything put in, where {turned_over:.3e} J are \
@@ -247,6 +259,7 @@ impl StepError {
                 | Self::FunctionNotFinite { .. }
                 | Self::TurnsTooFar { .. }
                 | Self::ElementTurns { .. }
+                | Self::NegativeKineticEnergy { .. }
                 | Self::EnergyFromNowhere { in_this_step: true, .. }
                 | Self::ZeroPivot { after_pivoting: true, .. }
         )

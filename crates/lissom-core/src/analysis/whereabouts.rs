@@ -42,6 +42,7 @@ impl StepError {
             Self::JointLosesHold { time, joint: part, .. }
             | Self::BeyondBeam { time, joint: part, .. }
             | Self::EnergyFromNowhere { time, node: part, .. }
+            | Self::NegativeKineticEnergy { time, interface: part }
             | Self::TurnsTooFar { time, node: part, .. }
             | Self::ElementTurns { time, nodes: [part, _], .. } => (*time, Some(part.as_str())),
             Self::Interrupted { time } => (*time, None),

@@ -247,6 +247,11 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     /// the system knows. Default: nothing.
     fn mass(&self, _at: &Kinematics, _out: &mut Vec<f64>) {}
 
+    /// Whether its kinetic energy is positive in every motion, where that depends on the configuration. Default: it is.
+    fn has_positive_mass(&self, _at: &Kinematics) -> bool {
+        true
+    }
+
     /// Kinetic, elastic and potential energy.
     fn energy(&self, at: &Kinematics) -> Energy;
 

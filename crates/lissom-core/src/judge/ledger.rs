@@ -2,8 +2,10 @@
 //! lowers the balance; nothing may raise it.
 //!
 //! ```text
-//! D = E - W,     surplus = D - (least D so far)
+//! D = E - W,     surplus = D - (least D so far),     lost = (D at the start) - D
 //! ```
+//!
+//! Where nothing dissipates, what is lost is lost to the scheme, or work is counted with wrong forces.
 //!
 //! E kinetic, elastic and potential energy, W work of loads and drives (see
 //! `System::work_of_loads`). In statics weight is a load, for it may be
@@ -57,9 +59,14 @@ pub struct Ledger {
     pub latches: f64,
     /// The largest surplus so far: energy that nothing put in.
     pub surplus: f64,
+    /// Energy that dampers, friction, impacts and the scheme have taken since the start: negative where energy was put in.
+    #[serde(default)]
+    pub lost: f64,
     /// Energy turned over so far: the largest sum of kinetic and elastic energy, the range of the potential one, and
     /// what loads and drives have moved to and fro.
     pub turned_over: f64,
+    #[serde(default)]
+    first_balance: f64,
     least_balance: f64,
     /// The largest sum of kinetic and elastic energy.
     most: f64,
@@ -92,6 +99,7 @@ impl Ledger {
             ..Self::default()
         };
         ledger.least_balance = ledger.balance(interval.is_some());
+        ledger.first_balance = ledger.least_balance;
         ledger
     }
 
@@ -163,6 +171,7 @@ impl Ledger {
         let balance = self.balance(is_motion);
         self.surplus = self.surplus.max(balance - self.least_balance);
         self.least_balance = self.least_balance.min(balance);
+        self.lost = self.first_balance - balance;
         self.turned_over = self.most + (self.potential[1] - self.potential[0]) + self.moved;
     }
 

@@ -66,6 +66,9 @@ impl Judge<'_> {
     ) -> Result<(Ledger, f64), StepError> {
         let violation = self.constraints(end)?;
         self.sliders(end)?;
+        if self.is_motion {
+            positive_mass(self.system, &end.kinematics)?;
+        }
         let is_smooth = self.is_motion && self.turns(start, end)?;
         let weighs = !is_smooth || ledger.is_due();
         if weighs {
@@ -185,6 +188,13 @@ impl Judge<'_> {
         let node = self.system.layout().name_of_node(node).to_owned();
         Err(StepError::TurnsTooFar { time: end.kinematics.time, node, angle })
     }
+}
+
+/// Fails where the kinetic energy of an element is negative in some motion: its equations are unstable there.
+fn positive_mass(system: &System, at: &Kinematics) -> Result<(), StepError> {
+    let Some(node) = system.without_positive_mass(at) else { return Ok(()) };
+    let interface = system.layout().name_of_node(node).to_owned();
+    Err(StepError::NegativeKineticEnergy { time: at.time, interface })
 }
 
 /// Fails where two nodes of an element are turned against each other by nearly half a turn or more.

@@ -42,6 +42,7 @@ impl Reduction {
         map.view_mut((kept, kept), shapes.shape()).copy_from(&shapes);
         let through = |matrix: &DMatrix<f64>| map.tr_mul(&(matrix * &map));
         let own = &mut self.matrices;
+        let all_stiffness = own.stiffness.clone();
         own.mass = through(&own.mass);
         own.stiffness = through(&own.stiffness);
         if let Damping::Matrix(damping) = &mut own.damping {
@@ -50,9 +51,11 @@ impl Reduction {
         if !own.preload.is_empty() {
             own.preload = map.tr_mul(&DVector::from_column_slice(&own.preload)).as_slice().to_vec();
         }
-        if let Some(geometric) = &mut own.geometric {
-            **geometric = geometric.through(&map);
-        }
+        own.geometric = self
+            .second_order
+            .as_ref()
+            .and_then(|own_order| own_order.kept(&map, [&own.mass, &own.stiffness, &all_stiffness], interfaces))
+            .map(Box::new);
         self
     }
 
@@ -84,7 +87,7 @@ impl Reduction {
             }
         }
         for alike in self.second_order_matrices() {
-            let share = |matrix: &&DMatrix<f64>| {
+            let share = |matrix: &DMatrix<f64>| {
                 let among = root.tr_mul(&(matrix.view((0, 0), (kept, kept)) * &root));
                 among.singular_values().max()
             };
@@ -117,18 +120,25 @@ impl Reduction {
         let origin = self.places.first().copied().unwrap_or_default();
         let places: Vec<Vector3> = self.places.iter().map(|place| place - origin).collect();
         let carried = |k: usize| &self.matrices.mass * DVector::from_vec(rigid_column(&places, size, k));
-        let turning =
-            self.matrices.geometric.iter().flat_map(|own| own.slope.row_iter().map(|row| row.transpose()));
+        let turning = self
+            .second_order
+            .iter()
+            .flat_map(|own| own.direct.slope.row_iter().map(|row| row.transpose()));
         [(0..3).map(carried).collect(), (3..6).map(carried).collect(), turning.collect()]
     }
 
-    /// Matrices of rotation, of acceleration and of axial forces; none where they are not known.
-    fn second_order_matrices(&self) -> [Vec<&DMatrix<f64>>; 3] {
-        let Some(own) = &self.matrices.geometric else { return Default::default() };
-        [
-            own.inertia.iter().chain(&own.momentum).collect(),
-            own.moment.iter().collect(),
-            own.shortening.iter().collect(),
-        ]
+    /// Matrices of rotation, of acceleration and of forces on the interfaces along the directions from the first one; none where
+    /// they are not known.
+    fn second_order_matrices(&self) -> [Vec<DMatrix<f64>>; 3] {
+        let Some(own) = &self.second_order else { return Default::default() };
+        let [turning, pushed] = own.of_loads();
+        let flexibility = flexibility(&self.matrices.stiffness, 0);
+        let origin = self.places.first().copied().unwrap_or_default();
+        let pulled = self.places.iter().enumerate().skip(1).map(|(i, place)| {
+            let arm = place - origin;
+            let direction = arm / arm.norm().max(f64::MIN_POSITIVE);
+            own.stressed(&(flexibility.columns(6 * i, 3) * direction))
+        });
+        [turning, pushed, pulled.collect()]
     }
 }

@@ -7,19 +7,20 @@
 //! steady rotation ω       g = -½ Σ ω_i ω_j (α_ij + A_ij y)
 //! acceleration ω̇, a       g = … + Σ ω̇_i B_iᵀ y,      g = … + Σ a_k S_k y
 //! load state w            K_g[w] = ∂²g/∂w ∂y
+//! shape k                 T_k = K_g[Ψ_k]
 //! ```
 //!
 //! Shapes of first order stretch what they bend. What shortens instead does work against a load -r by -½ y·K_g[w] y, with K w = -r and
-//! the interfaces held: A - K_g for rotation, B + K_g for ω̇, S + K_g for a. The interfaces themselves come nearer by h_k = ½ y·D_k y,
-//! D_k = K_g[w_k], w_k under a unit force on interface k along the direction from the first [Wallrapp and Schwertassek 1991].
+//! the interfaces held: A - K_g for rotation, B + K_g for ω̇, S + K_g for a. `cubic` tells what of it belongs to the shapes themselves.
 
 use lissom_motion::{Matrix3, Rotation, Vector3, Vector6, rotation_tangent, screw};
 use nalgebra::{DMatrix, DVector};
 
+use super::cubic::{LoadState, SecondOrder};
 use super::model::{LinearModel, nothing, point};
 use super::reduction::{Assembly, ReductionError};
 use super::shifted::RealShift;
-use crate::elements::superelement::{GeometricMatrices, PAIRS, ReducedMatrices, flexibility};
+use crate::elements::superelement::{GeometricMatrices, PAIRS, ReducedMatrices};
 use crate::system::{Kinematics, LOCKED, System};
 
 /// Displacements of differences, as part of the model's length.
@@ -175,8 +176,27 @@ fn scaled(shape: &[f64], factor: f64) -> Vec<f64> {
     shape.iter().map(|value| factor * value).collect()
 }
 
+/// Inertial terms of a motion of the frame, and the static state under it.
+struct OfMotion {
+    direct: DMatrix<f64>,
+    state: LoadState,
+}
+
+impl OfMotion {
+    fn combine(&mut self, other: &Self, factor: f64) {
+        self.direct += &other.direct * factor;
+        self.state.combine(&other.state, factor);
+    }
+
+    fn scale(&mut self, factor: f64) {
+        self.direct *= factor;
+        self.state.scale(factor);
+    }
+}
+
 impl Assembly<'_> {
-    /// Second-order matrices over `shapes`, six of each interface and then modes; none with joints within the assembly.
+    /// What of second order there is over `shapes`, six of each interface and then modes of unit mass; none with joints within the
+    /// assembly.
     ///
     /// # Errors
     /// If the assembly with its interfaces held cannot be solved for.
@@ -185,7 +205,7 @@ impl Assembly<'_> {
         shapes: &[Vec<f64>],
         matrices: &ReducedMatrices,
         inner: Option<&LinearModel<'_>>,
-    ) -> Result<Option<GeometricMatrices>, ReductionError> {
+    ) -> Result<Option<SecondOrder>, ReductionError> {
         let layout = self.free.layout();
         let Some(locked) = self.locked else { return Ok(None) };
         let Some(model) = inner.filter(|_| layout.size() == layout.coordinate_count()) else {
@@ -227,95 +247,88 @@ impl Assembly<'_> {
         let mut solver = RealShift::new(locked, &model.representative);
         solver.factor(&model.parts, 0.0).map_err(|error| model.stopped(&error))?;
         let rows = self.inner_rows(locked);
-        let mut loaded = |forces: &mut Forces<'_>, carried: Carried| {
+        let modes = 6 * self.interfaces.len();
+        let mut of_motion = |forces: &mut Forces<'_>, carried: Carried| {
+            let direct = clean(forces.carried_slope(carried, &steps, first));
             let moving = forces.displaced(&none, carried);
             let load = forces.residual(&moving).to_vec();
             let mut right = vec![0.0; locked.layout().size()];
             for &(free, own) in &rows {
                 right[own] = rest_rows[free] - load[free];
             }
+            let response = DVector::from_fn(size, |k, _| {
+                if k < modes {
+                    return 0.0;
+                }
+                let work: f64 = rows.iter().map(|&(free, own)| shapes[k][free] * right[own]).sum();
+                work / matrices.stiffness[(k, k)]
+            });
             solver.solve(&mut right);
             let mut state = vec![0.0; none.len()];
             for &(free, own) in &rows {
                 state[free] = right[own];
             }
-            forces.geometric(&state, (&steps, first), length)
+            for k in modes..size {
+                for &(free, _) in &rows {
+                    state[free] -= response[k] * shapes[k][free];
+                }
+            }
+            let remainder = forces.geometric(&state, (&steps, first), length);
+            OfMotion { direct, state: LoadState { remainder, response } }
         };
         let axis = |k: usize| Vector3::ith(k, 1.0);
         let mut slope = DMatrix::zeros(PAIRS.len(), size);
-        let mut inertia: Vec<DMatrix<f64>> = Vec::with_capacity(PAIRS.len());
+        let mut turning: Vec<OfMotion> = Vec::with_capacity(PAIRS.len());
         let square = rate * rate;
         for (k, [i, j]) in PAIRS.into_iter().enumerate() {
             let spin = if i == j { axis(i) } else { axis(i) + axis(j) };
             let carried = Carried::Turning(rate * spin);
             // ω ω (α + A y), with both entries of a pair.
             let mut own = (forces.along(&none, carried) - &rest) * (-2.0 / square);
-            let mut matrix = clean(forces.carried_slope(carried, &steps, first)) * (-2.0 / square);
-            matrix -= loaded(&mut forces, carried) * (2.0 / square);
+            let mut matrices = of_motion(&mut forces, carried);
+            matrices.scale(-2.0 / square);
             if i != j {
                 for other in [i, j] {
                     own -= slope.row(other).transpose();
-                    matrix -= &inertia[other];
+                    matrices.combine(&turning[other], -1.0);
                 }
-                (own, matrix) = (0.5 * own, 0.5 * matrix);
+                own *= 0.5;
+                matrices.scale(0.5);
             }
             slope.row_mut(k).tr_copy_from(&own);
-            inertia.push(symmetric(&matrix));
+            turning.push(matrices);
         }
-        let mut carried_matrices = |carried: Carried| {
-            let direct = clean(forces.carried_slope(carried, &steps, first)) / square;
-            direct + loaded(&mut forces, carried) / square
+        let zero = Vector3::zeros();
+        let mut from_rest = |carried: Carried| {
+            let mut own = of_motion(&mut forces, carried);
+            own.scale(square.recip());
+            own
         };
-        let none = Vector3::zeros();
-        let momentum =
-            [0, 1, 2].map(|k| carried_matrices(Carried::Accelerated(none, square * axis(k))).transpose());
-        let moment =
-            [0, 1, 2].map(|k| symmetric(&carried_matrices(Carried::Accelerated(square * axis(k), none))));
-        let shortening = self.shortening(&mut forces, matrices, (&steps, first), length);
-        let Ok(inertia) = <[DMatrix<f64>; 6]>::try_from(inertia) else { return Ok(None) };
-        Ok(Some(GeometricMatrices { moment, slope, inertia, momentum, shortening }))
-    }
-
-    /// D of each interface but the first.
-    fn shortening(
-        &self,
-        forces: &mut Forces<'_>,
-        matrices: &ReducedMatrices,
-        (steps, first): (&[f64], usize),
-        length: f64,
-    ) -> Vec<DMatrix<f64>> {
-        let size = steps.len();
-        let flexibility = flexibility(&matrices.stiffness, 0);
-        let places: Vec<Vector3> = self
-            .interfaces
-            .iter()
-            .map(|&node| self.state.kinematics.nodes[node].frame.position - forces.origin)
-            .collect();
-        let direction = |i: usize| {
-            let distance = places[i].norm();
-            if distance > 0.0 { places[i] / distance } else { Vector3::zeros() }
+        let spun = [0, 1, 2].map(|k| from_rest(Carried::Accelerated(zero, square * axis(k))));
+        let pushed = [0, 1, 2].map(|k| from_rest(Carried::Accelerated(square * axis(k), zero)));
+        let cubic = (0..size).map(|k| {
+            if k < first { DMatrix::zeros(size, size) } else { forces.geometric(&shapes[k], (&steps, first), length) }
+        });
+        let cubic: Vec<DMatrix<f64>> = cubic.collect();
+        let Ok(inertia) =
+            <[DMatrix<f64>; 6]>::try_from(turning.iter().map(|own| symmetric(&own.direct)).collect::<Vec<_>>())
+        else {
+            return Ok(None);
         };
-        (1..self.interfaces.len())
-            .map(|i| {
-                let along = direction(i);
-                let own: DVector<f64> = flexibility.columns(6 * i, 3) * along;
-                let mut state = vec![0.0; forces.room.len()];
-                for (k, shape) in forces.shapes.iter().enumerate().skip(first) {
-                    state.iter_mut().zip(shape).for_each(|(sum, value)| *sum += own[k] * value);
-                }
-                let mut matrix = forces.geometric(&state, (steps, first), length);
-                // What is stretched itself counts once: in h of all interfaces a term of two or three of them comes up as often.
-                let mut onto = DMatrix::zeros(size, size);
-                for j in 1..self.interfaces.len() {
-                    let direction = direction(j);
-                    let block = direction * direction.transpose();
-                    onto.fixed_view_mut::<3, 3>(6 * j, 6 * j).copy_from(&block);
-                }
-                let once = &onto * &matrix;
-                let twice = &once * &onto;
-                matrix -= 0.5 * (&once + once.transpose()) - twice / 3.0;
-                matrix
-            })
-            .collect()
+        let direct = GeometricMatrices {
+            moment: [0, 1, 2].map(|k| symmetric(&pushed[k].direct)),
+            slope,
+            inertia,
+            momentum: [0, 1, 2].map(|k| spun[k].direct.transpose()),
+            shortening: Vec::new(),
+        };
+        let states = |of: &[OfMotion]| of.iter().map(|own| own.state.clone()).collect::<Vec<_>>();
+        Ok(Some(SecondOrder {
+            direct,
+            cubic,
+            turning: states(&turning),
+            spun: states(&spun),
+            pushed: states(&pushed),
+        }))
     }
 }

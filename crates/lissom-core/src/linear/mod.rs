@@ -13,6 +13,7 @@ mod arnoldi;
 mod buckling;
 mod completion;
 mod corrections;
+mod cubic;
 mod energy_shares;
 mod free;
 mod geometric;

@@ -18,6 +18,7 @@ use lissom_motion::{Matrix3, Vector3, skew};
 use lissom_solver::Pattern;
 use nalgebra::DMatrix;
 
+use super::cubic::SecondOrder;
 use super::mode::{Completeness, ModeError, ModeOptions};
 use super::model::{LinearError, LinearModel, is_symmetric, nothing, point};
 use super::shifted::RealShift;
@@ -93,6 +94,8 @@ pub struct Reduction {
     pub is_counted: bool,
     /// Number of unknowns that were reduced.
     pub unknowns: usize,
+    /// What is of second order over all shapes; [`Self::with_modes`] makes matrices of it.
+    pub(super) second_order: Option<SecondOrder>,
 }
 
 /// What is reduced: the assembly, the same with its interfaces locked (none where nothing is left then), and where it is.
@@ -152,9 +155,10 @@ impl Assembly<'_> {
                 }
             }
         }
-        let mut matrices = self.projected(&whole, &columns, length);
+        let matrices = self.projected(&whole, &columns, length);
+        let mut second_order = None;
         if whole.residual.iter().all(|force| force.is_finite()) {
-            matrices.geometric = self.second_order(&columns, &matrices, model.as_ref())?.map(Box::new);
+            second_order = self.second_order(&columns, &matrices, model.as_ref())?;
         }
         let places = self.interfaces.iter().map(|&node| self.state.kinematics.nodes[node].frame.position);
         Ok(Reduction {
@@ -164,6 +168,7 @@ impl Assembly<'_> {
             corrections: 0,
             is_counted,
             unknowns: self.free.layout().coordinate_count(),
+            second_order,
         })
     }
 

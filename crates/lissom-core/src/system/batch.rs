@@ -86,6 +86,8 @@ pub(crate) trait AnyBatch: Send + Sync {
     fn linear_range(&self, limit: LinearLimit, at: &Kinematics) -> Option<LinearRange>;
     /// Hands on the mass matrix of every item that has one, row after row: its nodes, its coordinates, its rows.
     fn masses(&self, at: &Kinematics, each: &mut dyn FnMut(&Mass<'_>));
+    /// The first node of an item whose kinetic energy is not positive in every motion.
+    fn without_positive_mass(&self, at: &Kinematics) -> Option<NodeId>;
     /// The two nodes of an element that are turned most against each other, and the cosine of half that angle.
     fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])>;
     /// What of these elements differs from those of neighbouring models, which come with the weights of a difference; none
@@ -391,6 +393,11 @@ impl<E: Element> AnyBatch for Batch<E> {
     fn linear_range(&self, limit: LinearLimit, at: &Kinematics) -> Option<LinearRange> {
         let parts = self.items.iter().filter_map(|item| item.linear_range(limit, at));
         parts.reduce(|most, own| if own.part > most.part { own } else { most })
+    }
+
+    fn without_positive_mass(&self, at: &Kinematics) -> Option<NodeId> {
+        let found = self.items.iter().find(|item| !item.has_positive_mass(at))?;
+        found.nodes().first().copied()
     }
 
     fn masses(&self, at: &Kinematics, each: &mut dyn FnMut(&Mass<'_>)) {

@@ -389,6 +389,10 @@ impl AnyBatch for Arc<Feedback> {
         None
     }
 
+    fn without_positive_mass(&self, _: &Kinematics) -> Option<NodeId> {
+        None
+    }
+
     fn masses(&self, _: &Kinematics, _: &mut dyn FnMut(&Mass<'_>)) {}
 
     fn least_aligned(&self, _: &Kinematics) -> Option<(f64, [NodeId; 2])> {

@@ -257,6 +257,11 @@ impl System {
         parts.reduce(|most, own| if own.part > most.part { own } else { most })
     }
 
+    /// The first node of an element whose kinetic energy is not positive in every motion.
+    pub(crate) fn without_positive_mass(&self, at: &Kinematics) -> Option<NodeId> {
+        self.batches.iter().find_map(|batch| batch.without_positive_mass(at))
+    }
+
     /// Hands on the mass matrix of every element that has one, besides [`inertias`](Self::inertias).
     pub(crate) fn masses(&self, at: &Kinematics, each: &mut dyn FnMut(&Mass<'_>)) {
         self.batches.iter().for_each(|batch| batch.masses(at, each));

@@ -56,8 +56,19 @@ pub(super) fn superelements(context: &Context<'_>) -> Vec<Superelement> {
             );
         }
         let geometric = stacked
-            .map(|stacked| GeometricMatrices::from_stacked(&stacked, places.len(), size).map(Box::new))
-            .transpose();
+            .map(|stacked| GeometricMatrices::from_stacked(&stacked, places.len(), size))
+            .transpose()
+            .map(|read| {
+                if matches!(read, Some(None)) {
+                    let span = reader.node("geometric").map_or(reader.name, |node| node.span);
+                    let message = format!(
+                        "the `geometric` matrices of {} are left out: an earlier form of their file counts loads twice",
+                        reader.what
+                    );
+                    context.tell(Problem::warning(span, message).help("reduce the part again by `lissom reduce`"));
+                }
+                read.flatten().map(Box::new)
+            });
         let checked = geometric.and_then(|geometric| {
             ReducedMatrices { mass, stiffness, damping, preload, geometric }.check(&places)
         });

@@ -7,7 +7,7 @@
 //!
 //! ```text
 //! ∫ρ x₂ = s,   s_k = ½ y·S_k y            J = J₀ + α·y + ½ y·A y                 (inertia about the floating frame)
-//! ∫ρ x × ẋ = (M-terms)·ẏ + c,   c_i = y·B_i ẏ                 h_k = ½ y·D_k y    (interface k comes nearer to the floating frame)
+//! ∫ρ x × ẋ = (M-terms)·ẏ + c,   c_i = y·B_i ẏ                 h = Σ U_k ½ y·D_k y    (elastic energy ½ (y + h)·K (y + h))
 //! ```
 
 use lissom_motion::{Matrix3, Vector3, skew};
@@ -24,6 +24,15 @@ const BLOCKS: usize = 12;
 /// Part by which matrices may be asymmetric, and inertias may change otherwise in rigid turns.
 const UNEQUAL: f64 = 1e-3;
 
+/// What a deformation shortens: along a direction, by half a square.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Shortening {
+    /// U.
+    pub direction: DVector<f64>,
+    /// D.
+    pub matrix: DMatrix<f64>,
+}
+
 /// Second-order matrices of a part over the rows of its mass matrix; rows and columns of the first interface are zero,
 /// but for those of α, where it is displaced against the frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,8 +45,8 @@ pub struct GeometricMatrices {
     pub inertia: [DMatrix<f64>; 6],
     /// B about x, y, z.
     pub momentum: [DMatrix<f64>; 3],
-    /// D of each interface but the first; zero where it is not known.
-    pub shortening: Vec<DMatrix<f64>>,
+    /// U and D of all that is shortened.
+    pub shortening: Vec<Shortening>,
 }
 
 fn problem<T>(words: impl Into<String>) -> Result<T, ParameterError> {
@@ -45,58 +54,75 @@ fn problem<T>(words: impl Into<String>) -> Result<T, ParameterError> {
 }
 
 impl GeometricMatrices {
-    /// From one matrix with all of them below each other: S, A, B, D, and α last.
+    /// From one matrix with all of them below each other: S, A, B, D, a row for each U, and α last. None for a file of the form in
+    /// which D were those of interfaces, without U: their matrices hold loads twice.
     ///
     /// # Errors
-    /// If it has another size than `size` columns and as many rows as `interfaces` need.
+    /// If it has another size than `size` columns and as many rows as some number of D need.
     pub fn from_stacked(
         stacked: &DMatrix<f64>,
         interfaces: usize,
         size: usize,
-    ) -> Result<Self, ParameterError> {
-        let blocks = BLOCKS + interfaces.saturating_sub(1);
-        let wanted = blocks * size + PAIRS.len();
-        if stacked.shape() != (wanted, size) {
-            let (rows, columns) = stacked.shape();
-            return problem(format!(
-                "has {rows} rows and {columns} columns: a mass of {size} rows and {interfaces} interfaces need {wanted} and {size}"
-            ));
+    ) -> Result<Option<Self>, ParameterError> {
+        let least = BLOCKS * size + PAIRS.len();
+        let (rows, columns) = stacked.shape();
+        let more = rows.checked_sub(least).filter(|_| columns == size);
+        if more == Some(interfaces.saturating_sub(1) * size) && interfaces > 1 {
+            return Ok(None);
         }
+        let Some(more) = more.filter(|more| more % (size + 1) == 0) else {
+            return problem(format!(
+                "has {rows} rows and {columns} columns: a mass of {size} rows needs {size} columns and {least} rows, and {} more for each \
+                 term of what is shortened",
+                size + 1
+            ));
+        };
+        let terms = more / (size + 1);
         let block = |k: usize| stacked.rows(k * size, size).into_owned();
-        Ok(Self {
+        let directions = (BLOCKS + terms) * size;
+        let term = |k: usize| Shortening {
+            direction: stacked.row(directions + k).transpose(),
+            matrix: block(BLOCKS + k),
+        };
+        Ok(Some(Self {
             moment: [0, 1, 2].map(block),
             inertia: [3, 4, 5, 6, 7, 8].map(block),
             momentum: [9, 10, 11].map(block),
-            shortening: (BLOCKS..blocks).map(block).collect(),
-            slope: stacked.rows(blocks * size, PAIRS.len()).into_owned(),
-        })
+            shortening: (0..terms).map(term).collect(),
+            slope: stacked.rows(directions + terms, PAIRS.len()).into_owned(),
+        }))
     }
 
     /// All of them below each other.
     pub fn stacked(&self) -> DMatrix<f64> {
         let size = self.slope.ncols();
         let blocks: Vec<&DMatrix<f64>> = self.blocks().collect();
-        let mut stacked = DMatrix::zeros(blocks.len() * size + PAIRS.len(), size);
+        let (first, terms) = (blocks.len() * size, self.shortening.len());
+        let mut stacked = DMatrix::zeros(first + terms + PAIRS.len(), size);
         for (k, block) in blocks.iter().enumerate() {
             stacked.rows_mut(k * size, size).copy_from(block);
         }
-        stacked.rows_mut(blocks.len() * size, PAIRS.len()).copy_from(&self.slope);
+        for (k, own) in self.shortening.iter().enumerate() {
+            stacked.row_mut(first + k).tr_copy_from(&own.direction);
+        }
+        stacked.rows_mut(first + terms, PAIRS.len()).copy_from(&self.slope);
         stacked
     }
 
     fn blocks(&self) -> impl Iterator<Item = &DMatrix<f64>> {
-        self.moment.iter().chain(&self.inertia).chain(&self.momentum).chain(&self.shortening)
+        let shortening = self.shortening.iter().map(|own| &own.matrix);
+        self.moment.iter().chain(&self.inertia).chain(&self.momentum).chain(shortening)
     }
 
     fn blocks_mut(&mut self) -> impl Iterator<Item = &mut DMatrix<f64>> {
         let first = self.moment.iter_mut().chain(&mut self.inertia);
-        first.chain(&mut self.momentum).chain(&mut self.shortening)
+        first.chain(&mut self.momentum).chain(self.shortening.iter_mut().map(|own| &mut own.matrix))
     }
 
-    /// Over other unknowns: y = map z.
+    /// Inertial terms over other unknowns, y = map z; without what is shortened.
     #[must_use]
-    pub fn through(&self, map: &DMatrix<f64>) -> Self {
-        let mut own = self.clone();
+    pub(crate) fn through(&self, map: &DMatrix<f64>) -> Self {
+        let mut own = Self { shortening: Vec::new(), ..self.clone() };
         for matrix in own.blocks_mut() {
             *matrix = map.tr_mul(&(&*matrix * map));
         }
@@ -115,6 +141,11 @@ impl GeometricMatrices {
         for (k, mut column) in own.slope.column_iter_mut().enumerate() {
             column *= factor(k);
         }
+        for term in &mut own.shortening {
+            for (k, value) in term.direction.iter_mut().enumerate() {
+                *value /= factor(k);
+            }
+        }
         own
     }
 
@@ -124,18 +155,25 @@ impl GeometricMatrices {
     /// If they cannot.
     pub fn check(mut self, mass: &DMatrix<f64>, places: &[Vector3]) -> Result<Self, ParameterError> {
         let size = mass.nrows();
-        if self.blocks().any(|block| block.shape() != (size, size)) || self.slope.ncols() != size {
+        if self.blocks().any(|block| block.shape() != (size, size)) || self.slope.ncols() != size
+            || self.shortening.iter().any(|own| own.direction.len() != size)
+        {
             return problem(format!("is not over the {size} rows of the mass"));
         }
-        if self.blocks().chain([&self.slope]).any(|block| block.iter().any(|value| !value.is_finite())) {
+        if self.blocks().chain([&self.slope]).any(|block| block.iter().any(|value| !value.is_finite()))
+            || self.shortening.iter().any(|own| own.direction.iter().any(|value| !value.is_finite()))
+        {
             return problem("holds what is not a finite number");
         }
-        if self.blocks().any(|block| block.rows(0, 6).amax() > 0.0 || block.columns(0, 6).amax() > 0.0) {
+        if self.blocks().any(|block| block.rows(0, 6).amax() > 0.0 || block.columns(0, 6).amax() > 0.0)
+            || self.shortening.iter().any(|own| own.direction.rows(0, 6).amax() > 0.0)
+        {
             return problem(
                 "has entries of the first interface, which carries the floating frame and is not displaced against it",
             );
         }
-        for matrix in self.moment.iter_mut().chain(&mut self.inertia).chain(&mut self.shortening) {
+        let shortening = self.shortening.iter_mut().map(|own| &mut own.matrix);
+        for matrix in self.moment.iter_mut().chain(&mut self.inertia).chain(shortening) {
             let symmetric = 0.5 * (&*matrix + matrix.transpose());
             if (&symmetric - &*matrix).amax() > UNEQUAL * matrix.amax() {
                 return problem("has a block that is not symmetric");

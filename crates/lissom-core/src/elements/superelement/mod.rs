@@ -45,7 +45,7 @@ use nalgebra::{DMatrix, DVector, Matrix3xX};
 pub use self::build::{InterfacePlace, SuperelementDescription, add_superelement};
 use self::centre::{Centre, Derivatives};
 pub use self::deformation::Deformation;
-pub use self::geometric::GeometricMatrices;
+pub use self::geometric::{GeometricMatrices, Shortening};
 pub(crate) use self::geometric::PAIRS;
 use self::linearize::Maps;
 pub(crate) use self::load_stiffness::flexibility;
@@ -71,6 +71,10 @@ pub const LARGEST_DISPLACEMENT: f64 = 0.3;
 pub const LARGEST_SPIN: f64 = 0.25;
 /// The same with matrices that know it, to first order in the square.
 pub const LARGEST_SPIN_KNOWN: f64 = 1.0;
+
+/// Negative kinetic energy of a motion of less than this part of those of its coordinates is of the third order in the deformation, which
+/// matrices of second order do not know.
+const THIRD_ORDER: f64 = 1e-3;
 
 /// A reduced part.
 #[derive(Clone, Debug)]
@@ -110,6 +114,7 @@ struct Rooms {
     maps: Maps,
     derivatives: Derivatives,
     second: Deformed,
+    mass: Vec<f64>,
 }
 
 thread_local! {
@@ -233,6 +238,27 @@ fn three(values: &[f64], first: usize) -> Vector3 {
     Vector3::new(values[first], values[first + 1], values[first + 2])
 }
 
+/// Whether all pivots of a symmetric matrix are positive, by its Cholesky factorisation in place, of the lower triangle.
+fn is_positive_definite(matrix: &mut [f64], size: usize) -> bool {
+    for row in 0..size {
+        for column in 0..=row {
+            let (above, own) = matrix.split_at(row * size);
+            let before = if column < row { &above[column * size..column * size + column] } else { &own[..column] };
+            let sum: f64 = own[..column].iter().zip(before).map(|(a, b)| a * b).sum();
+            let rest = own[column] - sum;
+            if column < row {
+                let pivot = above[column * size + column];
+                matrix[row * size + column] = rest / pivot;
+            } else if rest > 0.0 {
+                matrix[row * size + column] = rest.sqrt();
+            } else {
+                return false;
+            }
+        }
+    }
+    true
+}
+
 /// Adds to three numbers of a vector.
 fn add(values: &mut [f64], first: usize, vector: &Vector3) {
     for k in 0..3 {
@@ -279,7 +305,7 @@ impl Element for Superelement {
     }
 
     fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
-        ROOMS.with_borrow_mut(|Rooms { own, stages: [other, _], centre, maps, derivatives, second }| {
+        ROOMS.with_borrow_mut(|Rooms { own, stages: [other, _], centre, maps, derivatives, second, .. }| {
             other.enter(self, stressed);
             self.stress(other);
             own.enter(self, at);
@@ -304,6 +330,21 @@ impl Element for Superelement {
                 second.add_mass(self, law, at, out);
             }
         });
+    }
+
+    fn has_positive_mass(&self, at: &Kinematics) -> bool {
+        // To first order it is a sum of squares.
+        if self.second_order.is_none() {
+            return true;
+        }
+        let mut matrix = ROOMS.with_borrow_mut(|rooms| std::mem::take(&mut rooms.mass));
+        self.mass(at, &mut matrix);
+        for row in 0..self.size() {
+            matrix[row * (self.size() + 1)] *= 1.0 + THIRD_ORDER;
+        }
+        let is_positive = is_positive_definite(&mut matrix, self.size());
+        ROOMS.with_borrow_mut(|rooms| rooms.mass = matrix);
+        is_positive
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
@@ -368,11 +409,11 @@ impl Element for Superelement {
                 let estimate = self.load_stiffness.as_ref()?;
                 product(&self.stiffness, &room.displacement, &mut room.stress);
                 let share = match limit {
+                    // Matrices of second order know both.
+                    _ if self.second_order.is_some() => return None,
                     LinearLimit::Moment => {
                         estimate.share_of_moments(self, (&room.displacement, &room.stress))?
                     }
-                    // Matrices of second order know it.
-                    _ if self.second_order.is_some() => return None,
                     _ => estimate.share(self, (&room.displacement, &room.stress, &spin))?,
                 };
                 return Some(LinearRange { part: share / LARGEST_SHARE, node: frame });

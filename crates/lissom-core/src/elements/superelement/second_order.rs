@@ -2,20 +2,20 @@
 //! stiffness that rotation, acceleration and axial forces give and take.
 //!
 //! Legend: y = (r - X, κ, q) relative to the floating frame (see `relative`), v and ω its velocity and rate of rotation, γ = R_fᵀ g,
-//! d_k direction from the floating frame to interface k. Coefficients: s_k = ½ y·S_k y, J_ij = α_ij·y + ½ y·A_ij y, c_i ẏ = y·B_i ẏ,
+//! U_k direction of what is shortened. Coefficients: s_k = ½ y·S_k y, J_ij = α_ij·y + ½ y·A_ij y, c_i ẏ = y·B_i ẏ,
 //! h_k = ½ y·D_k y (see [`GeometricMatrices`]), less what the first-order energies of the element have of them.
 //!
 //! ```text
-//! L = v·(ω × s + ṡ) + γ·s + ½ ω·J ω + ω·c ẏ - h·(K y + ½ K h),      h = Σ h_k d_k on the interfaces
+//! L = v·(ω × s + ṡ) + γ·s + ½ ω·J ω + ω·c ẏ - h·(K y + ½ K h),      h = Σ h_k U_k
 //!
 //! force on f      s̈ + ω̇ × s + 2 ω × ṡ + ω × (ω × s)
 //! moment on f     s × a + l̇ + ω × l,      l = J ω + c ẏ,      a = v̇ + ω × v - γ
 //! dual to y       Σ a_k S_k y + Σ ω̇_i B_iᵀ y + ω_i (B_iᵀ - B_i) ẏ - ½ Σ ω_i ω_j (α_ij + A_ij y)
-//!                 + Σ g_k D_k y + K h,      g_k = d_k·(K y + K h)
+//!                 + Σ g_k D_k y + K h,      g_k = U_k·(K y + K h)
 //! ```
 //!
-//! The equations are those of Poincaré for L. The elastic energy is ½ (y + h)·K (y + h): the square keeps it positive, and an interface
-//! that is displaced across comes nearer by h_k without force.
+//! The equations are those of Poincaré for L. The elastic energy is ½ (y + h)·K (y + h): the square keeps it positive, and what bends
+//! is shortened by h without force.
 
 use lissom_motion::{Matrix3, Matrix6, Vector3, rotation_part, screw, skew, translation_part};
 use nalgebra::{DMatrix, DVector, Matrix3xX};
@@ -27,15 +27,14 @@ use super::{Superelement, add};
 use crate::elements::{Energy, Tangents};
 use crate::system::Kinematics;
 
-/// How much nearer an interface comes.
+/// What is shortened.
 #[derive(Clone, Debug)]
-struct Shortening {
-    interface: usize,
-    /// d.
-    direction: Vector3,
+struct Shortened {
+    /// U.
+    direction: DVector<f64>,
     /// D.
     matrix: DMatrix<f64>,
-    /// K d.
+    /// K U.
     pulled: DVector<f64>,
 }
 
@@ -49,7 +48,9 @@ pub(super) struct SecondOrder {
     inertia: [DMatrix<f64>; 6],
     /// B.
     momentum: [DMatrix<f64>; 3],
-    shortening: Vec<Shortening>,
+    shortening: Vec<Shortened>,
+    /// U_k·K U_l.
+    stiffness: DMatrix<f64>,
 }
 
 impl SecondOrder {
@@ -59,22 +60,25 @@ impl SecondOrder {
         let slope = |k: usize| matrices.slope.row(k).transpose() - &known.slope[k];
         let inertia = |k: usize| &matrices.inertia[k] - &known.inertia[k];
         let momentum = |k: usize| &matrices.momentum[k] - &known.momentum[k];
-        let others = (0..element.nodes.len()).filter(|&i| i != element.frame);
-        let shortening = others.zip(&matrices.shortening).filter_map(|(interface, matrix)| {
-            let length = element.places[interface].norm();
-            if length <= 0.0 || matrix.amax() <= 0.0 {
-                return None;
-            }
-            let direction = element.places[interface] / length;
-            let pulled = element.stiffness.columns(6 * interface, 3) * direction;
-            Some(Shortening { interface, direction, matrix: matrix.clone(), pulled })
+        let shortening: Vec<Shortened> = matrices
+            .shortening
+            .iter()
+            .map(|own| Shortened {
+                direction: own.direction.clone(),
+                matrix: own.matrix.clone(),
+                pulled: &element.stiffness * &own.direction,
+            })
+            .collect();
+        let stiffness = DMatrix::from_fn(shortening.len(), shortening.len(), |k, l| {
+            shortening[k].direction.dot(&shortening[l].pulled)
         });
         Self {
             moment: matrices.moment.clone(),
             slope: [0, 1, 2, 3, 4, 5].map(slope),
             inertia: [0, 1, 2, 3, 4, 5].map(inertia),
             momentum: [0, 1, 2].map(momentum),
-            shortening: shortening.collect(),
+            shortening,
+            stiffness,
         }
     }
 }
@@ -206,8 +210,7 @@ impl Deformed {
             self.room.axpy(shorter, &own.pulled, 1.0);
         }
         for own in &law.shortening {
-            let first = 6 * own.interface;
-            self.pull.push((0..3).map(|k| own.direction[k] * self.room[first + k]).sum());
+            self.pull.push(own.direction.dot(&self.room));
         }
     }
 
@@ -307,12 +310,10 @@ impl Deformed {
             - 0.5 * self.spin.dot(&(inertia * self.spin));
         // h·(K y + ½ K h), of h·(K y + K h).
         let mut strain = 0.0;
-        for (k, own) in law.shortening.iter().enumerate() {
+        for k in 0..law.shortening.len() {
             strain += self.shorter[k] * self.pull[k];
-            for (l, other) in law.shortening.iter().enumerate() {
-                let first = 6 * other.interface;
-                let along: f64 = (0..3).map(|c| other.direction[c] * own.pulled[first + c]).sum();
-                strain -= 0.5 * self.shorter[k] * self.shorter[l] * along;
+            for l in 0..law.shortening.len() {
+                strain -= 0.5 * self.shorter[k] * self.shorter[l] * law.stiffness[(k, l)];
             }
         }
         Energy { kinetic, strain, potential: -self.gravity.dot(&s) }
@@ -458,10 +459,11 @@ impl Deformed {
         for (k, own) in law.shortening.iter().enumerate() {
             matrix.ger(1.0, &self.shortening[k], &own.pulled, 1.0);
             matrix.ger(1.0, &own.pulled, &self.shortening[k], 1.0);
-            for (l, other) in law.shortening.iter().enumerate() {
-                let first = 6 * own.interface;
-                let along: f64 = (0..3).map(|c| own.direction[c] * other.pulled[first + c]).sum();
-                matrix.ger(along, &self.shortening[k], &self.shortening[l], 1.0);
+            for (l, other) in self.shortening.iter().enumerate() {
+                let along = law.stiffness[(k, l)];
+                if along != 0.0 {
+                    matrix.ger(along, &self.shortening[k], other, 1.0);
+                }
             }
         }
         matrix

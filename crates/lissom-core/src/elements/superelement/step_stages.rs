@@ -126,7 +126,7 @@ mod tests {
     use super::*;
     use crate::elements::inertia::Gravity;
     use crate::elements::superelement::{Damping, ReducedMatrices};
-    use crate::system::{Kinematics, NodeMotion};
+    use crate::system::{CoordinateMotion, Kinematics, MotionChange, NodeMotion};
 
     /// Three interfaces that go straight on at the first stage and turn about the floating frame, the second of them, at the other:
     /// the longer way counts, with turns as arcs of the size of the part, 5 m.
@@ -177,6 +177,74 @@ mod tests {
             let wanted = (by_stage[0] * lasting[0].abs()).max(by_stage[1] * lasting[1].abs());
             let found = element.way(&step, &stages);
             assert!((found - wanted).abs() < 1e-14, "{lasting:?}: {found}, {wanted}");
+        }
+    }
+
+    /// What rates miss is the change of u over the step less what they add up to, for turns that are small and large.
+    #[test]
+    fn the_remainder_closes_the_change_over_the_step() {
+        let places = [Vector3::zeros(), Vector3::new(2.0, 0.5, -1.0)];
+        let matrices = ReducedMatrices {
+            mass: DMatrix::identity(13, 13),
+            stiffness: DMatrix::identity(13, 13),
+            damping: Damping::None,
+            preload: Vec::new(),
+            geometric: None,
+        };
+        let gravity = Gravity::constant(Vector3::zeros());
+        let element = Superelement::new((vec![0, 1], vec![0]), (0, &places), matrices, gravity);
+        let twist = screw(&Vector3::new(0.3, -0.2, 0.5), &Vector3::new(0.4, 0.7, -0.1));
+        for size in [1e-5, 2e-4, 0.02, 0.4] {
+            let changed = [
+                Motion::exponential(&(size * screw(&Vector3::new(1.0, 2.0, 0.5), &Vector3::new(0.3, -0.6, 0.2)))),
+                Motion::exponential(&(size * screw(&Vector3::new(-0.5, 1.0, 1.5), &Vector3::new(1.1, 0.4, -0.8)))),
+            ];
+            let state = |part: f64, value: f64| {
+                let first = Motion::exponential(&(0.7 * twist));
+                let second = first
+                    * Motion::translation(places[1])
+                    * Motion::exponential(&(0.2 * screw(&Vector3::new(0.1, 0.3, 0.2), &Vector3::new(0.5, -0.4, 0.9))));
+                let frames = [first, second];
+                let nodes = frames.iter().zip(&changed).map(|(frame, change)| {
+                    let frame = if part > 0.0 { *frame * *change } else { *frame };
+                    NodeMotion { twist, ..NodeMotion::at_rest(frame) }
+                });
+                Kinematics {
+                    time: 0.0,
+                    elapsed: 0.0,
+                    nodes: nodes.collect(),
+                    coordinates: vec![CoordinateMotion { value, rate: 0.3, acceleration: 0.0 }],
+                    held: Vec::new(),
+                    multipliers: Vec::new(),
+                }
+            };
+            let (start, end) = (state(0.0, 0.1), state(1.0, 0.1 + size));
+            let changes: Vec<MotionChange> = changed.iter().map(MotionChange::of).collect();
+            let step = StepStages {
+                start: &start,
+                stages: [&start, &end],
+                end: &end,
+                changes: &changes,
+                durations: [[0.0; STAGES]; STAGES],
+                lasting: [0.1 * size, 0.3 * size],
+                reached: [0.0; STAGES],
+                length: 1.0,
+            };
+            let mut stages = [Room::default(), Room::default()];
+            for (room, at) in stages.iter_mut().zip(step.stages) {
+                room.enter(&element, at);
+            }
+            let (mut own, mut last) = (Room::default(), Room::default());
+            own.enter(&element, &start);
+            last.enter(&element, &end);
+            element.missed(&step, &mut own, &stages);
+            for row in 0..element.size() {
+                let wanted = last.displacement[row]
+                    - own.displacement[row]
+                    - step.whole([stages[0].rate[row], stages[1].rate[row]]);
+                let error = (own.stress[row] - wanted).abs();
+                assert!(error < 1e-14 + 1e-9 * size, "{size}, row {row}: {} {wanted}", own.stress[row]);
+            }
         }
     }
 }

@@ -1,0 +1,293 @@
+//! The cubic elastic energy of shapes, as what shortens: an energy that is a square, and what loads do by shapes that are left out.
+//!
+//! Legend: y unknowns with the first interface held, K and M their stiffness and mass; T_ijk third derivatives of the elastic energy; z
+//! natural modes of K and M, y = V z, with the squares λ of their frequencies.
+//!
+//! ```text
+//! V = ½ (y + h)·K (y + h),      h = Σ V_i h_i,      h_i = ½ z·D_i z,      D_i,jk = T_ijk / λ_i · p_i / (p_i + p_j + p_k)
+//! p_i = λ_i² (ε + r_i)²,      r_i ~ Σ_j T_ijj² / (λ_i λ_j²),  at most 1
+//! ```
+//!
+//! The energy has the third derivatives T, for the three weights of a term have the sum 1, and is not negative. A term should fall to
+//! the mode that is stretched by the other two, which bend: with a weight on a mode that bends, terms of
+//! fourth order would be as large as the bending itself. What is stretched changes the stiffness of all others, so that r tells
+//! it: a mode that bends a straight part has r = 0, for it cannot matter to which side it bends. Among modes alike the stiffest one counts.
+//!
+//! A steady rotation loads the part between the interfaces, and moves the modes that are left out, too. In statics they are displaced by w_d,
+//! and K_g = Σ w_d T_d with the same weights acts on those that are kept, as part of the inertia about the frame. Modes that are kept move by
+//! themselves, and their T is in h: it must not count twice.
+//!
+//! The same for accelerations would be momenta of the first order in the deformation: without the energy of the second order that belongs to
+//! them the kinetic energy would not stay positive. They are left out; forces under accelerations are those of the modes that are kept.
+
+use nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+use crate::elements::superelement::{GeometricMatrices, Shortening};
+
+/// Squares of frequencies below this part of the largest one are those of mechanisms.
+const MECHANISM: f64 = 1e-12;
+/// ε: modes that bend count by this part.
+const BENDING: f64 = 1e-3;
+/// Terms below this part of the largest one, in modes of equal energy, are left out.
+const LEAST: f64 = 1e-6;
+
+/// The static state under a load of the floating frame, interfaces held.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct LoadState {
+    /// K_g of what no mode resolves.
+    pub(super) remainder: DMatrix<f64>,
+    /// Displacements of the modes.
+    pub(super) response: DVector<f64>,
+}
+
+impl LoadState {
+    pub(super) fn combine(&mut self, other: &Self, factor: f64) {
+        self.remainder += &other.remainder * factor;
+        self.response += &other.response * factor;
+    }
+
+    pub(super) fn scale(&mut self, factor: f64) {
+        self.remainder *= factor;
+        self.response *= factor;
+    }
+}
+
+/// What is of second order over all shapes, before some are chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct SecondOrder {
+    /// Inertial terms.
+    pub(super) direct: GeometricMatrices,
+    /// T_k of each shape.
+    pub(super) cubic: Vec<DMatrix<f64>>,
+    /// States under steady rotation, angular acceleration and acceleration; those of a rotation as they count in A.
+    pub(super) turning: Vec<LoadState>,
+    pub(super) spun: Vec<LoadState>,
+    pub(super) pushed: Vec<LoadState>,
+}
+
+/// Natural modes of the unknowns that are kept, the first interface held.
+struct Modes {
+    /// V over all rows, and its inverse over all columns.
+    shapes: DMatrix<f64>,
+    inverse: DMatrix<f64>,
+    squares: DVector<f64>,
+    /// p.
+    stretches: DVector<f64>,
+}
+
+impl Modes {
+    fn of(mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<Self> {
+        let size = mass.nrows();
+        let count = size.checked_sub(6).filter(|count| *count > 0)?;
+        let held = |matrix: &DMatrix<f64>| matrix.view((6, 6), (count, count)).into_owned();
+        let lower = held(mass).cholesky()?.l();
+        let half = lower.solve_lower_triangular(&held(stiffness))?;
+        let scaled = lower.solve_lower_triangular(&half.transpose())?;
+        let SymmetricEigen { eigenvectors, eigenvalues } =
+            SymmetricEigen::new(0.5 * (&scaled + scaled.transpose()));
+        let own = lower.transpose().solve_upper_triangular(&eigenvectors)?;
+        let mut shapes = DMatrix::zeros(size, count);
+        shapes.rows_mut(6, count).copy_from(&own);
+        let mut inverse = DMatrix::zeros(count, size);
+        inverse.columns_mut(6, count).copy_from(&(eigenvectors.transpose() * lower.transpose()));
+        let least = MECHANISM * eigenvalues.amax();
+        let squares = eigenvalues.map(|square| if square > least { square } else { 0.0 });
+        let stretches = DVector::zeros(count);
+        Some(Self { shapes, inverse, squares, stretches })
+    }
+
+    fn count(&self) -> usize {
+        self.squares.len()
+    }
+
+    /// How much a mode changes the stiffness of others, r before it is compared with the largest one.
+    fn stretch(&self, cubic: &DMatrix<f64>, square: f64) -> f64 {
+        if square <= 0.0 {
+            return 0.0;
+        }
+        let of = |j: usize| if self.squares[j] > 0.0 { cubic[(j, j)] / self.squares[j] } else { 0.0 };
+        (0..self.count()).map(|j| of(j) * of(j)).sum::<f64>() / square
+    }
+
+    /// A matrix over natural modes with the weights of a mode that counts with this p.
+    fn weighted(&self, matrix: &DMatrix<f64>, own: f64) -> DMatrix<f64> {
+        DMatrix::from_fn(self.count(), self.count(), |j, k| {
+            if own > 0.0 { matrix[(j, k)] * own / (own + self.stretches[j] + self.stretches[k]) } else { 0.0 }
+        })
+    }
+
+    /// From natural modes back to the unknowns.
+    fn back(&self, matrix: &DMatrix<f64>) -> DMatrix<f64> {
+        self.inverse.tr_mul(&(matrix * &self.inverse))
+    }
+}
+
+impl SecondOrder {
+    /// What steady loads do as a whole, and what shortens along the directions to the interfaces: for the choice of shapes.
+    pub(super) fn of_loads(&self) -> [Vec<DMatrix<f64>>; 2] {
+        let whole = |(direct, state): (&DMatrix<f64>, &LoadState)| {
+            let mut sum = direct + &state.remainder;
+            for (cubic, factor) in self.cubic.iter().zip(state.response.iter()).filter(|(_, own)| **own != 0.0) {
+                sum.zip_apply(cubic, |sum, value| *sum += factor * value);
+            }
+            sum
+        };
+        let turning = self.direct.inertia.iter().zip(&self.turning).chain(self.direct.momentum.iter().zip(&self.spun));
+        let pushed = self.direct.moment.iter().zip(&self.pushed);
+        [turning.map(whole).collect(), pushed.map(whole).collect()]
+    }
+
+    /// K_g of the state of all shapes.
+    pub(super) fn stressed(&self, state: &DVector<f64>) -> DMatrix<f64> {
+        let size = state.len();
+        let mut sum = DMatrix::zeros(size, size);
+        for (cubic, factor) in self.cubic.iter().zip(state.iter()).filter(|(_, own)| **own != 0.0) {
+            sum.zip_apply(cubic, |sum, value| *sum += factor * value);
+        }
+        sum
+    }
+
+    /// Over the unknowns that `map` keeps, with their mass and stiffness; `all` has the stiffness of all shapes, modes from row `first` on.
+    pub(super) fn kept(
+        &self,
+        map: &DMatrix<f64>,
+        [mass, stiffness, all]: [&DMatrix<f64>; 3],
+        first: usize,
+    ) -> Option<GeometricMatrices> {
+        let mut own = self.direct.through(map);
+        let Some(mut modes) = Modes::of(mass, stiffness) else { return Some(own) };
+        // T over natural modes in its last two places, and over all shapes in the first one.
+        let among = map * &modes.shapes;
+        let cubic: Vec<DMatrix<f64>> = self.cubic.iter().map(|matrix| among.tr_mul(&(matrix * &among))).collect();
+        let natural: Vec<DMatrix<f64>> = (0..modes.count()).map(|i| over_mode(&cubic, &among, i)).collect();
+        let of_natural: Vec<f64> =
+            natural.iter().zip(&modes.squares).map(|(matrix, square)| modes.stretch(matrix, *square)).collect();
+        let left_out = |k: usize| modes.stretch(&cubic[first + k], all[(first + k, first + k)]);
+        let of_left_out: Vec<f64> = (0..all.nrows() - first).map(left_out).collect();
+        let largest = of_natural.iter().chain(&of_left_out).fold(f64::MIN_POSITIVE, |most, own| most.max(*own));
+        let counts = |stretch: f64, square: f64| (square * (BENDING + stretch / largest)).powi(2);
+        let of_left_out: Vec<f64> = (of_left_out.iter().enumerate())
+            .map(|(k, stretch)| counts(*stretch, all[(first + k, first + k)]))
+            .collect();
+        modes.stretches = DVector::from_fn(modes.count(), |i, _| counts(of_natural[i], modes.squares[i]));
+        own.shortening = shortening(&modes, &natural);
+        let tail = |matrix: &DMatrix<f64>| {
+            let [rows, columns] = [matrix.nrows() - first, matrix.ncols() - first];
+            matrix.view((first, first), (rows, columns)).into_owned()
+        };
+        let (tail_map, tail_all) = (tail(map), tail(all));
+        let projected = tail_map.tr_mul(&(&tail_all * &tail_map)).cholesky();
+        let of_load = |state: &LoadState| {
+            let response = state.response.rows(first, tail_all.nrows()).into_owned();
+            let resolved = projected.as_ref().map(|factor| &tail_map * factor.solve(&tail_map.tr_mul(&(&tail_all * &response))));
+            let missed = resolved.map_or_else(|| response.clone(), |resolved| &response - resolved);
+            let mut sum = DMatrix::zeros(modes.count(), modes.count());
+            for (k, factor) in missed.iter().enumerate() {
+                sum += modes.weighted(&cubic[first + k], of_left_out[k]) * *factor;
+            }
+            let mut matrix = modes.back(&sum);
+            matrix += map.tr_mul(&(&state.remainder * map));
+            matrix
+        };
+        for (matrix, state) in own.inertia.iter_mut().zip(&self.turning) {
+            *matrix += of_load(state);
+        }
+        Some(own)
+    }
+}
+
+/// T of a natural mode over natural modes; `cubic` has them in its last two places alone, and `among` maps the first one.
+fn over_mode(cubic: &[DMatrix<f64>], among: &DMatrix<f64>, i: usize) -> DMatrix<f64> {
+    let count = among.ncols();
+    let mut sum = DMatrix::zeros(count, count);
+    for (matrix, factor) in cubic.iter().zip(among.column(i).iter()).filter(|(_, own)| **own != 0.0) {
+        sum.zip_apply(matrix, |sum, value| *sum += factor * value);
+    }
+    sum
+}
+
+/// h, a term for each natural mode that has any.
+fn shortening(modes: &Modes, natural: &[DMatrix<f64>]) -> Vec<Shortening> {
+    let count = modes.count();
+    let terms: Vec<(usize, DMatrix<f64>)> = (0..count)
+        .filter(|&i| modes.squares[i] > 0.0)
+        .map(|i| (i, modes.weighted(&natural[i], modes.stretches[i])))
+        .collect();
+    let root = modes.squares.map(|square| if square > 0.0 { square.sqrt().recip() } else { 0.0 });
+    let size = |(i, matrix): &(usize, DMatrix<f64>)| {
+        let of = |j: usize, k: usize| (matrix[(j, k)] * root[j] * root[k] * root[*i]).abs();
+        (0..count).flat_map(|j| (0..count).map(move |k| (j, k))).map(|(j, k)| of(j, k)).fold(0.0, f64::max)
+    };
+    let largest = terms.iter().map(size).fold(0.0, f64::max);
+    terms
+        .iter()
+        .filter(|term| size(term) > LEAST * largest)
+        .map(|(i, matrix)| Shortening {
+            direction: modes.shapes.column(*i).into_owned(),
+            matrix: modes.back(matrix) / modes.squares[*i],
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Four unknowns besides the first interface: two that bend, one that is stretched by both, and one that is twisted by both together.
+    fn order() -> (SecondOrder, DMatrix<f64>, DMatrix<f64>) {
+        let size = 10;
+        let mut cubic = vec![DMatrix::zeros(size, size); size];
+        let mut add = |value: f64, [i, j, k]: [usize; 3]| {
+            for [a, b, c] in [[i, j, k], [j, k, i], [k, i, j], [i, k, j], [k, j, i], [j, i, k]] {
+                cubic[a][(b, c)] = value;
+            }
+        };
+        add(3e3, [8, 6, 6]);
+        add(2e3, [8, 7, 7]);
+        add(5.0, [9, 6, 7]);
+        let zeros = || DMatrix::zeros(size, size);
+        let direct = GeometricMatrices {
+            moment: [zeros(), zeros(), zeros()],
+            slope: DMatrix::zeros(6, size),
+            inertia: [zeros(), zeros(), zeros(), zeros(), zeros(), zeros()],
+            momentum: [zeros(), zeros(), zeros()],
+            shortening: Vec::new(),
+        };
+        let order = SecondOrder { direct, cubic, turning: Vec::new(), spun: Vec::new(), pushed: Vec::new() };
+        let mut stiffness = zeros();
+        for (row, value) in [(6, 1.0), (7, 3.0), (8, 1e3), (9, 20.0)] {
+            stiffness[(row, row)] = value;
+        }
+        (order, DMatrix::identity(size, size), stiffness)
+    }
+
+    /// The third derivatives of ½ (y + h)·K (y + h) are T, whatever falls to which mode; what bends is shortened by the stretch.
+    #[test]
+    fn the_square_has_the_third_derivatives() {
+        let (order, mass, stiffness) = order();
+        let size = mass.nrows();
+        let map = DMatrix::identity(size, size);
+        let found = order.kept(&map, [&mass, &stiffness, &stiffness], 10).expect("it has unknowns");
+        let cubic = |y: &DVector<f64>| {
+            found.shortening.iter().map(|own| {
+                0.5 * y.dot(&(&own.matrix * y)) * own.direction.dot(&(&stiffness * y))
+            }).sum::<f64>()
+        };
+        let exact = |y: &DVector<f64>| {
+            order.cubic.iter().enumerate().map(|(i, own)| y[i] * y.dot(&(own * y))).sum::<f64>() / 6.0
+        };
+        for direction in [[1.0, 0.0, 0.3, 0.0], [0.4, -0.7, 0.2, 1.1], [0.0, 1.0, -0.5, 0.3]] {
+            let mut y = DVector::zeros(size);
+            y.rows_mut(6, 4).copy_from_slice(&direction);
+            assert!((cubic(&y) - exact(&y)).abs() < 1e-9 * exact(&y).abs().max(1.0), "{} {}", cubic(&y), exact(&y));
+        }
+        // Bending by 1 is shortened by T / λ, and nothing else comes of it.
+        let mut bent = DVector::zeros(size);
+        bent[6] = 1.0;
+        let mut moved = DVector::zeros(size);
+        for own in &found.shortening {
+            moved.axpy(0.5 * bent.dot(&(&own.matrix * &bent)), &own.direction, 1.0);
+        }
+        assert!((moved[8] - 1.5).abs() < 1e-5 && moved[7].abs() < 1e-6, "{moved}");
+    }
+}
