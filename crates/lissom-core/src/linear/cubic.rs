@@ -127,12 +127,15 @@ impl SecondOrder {
     pub(super) fn of_loads(&self) -> [Vec<DMatrix<f64>>; 2] {
         let whole = |(direct, state): (&DMatrix<f64>, &LoadState)| {
             let mut sum = direct + &state.remainder;
-            for (cubic, factor) in self.cubic.iter().zip(state.response.iter()).filter(|(_, own)| **own != 0.0) {
+            for (cubic, factor) in
+                self.cubic.iter().zip(state.response.iter()).filter(|(_, own)| **own != 0.0)
+            {
                 sum.zip_apply(cubic, |sum, value| *sum += factor * value);
             }
             sum
         };
-        let turning = self.direct.inertia.iter().zip(&self.turning).chain(self.direct.momentum.iter().zip(&self.spun));
+        let turning =
+            self.direct.inertia.iter().zip(&self.turning).chain(self.direct.momentum.iter().zip(&self.spun));
         let pushed = self.direct.moment.iter().zip(&self.pushed);
         [turning.map(whole).collect(), pushed.map(whole).collect()]
     }
@@ -158,13 +161,18 @@ impl SecondOrder {
         let Some(mut modes) = Modes::of(mass, stiffness) else { return Some(own) };
         // T over natural modes in its last two places, and over all shapes in the first one.
         let among = map * &modes.shapes;
-        let cubic: Vec<DMatrix<f64>> = self.cubic.iter().map(|matrix| among.tr_mul(&(matrix * &among))).collect();
+        let cubic: Vec<DMatrix<f64>> =
+            self.cubic.iter().map(|matrix| among.tr_mul(&(matrix * &among))).collect();
         let natural: Vec<DMatrix<f64>> = (0..modes.count()).map(|i| over_mode(&cubic, &among, i)).collect();
-        let of_natural: Vec<f64> =
-            natural.iter().zip(&modes.squares).map(|(matrix, square)| modes.stretch(matrix, *square)).collect();
+        let of_natural: Vec<f64> = natural
+            .iter()
+            .zip(&modes.squares)
+            .map(|(matrix, square)| modes.stretch(matrix, *square))
+            .collect();
         let left_out = |k: usize| modes.stretch(&cubic[first + k], all[(first + k, first + k)]);
         let of_left_out: Vec<f64> = (0..all.nrows() - first).map(left_out).collect();
-        let largest = of_natural.iter().chain(&of_left_out).fold(f64::MIN_POSITIVE, |most, own| most.max(*own));
+        let largest =
+            of_natural.iter().chain(&of_left_out).fold(f64::MIN_POSITIVE, |most, own| most.max(*own));
         let counts = |stretch: f64, square: f64| (square * (BENDING + stretch / largest)).powi(2);
         let of_left_out: Vec<f64> = (of_left_out.iter().enumerate())
             .map(|(k, stretch)| counts(*stretch, all[(first + k, first + k)]))
@@ -179,7 +187,9 @@ impl SecondOrder {
         let projected = tail_map.tr_mul(&(&tail_all * &tail_map)).cholesky();
         let of_load = |state: &LoadState| {
             let response = state.response.rows(first, tail_all.nrows()).into_owned();
-            let resolved = projected.as_ref().map(|factor| &tail_map * factor.solve(&tail_map.tr_mul(&(&tail_all * &response))));
+            let resolved = projected
+                .as_ref()
+                .map(|factor| &tail_map * factor.solve(&tail_map.tr_mul(&(&tail_all * &response))));
             let missed = resolved.map_or_else(|| response.clone(), |resolved| &response - resolved);
             let mut sum = DMatrix::zeros(modes.count(), modes.count());
             for (k, factor) in missed.iter().enumerate() {
@@ -269,9 +279,11 @@ mod tests {
         let map = DMatrix::identity(size, size);
         let found = order.kept(&map, [&mass, &stiffness, &stiffness], 10).expect("it has unknowns");
         let cubic = |y: &DVector<f64>| {
-            found.shortening.iter().map(|own| {
-                0.5 * y.dot(&(&own.matrix * y)) * own.direction.dot(&(&stiffness * y))
-            }).sum::<f64>()
+            found
+                .shortening
+                .iter()
+                .map(|own| 0.5 * y.dot(&(&own.matrix * y)) * own.direction.dot(&(&stiffness * y)))
+                .sum::<f64>()
         };
         let exact = |y: &DVector<f64>| {
             order.cubic.iter().enumerate().map(|(i, own)| y[i] * y.dot(&(own * y))).sum::<f64>() / 6.0
@@ -279,7 +291,12 @@ mod tests {
         for direction in [[1.0, 0.0, 0.3, 0.0], [0.4, -0.7, 0.2, 1.1], [0.0, 1.0, -0.5, 0.3]] {
             let mut y = DVector::zeros(size);
             y.rows_mut(6, 4).copy_from_slice(&direction);
-            assert!((cubic(&y) - exact(&y)).abs() < 1e-9 * exact(&y).abs().max(1.0), "{} {}", cubic(&y), exact(&y));
+            assert!(
+                (cubic(&y) - exact(&y)).abs() < 1e-9 * exact(&y).abs().max(1.0),
+                "{} {}",
+                cubic(&y),
+                exact(&y)
+            );
         }
         // Bending by 1 is shortened by T / λ, and nothing else comes of it.
         let mut bent = DVector::zeros(size);

@@ -307,12 +307,16 @@ impl Assembly<'_> {
         let spun = [0, 1, 2].map(|k| from_rest(Carried::Accelerated(zero, square * axis(k))));
         let pushed = [0, 1, 2].map(|k| from_rest(Carried::Accelerated(square * axis(k), zero)));
         let cubic = (0..size).map(|k| {
-            if k < first { DMatrix::zeros(size, size) } else { forces.geometric(&shapes[k], (&steps, first), length) }
+            if k < first {
+                DMatrix::zeros(size, size)
+            } else {
+                forces.geometric(&shapes[k], (&steps, first), length)
+            }
         });
         let cubic: Vec<DMatrix<f64>> = cubic.collect();
-        let Ok(inertia) =
-            <[DMatrix<f64>; 6]>::try_from(turning.iter().map(|own| symmetric(&own.direct)).collect::<Vec<_>>())
-        else {
+        let Ok(inertia) = <[DMatrix<f64>; 6]>::try_from(
+            turning.iter().map(|own| symmetric(&own.direct)).collect::<Vec<_>>(),
+        ) else {
             return Ok(None);
         };
         let direct = GeometricMatrices {

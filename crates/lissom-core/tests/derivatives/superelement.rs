@@ -3,8 +3,7 @@
 use lissom_core::elements::inertia::Gravity;
 use lissom_core::elements::superelement::{
     Damping, GeometricMatrices, InterfacePlace, ReducedMatrices, Shortening, Superelement,
-    SuperelementDescription,
-    add_superelement,
+    SuperelementDescription, add_superelement,
 };
 use lissom_core::elements::{Element, LinearLimit};
 use lissom_core::system::{Builder, Freedoms, State, System};
@@ -32,10 +31,9 @@ fn second_order(interfaces: usize, size: usize, random: &mut Random) -> Geometri
     let inertia = [0, 1, 2, 3, 4, 5].map(|_| symmetric());
     let matrices: Vec<_> = (0..interfaces).map(|_| symmetric()).collect();
     let momentum = [0, 1, 2].map(|_| any());
-    let shortening = matrices.into_iter().map(|matrix| Shortening {
-        direction: DVector::from_fn(size, |_, _| 0.3 * random.number()),
-        matrix,
-    });
+    let shortening = matrices
+        .into_iter()
+        .map(|matrix| Shortening { direction: DVector::from_fn(size, |_, _| 0.3 * random.number()), matrix });
     let shortening = shortening.collect();
     let slope = DMatrix::from_fn(6, size, |_, _| random.number());
     GeometricMatrices { moment, slope, inertia, momentum, shortening }

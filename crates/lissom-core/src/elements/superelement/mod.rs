@@ -45,8 +45,8 @@ use nalgebra::{DMatrix, DVector, Matrix3xX};
 pub use self::build::{InterfacePlace, SuperelementDescription, add_superelement};
 use self::centre::{Centre, Derivatives};
 pub use self::deformation::Deformation;
-pub use self::geometric::{GeometricMatrices, Shortening};
 pub(crate) use self::geometric::PAIRS;
+pub use self::geometric::{GeometricMatrices, Shortening};
 use self::linearize::Maps;
 pub(crate) use self::load_stiffness::flexibility;
 use self::load_stiffness::{LARGEST_SHARE, LoadStiffness};
@@ -72,9 +72,9 @@ pub const LARGEST_SPIN: f64 = 0.25;
 /// The same with matrices that know it, to first order in the square.
 pub const LARGEST_SPIN_KNOWN: f64 = 1.0;
 
-/// Negative kinetic energy of a motion of less than this part of those of its coordinates is of the third order in the deformation, which
+/// Negative kinetic energy of less than this part of those of the coordinates of a motion is of an order in the deformation that
 /// matrices of second order do not know.
-const THIRD_ORDER: f64 = 1e-3;
+const THIRD_ORDER: f64 = 0.1;
 
 /// A reduced part.
 #[derive(Clone, Debug)]
@@ -243,7 +243,8 @@ fn is_positive_definite(matrix: &mut [f64], size: usize) -> bool {
     for row in 0..size {
         for column in 0..=row {
             let (above, own) = matrix.split_at(row * size);
-            let before = if column < row { &above[column * size..column * size + column] } else { &own[..column] };
+            let before =
+                if column < row { &above[column * size..column * size + column] } else { &own[..column] };
             let sum: f64 = own[..column].iter().zip(before).map(|(a, b)| a * b).sum();
             let rest = own[column] - sum;
             if column < row {
@@ -305,19 +306,21 @@ impl Element for Superelement {
     }
 
     fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
-        ROOMS.with_borrow_mut(|Rooms { own, stages: [other, _], centre, maps, derivatives, second, .. }| {
-            other.enter(self, stressed);
-            self.stress(other);
-            own.enter(self, at);
-            own.stress.copy_from_slice(&other.stress);
-            self.momenta(own);
-            maps.add_tangents(self, own, out);
-            centre.enter(self, at);
-            centre.add_tangents(self, derivatives, out);
-            if let Some(law) = &self.second_order {
-                second.add_tangents(self, law, at, out);
-            }
-        });
+        ROOMS.with_borrow_mut(
+            |Rooms { own, stages: [other, _], centre, maps, derivatives, second, .. }| {
+                other.enter(self, stressed);
+                self.stress(other);
+                own.enter(self, at);
+                own.stress.copy_from_slice(&other.stress);
+                self.momenta(own);
+                maps.add_tangents(self, own, out);
+                centre.enter(self, at);
+                centre.add_tangents(self, derivatives, out);
+                if let Some(law) = &self.second_order {
+                    second.add_tangents(self, law, at, out);
+                }
+            },
+        );
     }
 
     fn mass(&self, at: &Kinematics, out: &mut Vec<f64>) {
@@ -409,11 +412,11 @@ impl Element for Superelement {
                 let estimate = self.load_stiffness.as_ref()?;
                 product(&self.stiffness, &room.displacement, &mut room.stress);
                 let share = match limit {
-                    // Matrices of second order know both.
-                    _ if self.second_order.is_some() => return None,
                     LinearLimit::Moment => {
                         estimate.share_of_moments(self, (&room.displacement, &room.stress))?
                     }
+                    // Matrices of second order know it.
+                    _ if self.second_order.is_some() => return None,
                     _ => estimate.share(self, (&room.displacement, &room.stress, &spin))?,
                 };
                 return Some(LinearRange { part: share / LARGEST_SHARE, node: frame });

@@ -196,14 +196,20 @@ mod tests {
         let twist = screw(&Vector3::new(0.3, -0.2, 0.5), &Vector3::new(0.4, 0.7, -0.1));
         for size in [1e-5, 2e-4, 0.02, 0.4] {
             let changed = [
-                Motion::exponential(&(size * screw(&Vector3::new(1.0, 2.0, 0.5), &Vector3::new(0.3, -0.6, 0.2)))),
-                Motion::exponential(&(size * screw(&Vector3::new(-0.5, 1.0, 1.5), &Vector3::new(1.1, 0.4, -0.8)))),
+                Motion::exponential(
+                    &(size * screw(&Vector3::new(1.0, 2.0, 0.5), &Vector3::new(0.3, -0.6, 0.2))),
+                ),
+                Motion::exponential(
+                    &(size * screw(&Vector3::new(-0.5, 1.0, 1.5), &Vector3::new(1.1, 0.4, -0.8))),
+                ),
             ];
             let state = |part: f64, value: f64| {
                 let first = Motion::exponential(&(0.7 * twist));
                 let second = first
                     * Motion::translation(places[1])
-                    * Motion::exponential(&(0.2 * screw(&Vector3::new(0.1, 0.3, 0.2), &Vector3::new(0.5, -0.4, 0.9))));
+                    * Motion::exponential(
+                        &(0.2 * screw(&Vector3::new(0.1, 0.3, 0.2), &Vector3::new(0.5, -0.4, 0.9))),
+                    );
                 let frames = [first, second];
                 let nodes = frames.iter().zip(&changed).map(|(frame, change)| {
                     let frame = if part > 0.0 { *frame * *change } else { *frame };
