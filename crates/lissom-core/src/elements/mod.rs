@@ -166,11 +166,13 @@ pub enum LinearLimit {
     Load,
     /// What moments couple of bending and twist.
     Moment,
+    /// Forces of modes that are left out, under sudden loads.
+    LeftOut,
 }
 
 impl LinearLimit {
     /// All of them.
-    pub const ALL: [Self; 4] = [Self::Deformation, Self::Spin, Self::Load, Self::Moment];
+    pub const ALL: [Self; 5] = [Self::Deformation, Self::Spin, Self::Load, Self::Moment, Self::LeftOut];
 }
 
 /// Adds `block` to the local matrix at local rows from `row` and columns from `column`.

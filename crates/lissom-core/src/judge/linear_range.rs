@@ -25,7 +25,8 @@ fn tell_of(
         (LinearLimit::Deformation, Warning::BeyondLinear { largest, .. })
         | (LinearLimit::Spin, Warning::TurnsFast { largest, .. })
         | (LinearLimit::Load, Warning::LoadStiffness { largest, .. })
-        | (LinearLimit::Moment, Warning::MomentStiffness { largest, .. }) => Some(largest),
+        | (LinearLimit::Moment, Warning::MomentStiffness { largest, .. })
+        | (LinearLimit::LeftOut, Warning::ModesLeftOut { largest, .. }) => Some(largest),
         _ => None,
     });
     if let Some(largest) = known {
@@ -39,5 +40,6 @@ fn tell_of(
         LinearLimit::Spin => Warning::TurnsFast { time, interface, largest },
         LinearLimit::Load => Warning::LoadStiffness { time, interface, largest },
         LinearLimit::Moment => Warning::MomentStiffness { time, interface, largest },
+        LinearLimit::LeftOut => Warning::ModesLeftOut { time, interface, largest },
     });
 }

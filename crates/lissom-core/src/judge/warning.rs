@@ -291,6 +291,20 @@ pub enum Warning {
         /// What is missed over that up to which the matrices are believed, 0.5 %.
         largest: f64,
     },
+    /// A superelement is excited faster than its modes can follow.
+    #[error(
+        "from t = {time:.6e} s on the superelement of `{interface}` is excited faster than its modes can follow: its interface forces \
+         have an estimated error of up to {:.0} % of its inertial forces; reduce the part with more modes, start and stop its motion \
+         smoothly, or model it by beams", 5.0 * largest
+    )]
+    ModesLeftOut {
+        /// When it was first seen [s].
+        time: f64,
+        /// Name of the interface that carries its floating frame.
+        interface: String,
+        /// The largest estimated error over that from which on a warning is given, 5 %.
+        largest: f64,
+    },
     /// An output that goes on along the motion could not go on.
     #[error(
         "at t = {time:.6e} s the output `{output}` cannot go on: from one step to the next it changes by more than can be followed, \
@@ -337,6 +351,7 @@ impl Warning {
             Self::TurnsFast { .. } => "turns-fast",
             Self::LoadStiffness { .. } => "load-stiffness",
             Self::MomentStiffness { .. } => "moment-stiffness",
+            Self::ModesLeftOut { .. } => "modes-left-out",
             Self::AccumulationLost { .. } => "output-lost",
             Self::Model { .. } => "model",
         }

@@ -134,6 +134,8 @@ fn an_axial_jolt_does_not_shake_a_blade_across() {
         let report = reduced_blade(&text, modes, corrections);
         let [exact, own] = models(&text, &report, "", &rest);
         let [exact, found] = [exact, own].map(|model| ran(&model, &[]));
+        let warns = found.warnings.iter().any(|warning| warning.code() == "modes-left-out");
+        assert_eq!(warns, modes == 0, "{modes} modes: {:?}", found.warnings);
         for (component, allowed) in [("f3", 2.5), ("m2", 2.5), ("f1", 1.05)] {
             let [exact, found] = [&exact, &found].map(|record| {
                 column(record, "root", component).into_iter().fold(0.0_f64, |most, own| most.max(own.abs()))
@@ -165,7 +167,7 @@ fn a_swinging_blade_never_pushes_on_its_hinge() {
             let exact = exact.get_or_insert_with(|| ran(&beam, &[]));
             let found = ran(&own, &[]);
             // Few modes alone are stiffer and drift in phase: the largest force counts.
-            for component in ["f1", "f3"] {
+            for component in ["f1", "f2"] {
                 let [exact, found] = [&*exact, &found].map(|record| {
                     column(record, "root", component)
                         .into_iter()

@@ -29,6 +29,7 @@ mod build;
 mod centre;
 mod deformation;
 mod geometric;
+mod left_out;
 mod linearize;
 mod load_stiffness;
 mod matrices;
@@ -47,6 +48,7 @@ use self::centre::{Centre, Derivatives};
 pub use self::deformation::Deformation;
 pub(crate) use self::geometric::PAIRS;
 pub use self::geometric::{GeometricMatrices, Shortening};
+use self::left_out::{LARGEST_ERROR, LeftOut};
 use self::linearize::Maps;
 pub(crate) use self::load_stiffness::flexibility;
 use self::load_stiffness::{LARGEST_SHARE, LoadStiffness};
@@ -101,6 +103,8 @@ pub struct Superelement {
     largest_spin: Option<f64>,
     /// What estimates how loads change the stiffness; none where nobody asks.
     load_stiffness: Option<LoadStiffness>,
+    /// What estimates the forces of modes that are left out; none where nobody asks.
+    left_out: Option<LeftOut>,
     /// What is of second order in the deformation, where the matrices know it.
     second_order: Option<Box<SecondOrder>>,
 }
@@ -157,6 +161,7 @@ impl Superelement {
             gravity,
             largest_spin: None,
             load_stiffness: None,
+            left_out: None,
             second_order: None,
         };
         element.second_order = geometric.map(|matrices| Box::new(SecondOrder::of(&element, &matrices)));
@@ -167,7 +172,8 @@ impl Superelement {
     #[must_use]
     pub fn believed_up_to(self, spin: Option<f64>) -> Self {
         let load_stiffness = Some(LoadStiffness::of(&self));
-        Self { largest_spin: spin, load_stiffness, ..self }
+        let left_out = LeftOut::of(&self);
+        Self { largest_spin: spin, load_stiffness, left_out, ..self }
     }
 
     fn size(&self) -> usize {
@@ -408,6 +414,10 @@ impl Element for Superelement {
         }
         ROOMS.with_borrow_mut(|Rooms { own: room, .. }| {
             room.enter(self, at);
+            if limit == LinearLimit::LeftOut {
+                let share = self.share_left_out(at, (&room.displacement, &mut room.stress))?;
+                return Some(LinearRange { part: share / LARGEST_ERROR, node: frame });
+            }
             if limit != LinearLimit::Deformation {
                 let estimate = self.load_stiffness.as_ref()?;
                 product(&self.stiffness, &room.displacement, &mut room.stress);
