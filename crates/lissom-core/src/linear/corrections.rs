@@ -54,9 +54,7 @@ impl Reduction {
         own.geometric = self
             .second_order
             .as_ref()
-            .and_then(|own_order| {
-                own_order.kept(&map, [&own.mass, &own.stiffness, &all_stiffness], interfaces)
-            })
+            .map(|order| order.kept(&map, [&own.mass, &own.stiffness, &all_stiffness], interfaces))
             .map(Box::new);
         self
     }
