@@ -194,6 +194,56 @@ impl OfMotion {
     }
 }
 
+/// Static response of the inside of an assembly, its interfaces held, to motions of the frame.
+struct Response<'a> {
+    solver: RealShift<'a>,
+    locked: &'a System,
+    /// Rows of the inside: in the free system, and in the one that is held.
+    rows: Vec<(usize, usize)>,
+    /// Forces at rest.
+    rest: Vec<f64>,
+    stiffness: &'a DMatrix<f64>,
+    /// The first shape that is a mode.
+    modes: usize,
+    steps: &'a [f64],
+    first: usize,
+    length: f64,
+}
+
+impl Response<'_> {
+    fn to(&mut self, forces: &mut Forces<'_>, carried: Carried) -> OfMotion {
+        let shapes = forces.shapes;
+        let none = vec![0.0; self.rest.len()];
+        let mut direct = forces.carried_slope(carried, self.steps, self.first);
+        direct.rows_mut(0, self.first).fill(0.0);
+        let moving = forces.displaced(&none, carried);
+        let load = forces.residual(&moving).to_vec();
+        let mut right = vec![0.0; self.locked.layout().size()];
+        for &(free, own) in &self.rows {
+            right[own] = self.rest[free] - load[free];
+        }
+        let response = DVector::from_fn(shapes.len(), |k, _| {
+            if k < self.modes {
+                return 0.0;
+            }
+            let work: f64 = self.rows.iter().map(|&(free, own)| shapes[k][free] * right[own]).sum();
+            work / self.stiffness[(k, k)]
+        });
+        self.solver.solve(&mut right);
+        let mut state = none;
+        for &(free, own) in &self.rows {
+            state[free] = right[own];
+        }
+        for k in self.modes..shapes.len() {
+            for &(free, _) in &self.rows {
+                state[free] -= response[k] * shapes[k][free];
+            }
+        }
+        let remainder = forces.geometric(&state, (self.steps, self.first), self.length);
+        OfMotion { direct, state: LoadState { remainder, response } }
+    }
+}
+
 impl Assembly<'_> {
     /// What of second order there is over `shapes`, six of each interface and then modes of unit mass; none with joints within the
     /// assembly.
@@ -231,10 +281,6 @@ impl Assembly<'_> {
             .iter()
             .map(|shape| DISPLACED * length / forces.size(shape, length).max(f64::MIN_POSITIVE))
             .collect();
-        let clean = |mut matrix: DMatrix<f64>| {
-            matrix.rows_mut(0, first).fill(0.0);
-            matrix
-        };
         let none = vec![0.0; layout.size()];
         let rest = forces.along(&none, Carried::Still);
         let rest_rows = forces.room.clone();
@@ -246,36 +292,18 @@ impl Assembly<'_> {
             .max(f64::MIN_POSITIVE);
         let mut solver = RealShift::new(locked, &model.representative);
         solver.factor(&model.parts, 0.0).map_err(|error| model.stopped(&error))?;
-        let rows = self.inner_rows(locked);
-        let modes = 6 * self.interfaces.len();
-        let mut of_motion = |forces: &mut Forces<'_>, carried: Carried| {
-            let direct = clean(forces.carried_slope(carried, &steps, first));
-            let moving = forces.displaced(&none, carried);
-            let load = forces.residual(&moving).to_vec();
-            let mut right = vec![0.0; locked.layout().size()];
-            for &(free, own) in &rows {
-                right[own] = rest_rows[free] - load[free];
-            }
-            let response = DVector::from_fn(size, |k, _| {
-                if k < modes {
-                    return 0.0;
-                }
-                let work: f64 = rows.iter().map(|&(free, own)| shapes[k][free] * right[own]).sum();
-                work / matrices.stiffness[(k, k)]
-            });
-            solver.solve(&mut right);
-            let mut state = vec![0.0; none.len()];
-            for &(free, own) in &rows {
-                state[free] = right[own];
-            }
-            for k in modes..size {
-                for &(free, _) in &rows {
-                    state[free] -= response[k] * shapes[k][free];
-                }
-            }
-            let remainder = forces.geometric(&state, (&steps, first), length);
-            OfMotion { direct, state: LoadState { remainder, response } }
+        let mut response = Response {
+            solver,
+            locked,
+            rows: self.inner_rows(locked),
+            rest: rest_rows,
+            stiffness: &matrices.stiffness,
+            modes: 6 * self.interfaces.len(),
+            steps: &steps,
+            first,
+            length,
         };
+        let mut of_motion = |forces: &mut Forces<'_>, carried: Carried| response.to(forces, carried);
         let axis = |k: usize| Vector3::ith(k, 1.0);
         let mut slope = DMatrix::zeros(PAIRS.len(), size);
         let mut turning: Vec<OfMotion> = Vec::with_capacity(PAIRS.len());
@@ -314,15 +342,10 @@ impl Assembly<'_> {
             }
         });
         let cubic: Vec<DMatrix<f64>> = cubic.collect();
-        let Ok(inertia) = <[DMatrix<f64>; 6]>::try_from(
-            turning.iter().map(|own| symmetric(&own.direct)).collect::<Vec<_>>(),
-        ) else {
-            return Ok(None);
-        };
         let direct = GeometricMatrices {
             moment: [0, 1, 2].map(|k| symmetric(&pushed[k].direct)),
             slope,
-            inertia,
+            inertia: std::array::from_fn(|k| symmetric(&turning[k].direct)),
             momentum: [0, 1, 2].map(|k| spun[k].direct.transpose()),
             shortening: Vec::new(),
         };

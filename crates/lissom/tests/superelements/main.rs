@@ -1,7 +1,7 @@
 //! Superelements: reduced beams against beams, rigid motion, prestress, files, and all schemes.
 
-mod free_blades;
 mod against_beams;
+mod free_blades;
 mod load_stiffness;
 mod moments;
 mod outputs;

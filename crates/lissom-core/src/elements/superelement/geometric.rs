@@ -13,7 +13,6 @@
 use lissom_motion::{Matrix3, Vector3, skew};
 use nalgebra::{DMatrix, DVector};
 
-use super::Superelement;
 use super::matrices::rigid_column;
 use crate::registry::ParameterError;
 
@@ -210,64 +209,5 @@ impl GeometricMatrices {
             }
         }
         Ok(())
-    }
-}
-
-/// What the first-order energies of an element have of α, A and B.
-pub(super) struct FirstOrder {
-    pub(super) slope: [DVector<f64>; 6],
-    pub(super) inertia: [DMatrix<f64>; 6],
-    pub(super) momentum: [DMatrix<f64>; 3],
-}
-
-/// Kinetic energy ½ η·M' η + ½ m |ẋ_c|² of an element that turns steadily: η = R ω + Ξ(ω) y with the places of the interfaces turned,
-/// x_c = c + G y / m.
-pub(super) fn first_order(of: &Superelement) -> FirstOrder {
-    let size = of.size();
-    let rotation = [0, 1, 2].map(|k| DVector::from_vec(rigid_column(&of.places, size, 3 + k)));
-    let displaced = [0, 1, 2].map(|k| {
-        let mut matrix = DMatrix::zeros(size, size);
-        let turn = skew(&Vector3::ith(k, 1.0));
-        for i in 0..of.nodes.len() {
-            matrix.fixed_view_mut::<3, 3>(6 * i, 6 * i).copy_from(&turn);
-        }
-        matrix
-    });
-    let loaded = [0, 1, 2].map(|k| &of.mass * &displaced[k]);
-    let momenta = [0, 1, 2].map(|k| &of.mass * &rotation[k]);
-    let row = |k: usize| of.carried.row(k).transpose();
-    let centre = of.moment / of.total;
-    let along: DVector<f64> = of.carried.tr_mul(&centre);
-    let gram = of.carried.tr_mul(&of.carried) / of.total;
-    let slope = |k: usize| {
-        let [i, j] = PAIRS[k];
-        let own = displaced[i].tr_mul(&momenta[j]) + displaced[j].tr_mul(&momenta[i]);
-        let same = if i == j { 2.0 } else { 0.0 };
-        own + same * &along - centre[i] * row(j) - centre[j] * row(i)
-    };
-    let inertia = |k: usize| {
-        let [i, j] = PAIRS[k];
-        let own = displaced[i].tr_mul(&loaded[j]) + displaced[j].tr_mul(&loaded[i]);
-        let same = if i == j { 2.0 } else { 0.0 };
-        let across = row(i) * row(j).transpose() + row(j) * row(i).transpose();
-        own + same * &gram - across / of.total
-    };
-    let momentum = |k: usize| {
-        let mut own = loaded[k].transpose();
-        let turn = skew(&Vector3::ith(k, 1.0));
-        own -= of.carried.tr_mul(&(turn * &of.carried)) / of.total;
-        // Rotations of interfaces: E z = κ̇ + ½ κ × κ̇ to second order.
-        for i in 0..of.nodes.len() {
-            let first = 6 * i + 3;
-            let angular = Vector3::from_fn(|c, _| momenta[k][first + c]);
-            let mut block = own.fixed_view_mut::<3, 3>(first, first);
-            block -= 0.5 * skew(&angular);
-        }
-        own
-    };
-    FirstOrder {
-        slope: [0, 1, 2, 3, 4, 5].map(slope),
-        inertia: [0, 1, 2, 3, 4, 5].map(inertia),
-        momentum: [0, 1, 2].map(momentum),
     }
 }

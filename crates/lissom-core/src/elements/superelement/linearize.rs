@@ -199,8 +199,8 @@ impl Maps {
         self.velocity.add_before(&self.first, of.frame, out);
     }
 
-    /// Adds all derivatives; the room holds motion, stress and momenta.
-    pub(super) fn add_tangents(&mut self, of: &Superelement, room: &Room, out: &mut Tangents) {
+    /// Adds the derivatives of elastic and viscous forces; the room holds motion and stress.
+    pub(super) fn add_elastic_tangents(&mut self, of: &Superelement, room: &Room, out: &mut Tangents) {
         self.fill(of, room);
         let frame = of.frame;
         // Elastic and viscous.
@@ -213,7 +213,11 @@ impl Maps {
         }
         self.displacement.add_before(&self.first, frame, &mut out.stiffness);
         geometric(of, room, &mut out.stiffness);
-        // Inertia.
+    }
+
+    /// Adds the derivatives of inertial forces, after those of elastic ones; the room holds motion and momenta.
+    pub(super) fn add_inertial_tangents(&mut self, of: &Superelement, room: &Room, out: &mut Tangents) {
+        let frame = of.frame;
         self.velocity.after(&of.mass, frame, &mut self.first);
         self.velocity.add_before(&self.first, frame, &mut out.mass);
         self.acceleration_by_twist.after(&of.mass, frame, &mut self.second);

@@ -13,7 +13,7 @@
 //! Interfaces are nodes and modal coordinates are coordinates: there is no further constraint. With matrices that know the
 //! rigid motions the inertia of a rigid motion is exact. K acts on the relative motion alone, so that nothing changes when
 //! the element moves rigidly. What is left out is of the square of the rate of rotation over the frequencies of the modes; where
-//! second-order matrices are given, `second_order` adds it.
+//! second-order matrices are given, `second_order` has another kinetic energy in place of this one.
 //!
 //! Without the second term of the kinetic energy a part that moves fast and turns would be bent by that: η counts in turning
 //! axes, and displacements of modal coordinates do not turn with them.
@@ -73,10 +73,6 @@ pub const LARGEST_DISPLACEMENT: f64 = 0.3;
 pub const LARGEST_SPIN: f64 = 0.25;
 /// The same with matrices that know it, to first order in the square.
 pub const LARGEST_SPIN_KNOWN: f64 = 1.0;
-
-/// Negative kinetic energy of less than this part of those of the coordinates of a motion is of an order in the deformation that
-/// matrices of second order do not know.
-const THIRD_ORDER: f64 = 0.1;
 
 /// A reduced part.
 #[derive(Clone, Debug)]
@@ -143,6 +139,7 @@ impl Superelement {
             Damping::OfStiffness(time) => Some(&stiffness * time),
         };
         let size = mass.nrows();
+        let whole = geometric.is_some().then(|| mass.clone());
         // What is left of the mass without that of the centre sees no translation.
         let mass = mass - carried.tr_mul(&carried) / total;
         let preload = if preload.is_empty() { DVector::zeros(size) } else { DVector::from_vec(preload) };
@@ -164,7 +161,8 @@ impl Superelement {
             left_out: None,
             second_order: None,
         };
-        element.second_order = geometric.map(|matrices| Box::new(SecondOrder::of(&element, &matrices)));
+        element.second_order =
+            geometric.zip(whole).map(|(own, mass)| Box::new(SecondOrder::of(&element, &mass, &own)));
         element
     }
 
@@ -208,7 +206,9 @@ impl Superelement {
     }
 
     /// Adds what inertia and weight need besides the forces conjugate to u.
-    fn add_inertia(&self, room: &Room, centre: &Centre, out: &mut [f64]) {
+    fn add_inertia(&self, at: &Kinematics, room: &mut Room, centre: &mut Centre, out: &mut [f64]) {
+        centre.enter(self, at);
+        self.momenta(room);
         let mut on_frame = Vector3::zeros();
         for i in 0..self.nodes.len() {
             let (p, l) = (three(&room.momentum, 6 * i), three(&room.momentum, 6 * i + 3));
@@ -285,13 +285,12 @@ impl Element for Superelement {
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
         ROOMS.with_borrow_mut(|Rooms { own: room, centre, second, .. }| {
             room.enter(self, at);
-            centre.enter(self, at);
             self.stress(room);
-            self.momenta(room);
             self.add_conjugate(room, &room.stress, out);
-            self.add_inertia(room, centre, out);
             if let Some(law) = &self.second_order {
                 second.add_forces(self, law, at, out);
+            } else {
+                self.add_inertia(at, room, centre, out);
             }
         });
     }
@@ -318,12 +317,14 @@ impl Element for Superelement {
                 self.stress(other);
                 own.enter(self, at);
                 own.stress.copy_from_slice(&other.stress);
-                self.momenta(own);
-                maps.add_tangents(self, own, out);
-                centre.enter(self, at);
-                centre.add_tangents(self, derivatives, out);
+                maps.add_elastic_tangents(self, own, out);
                 if let Some(law) = &self.second_order {
                     second.add_tangents(self, law, at, out);
+                } else {
+                    self.momenta(own);
+                    maps.add_inertial_tangents(self, own, out);
+                    centre.enter(self, at);
+                    centre.add_tangents(self, derivatives, out);
                 }
             },
         );
@@ -331,13 +332,16 @@ impl Element for Superelement {
 
     fn mass(&self, at: &Kinematics, out: &mut Vec<f64>) {
         ROOMS.with_borrow_mut(|Rooms { own, centre, maps, second, .. }| {
+            if let Some(law) = &self.second_order {
+                out.clear();
+                out.resize(self.size() * self.size(), 0.0);
+                second.add_mass(self, law, at, out);
+                return;
+            }
             own.enter(self, at);
             maps.mass(self, own, out);
             centre.enter(self, at);
             centre.add_mass(self.total, out);
-            if let Some(law) = &self.second_order {
-                second.add_mass(self, law, at, out);
-            }
         });
     }
 
@@ -348,9 +352,6 @@ impl Element for Superelement {
         }
         let mut matrix = ROOMS.with_borrow_mut(|rooms| std::mem::take(&mut rooms.mass));
         self.mass(at, &mut matrix);
-        for row in 0..self.size() {
-            matrix[row * (self.size() + 1)] *= 1.0 + THIRD_ORDER;
-        }
         let is_positive = is_positive_definite(&mut matrix, self.size());
         ROOMS.with_borrow_mut(|rooms| rooms.mass = matrix);
         is_positive
@@ -359,24 +360,22 @@ impl Element for Superelement {
     fn energy(&self, at: &Kinematics) -> Energy {
         ROOMS.with_borrow_mut(|Rooms { own: room, centre, second, .. }| {
             room.enter(self, at);
-            centre.enter(self, at);
-            self.momenta(room);
             let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-            let of_centre = self.total * centre.velocity().norm_squared();
-            let kinetic = 0.5 * (dot(&room.velocity, &room.momentum) + of_centre);
-            room.stress.fill(0.0);
             product(&self.stiffness, &room.displacement, &mut room.stress);
             let strain = 0.5 * dot(&room.stress, &room.displacement)
                 + dot(self.preload.as_slice(), &room.displacement);
+            if let Some(law) = &self.second_order {
+                let own = second.energy(self, law, at);
+                return Energy { strain: strain + own.strain, ..own };
+            }
+            centre.enter(self, at);
+            self.momenta(room);
+            let of_centre = self.total * centre.velocity().norm_squared();
+            let kinetic = 0.5 * (dot(&room.velocity, &room.momentum) + of_centre);
             let node = &at.nodes[self.nodes[self.frame]].frame;
             let place = node.position + node.rotation.apply(&centre.place());
             let potential = -self.total * self.gravity.acceleration.dot(&place);
-            let more = self.second_order.as_ref().map(|law| second.energy(self, law, at)).unwrap_or_default();
-            Energy {
-                kinetic: kinetic + more.kinetic,
-                strain: strain + more.strain,
-                potential: potential + more.potential,
-            }
+            Energy { kinetic, strain, potential }
         })
     }
 

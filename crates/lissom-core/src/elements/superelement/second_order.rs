@@ -1,27 +1,29 @@
-//! What a superelement does to second order in its deformation: centrifugal and Coriolis forces on what displaces its parts, and the
-//! stiffness that rotation, acceleration and axial forces give and take.
+//! A superelement whose second-order matrices are known: its kinetic energy is that of a part whose points are displaced along straight
+//! lines, and what bends is shortened without force.
 //!
 //! Legend: y = (r - X, κ, q) relative to the floating frame (see `relative`), v and ω its velocity and rate of rotation, γ = R_fᵀ g,
-//! U_k direction of what is shortened. Coefficients: s_k = ½ y·S_k y, J_ij = α_ij·y + ½ y·A_ij y, c_i ẏ = y·B_i ẏ,
-//! h_k = ½ y·D_k y (see [`GeometricMatrices`]), less what the first-order energies of the element have of them.
+//! U_k direction of a shortening. First moment s_k = s₀ + G_k y + ½ y·S_k y, inertia J_ij = J₀ + α_ij·y + ½ y·A_ij y, momentum of rates
+//! c_i = c₀ + B_iᵀ y, h_k = ½ y·D_k y (see [`GeometricMatrices`]), M mass of y.
 //!
 //! ```text
-//! L = v·(ω × s + ṡ) + γ·s + ½ ω·J ω + ω·c ẏ - h·(K y + ½ K h),      h = Σ h_k U_k
+//! L = ½ m v² + v·(ω × s + ṡ) + γ·(m x + s) + ½ ω·J ω + ω·c ẏ + ½ ẏ·M ẏ - h·(K y + ½ K h),      h = Σ h_k U_k
 //!
-//! force on f      s̈ + ω̇ × s + 2 ω × ṡ + ω × (ω × s)
-//! moment on f     s × a + l̇ + ω × l,      l = J ω + c ẏ,      a = v̇ + ω × v - γ
-//! dual to y       Σ a_k S_k y + Σ ω̇_i B_iᵀ y + ω_i (B_iᵀ - B_i) ẏ - ½ Σ ω_i ω_j (α_ij + A_ij y)
+//! force on f      m a + s̈ + ω̇ × s + 2 ω × ṡ + ω × (ω × s),      a = v̇ + ω × v - γ
+//! moment on f     s × a + l̇ + ω × l,      l = J ω + c ẏ
+//! dual to y       M ÿ + Σ a_k (G_k + S_k y) + Σ ω̇_i c_i + ω_i (B_iᵀ - B_i) ẏ - ½ Σ ω_i ω_j (α_ij + A_ij y)
 //!                 + Σ g_k D_k y + K h,      g_k = U_k·(K y + K h)
 //! ```
 //!
-//! The equations are those of Poincaré for L. The elastic energy is ½ (y + h)·K (y + h): the square keeps it positive, and what bends
-//! is shortened by h without force.
+//! The equations are those of Poincaré for L. The kinetic energy is the integral ½∫ρ |v + ω × (X + Ψ y) + Ψ ẏ|² as a whole: terms of third
+//! order must not be left out, or it would not stay positive where the inertia of a motion changes by as much as it is, such as that about
+//! the axis of a slender part. The elastic energy is ½ (y + h)·K (y + h): the square keeps it positive.
 
 use lissom_motion::{Matrix3, Matrix6, Vector3, rotation_part, screw, skew, translation_part};
 use nalgebra::{DMatrix, DVector, Matrix3xX};
 
-use super::geometric::{GeometricMatrices, PAIRS, first_order};
+use super::geometric::{GeometricMatrices, PAIRS};
 use super::linearize::Map;
+use super::matrices::rigid_column;
 use super::relative::Relative;
 use super::{Superelement, add};
 use crate::elements::{Energy, Tangents};
@@ -41,25 +43,29 @@ struct Shortened {
 /// The coefficients.
 #[derive(Clone, Debug)]
 pub(super) struct SecondOrder {
-    /// S.
+    /// s₀, G and S.
+    first_moment: Vector3,
+    moment_slope: [DVector<f64>; 3],
     moment: [DMatrix<f64>; 3],
-    /// α of each pair, and A.
+    /// J₀, and of each pair α and A.
+    inertia_at_rest: Matrix3,
     slope: [DVector<f64>; 6],
     inertia: [DMatrix<f64>; 6],
-    /// B.
+    /// c₀ and B.
+    momentum_at_rest: [DVector<f64>; 3],
     momentum: [DMatrix<f64>; 3],
+    /// M.
+    mass: DMatrix<f64>,
     shortening: Vec<Shortened>,
     /// U_k·K U_l.
     stiffness: DMatrix<f64>,
 }
 
 impl SecondOrder {
-    /// Of an element whose matrices are scaled as `matrices` are.
-    pub(super) fn of(element: &Superelement, matrices: &GeometricMatrices) -> Self {
-        let known = first_order(element);
-        let slope = |k: usize| matrices.slope.row(k).transpose() - &known.slope[k];
-        let inertia = |k: usize| &matrices.inertia[k] - &known.inertia[k];
-        let momentum = |k: usize| &matrices.momentum[k] - &known.momentum[k];
+    /// Of an element with the mass matrix `mass`; `matrices` are scaled as that is.
+    pub(super) fn of(element: &Superelement, mass: &DMatrix<f64>, matrices: &GeometricMatrices) -> Self {
+        let turns = [3, 4, 5].map(|k| DVector::from_vec(rigid_column(&element.places, element.size(), k)));
+        let momenta = turns.each_ref().map(|turn| mass * turn);
         let shortening: Vec<Shortened> = matrices
             .shortening
             .iter()
@@ -73,10 +79,15 @@ impl SecondOrder {
             shortening[k].direction.dot(&shortening[l].pulled)
         });
         Self {
+            first_moment: element.moment,
+            moment_slope: [0, 1, 2].map(|k| element.carried.row(k).transpose()),
             moment: matrices.moment.clone(),
-            slope: [0, 1, 2, 3, 4, 5].map(slope),
-            inertia: [0, 1, 2, 3, 4, 5].map(inertia),
-            momentum: [0, 1, 2].map(momentum),
+            inertia_at_rest: Matrix3::from_fn(|i, j| turns[i].dot(&momenta[j])),
+            slope: [0, 1, 2, 3, 4, 5].map(|k| matrices.slope.row(k).transpose()),
+            inertia: matrices.inertia.clone(),
+            momentum_at_rest: momenta,
+            momentum: matrices.momentum.clone(),
+            mass: mass.clone(),
             shortening,
             stiffness,
         }
@@ -91,12 +102,12 @@ pub(super) struct Deformed {
     place: DVector<f64>,
     rate: DVector<f64>,
     second: DVector<f64>,
-    /// S y, S ẏ.
+    /// G + S y, S ẏ.
     moment: [DVector<f64>; 3],
     moment_rate: [DVector<f64>; 3],
     /// α + A y.
     inertia: [DVector<f64>; 6],
-    /// Bᵀ y, Bᵀ ẏ, B ẏ.
+    /// c₀ + Bᵀ y, Bᵀ ẏ, B ẏ.
     momentum: [DVector<f64>; 3],
     momentum_rate: [DVector<f64>; 3],
     conjugate: [DVector<f64>; 3],
@@ -190,8 +201,10 @@ impl Deformed {
     fn fill(&mut self, of: &Superelement, law: &SecondOrder) {
         for k in 0..3 {
             times(&law.moment[k], &self.place, &mut self.moment[k]);
+            self.moment[k] += &law.moment_slope[k];
             times(&law.moment[k], &self.rate, &mut self.moment_rate[k]);
             transposed_times(&law.momentum[k], &self.place, &mut self.momentum[k]);
+            self.momentum[k] += &law.momentum_at_rest[k];
             transposed_times(&law.momentum[k], &self.rate, &mut self.momentum_rate[k]);
             times(&law.momentum[k], &self.rate, &mut self.conjugate[k]);
         }
@@ -215,9 +228,10 @@ impl Deformed {
     }
 
     /// s, ṡ.
-    fn first_moment(&self) -> [Vector3; 2] {
+    fn first_moment(&self, law: &SecondOrder) -> [Vector3; 2] {
+        let half = |k: usize| 0.5 * (self.moment[k].dot(&self.place) + law.moment_slope[k].dot(&self.place));
         [
-            Vector3::from_fn(|k, _| 0.5 * self.moment[k].dot(&self.place)),
+            law.first_moment + Vector3::from_fn(|k, _| half(k)),
             Vector3::from_fn(|k, _| self.moment[k].dot(&self.rate)),
         ]
     }
@@ -226,7 +240,8 @@ impl Deformed {
     fn inertia(&self, law: &SecondOrder) -> [Matrix3; 2] {
         let of = |i: usize, j: usize| {
             let k = pair(i, j);
-            0.5 * (self.inertia[k].dot(&self.place) + law.slope[k].dot(&self.place))
+            law.inertia_at_rest[(i, j)]
+                + 0.5 * (self.inertia[k].dot(&self.place) + law.slope[k].dot(&self.place))
         };
         let rate = |i: usize, j: usize| self.inertia[pair(i, j)].dot(&self.rate);
         [Matrix3::from_fn(of), Matrix3::from_fn(rate)]
@@ -240,7 +255,7 @@ impl Deformed {
     /// Leaves the force dual to y in `force`.
     fn fill_force(&mut self, law: &SecondOrder) {
         let force = &mut self.force;
-        force.fill(0.0);
+        force.gemv(1.0, &law.mass, &self.second, 0.0);
         for k in 0..3 {
             force.axpy(self.against[k], &self.moment[k], 1.0);
             force.axpy(self.spin_rate[k], &self.momentum[k], 1.0);
@@ -267,11 +282,12 @@ impl Deformed {
     ) {
         self.enter(of, law, at);
         self.fill_force(law);
-        let [s, rate] = self.first_moment();
+        let [s, rate] = self.first_moment(law);
         let second =
             Vector3::from_fn(|k, _| self.moment_rate[k].dot(&self.rate) + self.moment[k].dot(&self.second));
         let (w, dw) = (self.spin, self.spin_rate);
-        let force = second + dw.cross(&s) + 2.0 * w.cross(&rate) + w.cross(&w.cross(&s));
+        let force =
+            of.total * self.against + second + dw.cross(&s) + 2.0 * w.cross(&rate) + w.cross(&w.cross(&s));
         let [inertia, inertia_rate] = self.inertia(law);
         let turning = self.turning(&inertia);
         let of_rates =
@@ -303,11 +319,15 @@ impl Deformed {
     /// Energies at the motion `at`.
     pub(super) fn energy(&mut self, of: &Superelement, law: &SecondOrder, at: &Kinematics) -> Energy {
         self.enter(of, law, at);
-        let [s, rate] = self.first_moment();
+        let [s, rate] = self.first_moment(law);
         let [inertia, _] = self.inertia(law);
         let turning = self.turning(&inertia);
-        let kinetic = self.velocity.dot(&(self.spin.cross(&s) + rate)) + self.spin.dot(&turning)
-            - 0.5 * self.spin.dot(&(inertia * self.spin));
+        self.room.gemv(1.0, &law.mass, &self.rate, 0.0);
+        let kinetic = 0.5 * of.total * self.velocity.norm_squared()
+            + self.velocity.dot(&(self.spin.cross(&s) + rate))
+            + self.spin.dot(&turning)
+            - 0.5 * self.spin.dot(&(inertia * self.spin))
+            + 0.5 * self.room.dot(&self.rate);
         // h·(K y + ½ K h), of h·(K y + K h).
         let mut strain = 0.0;
         for k in 0..law.shortening.len() {
@@ -316,7 +336,9 @@ impl Deformed {
                 strain -= 0.5 * self.shorter[k] * self.shorter[l] * law.stiffness[(k, l)];
             }
         }
-        Energy { kinetic, strain, potential: -self.gravity.dot(&s) }
+        let base = &at.nodes[of.nodes[of.frame]].frame;
+        let weighed = of.total * base.position + base.rotation.apply(&s);
+        Energy { kinetic, strain, potential: -of.gravity.acceleration.dot(&weighed) }
     }
 
     fn fill_maps(&mut self, nodes: usize) {
@@ -361,13 +383,15 @@ impl Deformed {
 
     fn add_mass_entered(&mut self, of: &Superelement, law: &SecondOrder, out: &mut [f64]) {
         let (size, frame) = (of.size(), 6 * of.frame);
-        let [s, _] = self.first_moment();
+        let [s, _] = self.first_moment(law);
         let [inertia, _] = self.inertia(law);
         let lever = skew(&s);
         // Force and moment on f by ÿ, through Y; the mirror image on y.
         let rows = frame_rows(size, |row, own| {
             own.copy_from(if row < 3 { &self.moment[row] } else { &self.momentum[row - 3] });
         });
+        self.gradient.after(&law.mass, of.frame, &mut self.product);
+        self.gradient.add_before(&self.product, of.frame, out);
         self.gradient.after(&rows, of.frame, &mut self.product);
         for row in 0..6 {
             for column in 0..size {
@@ -376,6 +400,7 @@ impl Deformed {
             }
         }
         for i in 0..3 {
+            out[(frame + i) * (size + 1)] += of.total;
             for j in 0..3 {
                 out[(frame + i) * size + frame + 3 + j] -= lever[(i, j)];
                 out[(frame + 3 + i) * size + frame + j] += lever[(i, j)];
@@ -421,12 +446,16 @@ impl Deformed {
         self.gradient.after(&by_place, frame, &mut self.product);
         self.rate_by_place.after(&by_rate, frame, &mut self.rows);
         self.product += &self.rows;
+        self.second_by_place.after(&law.mass, frame, &mut self.rows);
+        self.product += &self.rows;
         {
             let mut view = self.product.columns_mut(6 * frame + 3, 3);
             view += &turned;
         }
         self.gradient.add_before(&self.product, frame, &mut out.stiffness);
         self.gradient.after(&by_rate, frame, &mut by_place);
+        self.second_by_twist.after(&law.mass, frame, &mut self.rows);
+        by_place += &self.rows;
         for (first, columns) in [(0, &by_velocity), (3, &by_spin)] {
             let mut view = by_place.columns_mut(6 * frame + first, 3);
             view += columns;
@@ -488,7 +517,7 @@ impl Deformed {
         let (size, frame) = (of.size(), 6 * of.frame);
         let (w, dw) = (self.spin, self.spin_rate);
         let (turn, turn_rate) = (skew(&w), skew(&dw));
-        let [s, rate] = self.first_moment();
+        let [s, rate] = self.first_moment(law);
         let [inertia, inertia_rate] = self.inertia(law);
         let turning = self.turning(&inertia);
         let three = |of: &dyn Fn(usize, &mut DVector<f64>)| {
@@ -551,6 +580,7 @@ impl Deformed {
             map.after(matrix, of.frame, &mut self.rows);
             sum += &self.rows;
         }
+        add_three(&mut sum, (0, frame + 3), &-(of.total * skew(&self.gravity)));
         add_three(&mut sum, (3, frame + 3), &-(lever * skew(&self.gravity)));
         add_to(&mut out.stiffness, (frame, size), &sum);
         sum.fill(0.0);
@@ -558,8 +588,10 @@ impl Deformed {
             map.after(matrix, of.frame, &mut self.rows);
             sum += &self.rows;
         }
-        let force_by_spin = -2.0 * skew(&rate) - skew(&w.cross(&s)) - turn * lever;
+        let force_by_spin =
+            -of.total * skew(&self.velocity) - 2.0 * skew(&rate) - skew(&w.cross(&s)) - turn * lever;
         let moment_by_spin = inertia_rate - skew(&turning) + turn * inertia - lever * skew(&self.velocity);
+        add_three(&mut sum, (0, frame), &(of.total * turn));
         add_three(&mut sum, (0, frame + 3), &force_by_spin);
         add_three(&mut sum, (3, frame), &(lever * turn));
         add_three(&mut sum, (3, frame + 3), &moment_by_spin);

@@ -23,7 +23,6 @@ impl Superelement {
     ) {
         for (room, at) in stages.iter_mut().zip(step.stages) {
             room.enter(self, at);
-            self.momenta(room);
         }
         start.enter(self, step.start);
         self.missed(step, start, stages);
@@ -58,8 +57,9 @@ impl Superelement {
                 *stress += factor * weighted;
             }
             self.add_conjugate(room, &room.stress, out);
-            centre.enter(self, at);
-            self.add_inertia(room, centre, out);
+            if self.second_order.is_none() {
+                self.add_inertia(at, room, centre, out);
+            }
         }
     }
 
