@@ -66,7 +66,7 @@ impl LeftOut {
         Some(Self { error })
     }
 
-    /// The error of forces as a share of the largest of inertial and elastic forces; none without forces. `stress` is K u.
+    /// The error of forces as a share of the largest of inertial and elastic forces and weight; none without forces. `stress` is K u.
     pub(super) fn share(&self, element: &Superelement, at: &Kinematics, stress: &[f64]) -> Option<f64> {
         let mut error = Vector3::zeros();
         let (mut largest, mut sum) = (0.0_f64, Vector3::zeros());
@@ -88,7 +88,9 @@ impl LeftOut {
         let rigid =
             change + spin.cross(&velocity) + turning.cross(&centre) + spin.cross(&spin.cross(&centre))
                 - gravity;
-        let largest = largest.max(sum.norm()).max(element.total * rigid.norm());
+        // Weight counts as well: a part that falls freely has no other forces.
+        let weight = element.total * gravity.norm();
+        let largest = largest.max(sum.norm()).max(element.total * rigid.norm()).max(weight);
         (largest > 0.0).then(|| error.norm() / largest)
     }
 }

@@ -29,6 +29,9 @@ use super::{Superelement, add};
 use crate::elements::{Energy, Tangents};
 use crate::system::Kinematics;
 
+/// Part of the geometric mean of two stiffnesses below which their coupling is round-off.
+const UNCOUPLED: f64 = 1e-10;
+
 /// What is shortened.
 #[derive(Clone, Debug)]
 struct Shortened {
@@ -75,8 +78,11 @@ impl SecondOrder {
                 pulled: &element.stiffness * &own.direction,
             })
             .collect();
+        let along = |k: usize, l: usize| shortening[k].direction.dot(&shortening[l].pulled);
+        // Shortenings along natural modes are uncoupled but for round-off: products of all pairs would take most of the time.
         let stiffness = DMatrix::from_fn(shortening.len(), shortening.len(), |k, l| {
-            shortening[k].direction.dot(&shortening[l].pulled)
+            let own = along(k, l);
+            if own.abs() > UNCOUPLED * (along(k, k) * along(l, l)).abs().sqrt() { own } else { 0.0 }
         });
         Self {
             first_moment: element.moment,
