@@ -189,7 +189,7 @@ pub enum StepError {
     /// The kinetic energy of a superelement is negative in some motion.
     #[error(
         "step to t = {time:.6e} s: the superelement with the interface `{interface}` is deformed beyond the range of its second-order \
-         matrices: its kinetic energy is no longer positive; reduce the part in several pieces, with more modes or static corrections, or \
+         matrices: its kinetic energy is no longer positive; reduce the part in several pieces or without corrections (`--modes-alone`), or \
          model it by beams"
     )]
     NegativeKineticEnergy {
