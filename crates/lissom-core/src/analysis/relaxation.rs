@@ -23,6 +23,10 @@ const MOST_STEPS: usize = 300;
 const SLOW: f64 = 0.03;
 /// … which must end as near as this.
 const NEAR: f64 = 0.1;
+/// A step without inertia that failed is repeated after steps so many times as long, or after so many steps of any length: it costs
+/// as much as several others, and fails as long as inertia and not the stiffness limits the steps.
+const RETRY_LENGTH: f64 = 4.0;
+const RETRY_STEPS: usize = 16;
 /// A model that has moved by so many lengths is not held.
 const FAR: f64 = 1e3;
 /// The first step, in units of the time √(m/k) of the stiffest parts.
@@ -63,7 +67,9 @@ pub(crate) fn relax(
     let length = representative.length;
     let shortest = (representative.mass / representative.stiffness).sqrt();
     let mut step_size = if shortest.is_finite() && shortest > 0.0 { FIRST * shortest } else { 1e-3 };
-    for _ in 0..MOST_STEPS {
+    // Number and size of the next step after which one without inertia is tried.
+    let (mut next_try, mut long_enough) = (0, 0.0);
+    for step in 0..MOST_STEPS {
         settings.scheme = relaxation();
         settings.step_size = step_size;
         let mut simulation = begin(system, &reached, &settings, &representative, time)?;
@@ -80,10 +86,13 @@ pub(crate) fn relax(
             return None;
         }
         reached = simulation.state().clone();
+        let is_due = step >= next_try || step_size >= long_enough || step + 1 == MOST_STEPS;
+        let taken = step_size;
         step_size *= LONGER;
-        if moved > SLOW * length {
+        if moved > SLOW * length || !is_due {
             continue;
         }
+        (next_try, long_enough) = (step + RETRY_STEPS, RETRY_LENGTH * taken);
         settings.scheme = statics::statics();
         settings.step_size = 1.0;
         let mut last = begin(system, &reached, &settings, &representative, time)?;
