@@ -116,6 +116,22 @@ pub(crate) enum Shape {
     Table,
 }
 
+/// Pattern of the shapes that hold three numbers or expressions and nothing else.
+macro_rules! three_numbers {
+    () => {
+        Shape::Vector
+            | Shape::GlobalVector
+            | Shape::Direction
+            | Shape::DirectionOr(_)
+            | Shape::Curve
+            | Shape::Distribution
+            | Shape::SectionDistribution
+            | Shape::Rotation
+    };
+}
+
+pub(crate) use three_numbers;
+
 impl Shape {
     /// Whether the value is expressed in model axes, so that the decoder transforms it with the part in which it is written.
     pub(crate) fn is_in_model_axes(&self) -> bool {

@@ -7,7 +7,7 @@ use std::fmt::Write;
 use crate::context::singular;
 use crate::document::part_tables::part_motion;
 use crate::document::tables::{Holds, Top, Variant, tops, variants};
-use crate::keys::{Key, Shape};
+use crate::keys::{Key, Shape, three_numbers};
 use crate::manual::words;
 use crate::registry::Registry;
 
@@ -162,17 +162,7 @@ fn type_of(shape: &Shape) -> String {
         | Shape::Formula
         | Shape::Profile => "Number",
         Shape::Flag => "bool",
-        Shape::Vector
-        | Shape::GlobalVector
-        | Shape::Direction
-        | Shape::DirectionOr(_)
-        | Shape::Curve
-        | Shape::Distribution
-        | Shape::SectionDistribution
-        | Shape::Rotation
-        | Shape::Pair
-        | Shape::Numbers
-        | Shape::Range => "Vector",
+        three_numbers!() | Shape::Pair | Shape::Numbers | Shape::Range => "Vector",
         Shape::Point => "Vector | Table",
         Shape::Names | Shape::Words | Shape::Coordinates => "Names",
         Shape::Place | Shape::PlaceOrNode => "Place",

@@ -6,7 +6,7 @@ use serde_json::{Map, Value, json};
 use crate::document::VERSION;
 use crate::document::part_tables::part_motion;
 use crate::document::tables::{Holds, Variant, tops, variants};
-use crate::keys::{Key, Shape};
+use crate::keys::{Key, Shape, three_numbers};
 use crate::registry::Registry;
 use crate::table_values::table_keys;
 
@@ -116,14 +116,7 @@ fn of_shape(shape: &Shape) -> Value {
         Shape::Between(least, most) => number(&json!({ "minimum": least, "maximum": most })),
         Shape::Count(least, most) => number(&json!({ "type": "integer", "minimum": least, "maximum": most })),
         Shape::Flag => json!({ "type": "boolean" }),
-        Shape::Vector
-        | Shape::GlobalVector
-        | Shape::Direction
-        | Shape::DirectionOr(_)
-        | Shape::Curve
-        | Shape::Distribution
-        | Shape::SectionDistribution
-        | Shape::Rotation => vector(),
+        three_numbers!() => vector(),
         Shape::Point => {
             let placed = json!({
                 "type": "object",
