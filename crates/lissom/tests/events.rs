@@ -16,7 +16,7 @@ const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-dec
 
 /// A mass of 1 kg on a rail along x, thrown with 0.5 m/s; `tables` and keys of the analysis are added.
 fn rail(tables: &str, analysis: &str) -> String {
-    rail::rail(0.5, tables, analysis)
+    rail::rail(1.0, 0.5, tables, analysis)
 }
 
 fn failure(text: &str) -> String {

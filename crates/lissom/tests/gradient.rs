@@ -272,7 +272,7 @@ fn a_four_bar_is_differentiated_over_time() {
 /// A mass on a rail under a force of time: place and velocity in closed form, and their derivatives by mass, size and instant.
 fn pushed(force: &str, analysis: &str) -> Model {
     let tables = rail::force(force);
-    let text = rail::rail(0.0, &tables, analysis)
+    let text = rail::rail(1.0, 0.0, &tables, analysis)
         .replace("mass = 1\n", "mass = 2\n")
         .replace("lissom = 1\n", "lissom = 1\n[parameters]\nsize = 3\nfrom = 0.5035\non_a_step = 0.5\n");
     Model::from_text("model.toml", &text)

@@ -13,7 +13,7 @@ const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-dec
 
 /// A mass of 1 kg on a rail under a force [N].
 fn rail(force: &str, analysis: &str) -> String {
-    rail::rail(0.0, &rail::force(force), analysis)
+    rail::rail(1.0, 0.0, &rail::force(force), analysis)
 }
 
 /// Errors of place and velocity at 1 s.
@@ -238,7 +238,7 @@ fn steps_end_at_jumps_of_expressions_that_depend_on_the_motion_too() {
             let analysis = format!("scheme = \"{scheme}\"\n{sizes}");
             for from in [0.5035, 0.5, 0.509_999, 0.3] {
                 for (tables, force) in among_motion(|time| format!("step({time} - {from})")) {
-                    let text = rail::rail(0.0, &format!("{}{tables}", rail::force(&force)), &analysis);
+                    let text = rail::rail(1.0, 0.0, &format!("{}{tables}", rail::force(&force)), &analysis);
                     let session = finished(&text);
                     assert_eq!(session.warnings().count(), 0, "{text}");
                     let [place, velocity] = after_damped_jump(from);
@@ -257,7 +257,7 @@ fn steps_of_states_end_at_jumps_too() {
          [outputs.level]\nkind = \"signal\"\nof = \"level\"\n";
     for scheme in SCHEMES {
         for sizes in ["step = 1e-2", "relative_tolerance = 1e-4"] {
-            let session = finished(&rail::rail(0.0, state, &format!("scheme = \"{scheme}\"\n{sizes}")));
+            let session = finished(&rail::rail(1.0, 0.0, state, &format!("scheme = \"{scheme}\"\n{sizes}")));
             let error = (session.value("level.value").unwrap() - (1.0 - 0.5035)).abs();
             assert!(error < 1e-9, "{scheme}, {sizes}: {error}");
         }
@@ -268,7 +268,7 @@ fn steps_of_states_end_at_jumps_too() {
 fn events_find_a_jump_over_time_with_planned_steps() {
     for scheme in SCHEMES {
         let event = "[events.reached]\nzero_of = \"step(t - 0.5035)*(1 + 0*rail.velocity) - 0.5\"\n";
-        let session = finished(&rail::rail(0.0, event, &format!("scheme = \"{scheme}\"\nstep = 1e-2")));
+        let session = finished(&rail::rail(1.0, 0.0, event, &format!("scheme = \"{scheme}\"\nstep = 1e-2")));
         let occurrences = session.simulation().occurrences();
         assert_eq!(occurrences.len(), 1, "{scheme}");
         // At the end of the first millionth of the step behind it; the end of the whole step was 6.5e-3 s late.
@@ -284,7 +284,7 @@ fn jumps_of_what_is_sampled_or_only_recorded_end_no_steps() {
         ("{ value = \"step(t - 0.5035)*(1 + 0*rail.velocity)\", sample = 0.1 }", "pushing"),
     ] {
         let tables = format!("{}[signals]\npushing = {value}\n{output}", rail::force(force));
-        let session = finished(&rail::rail(0.0, &tables, "scheme = \"radau-iia\"\nstep = 1e-2"));
+        let session = finished(&rail::rail(1.0, 0.0, &tables, "scheme = \"radau-iia\"\nstep = 1e-2"));
         assert_eq!(session.simulation().totals().steps, 100, "{value}");
         assert!(session.value("pushing.value").unwrap() > 0.5);
         if force == "pushing" {
@@ -308,7 +308,7 @@ fn prescribed_motions_that_jump_are_told_at_once() {
         let drive = format!(
             "[joints.drive]\nkind = \"prescribed_displacement\"\njoint = \"rail\"\ndisplacement = \"{motion}\"\n"
         );
-        let text = rail::rail(0.0, &drive, "step = 1e-2");
+        let text = rail::rail(1.0, 0.0, &drive, "step = 1e-2");
         let document =
             Model::from_text("model.toml", &text).document(&[("analysis.end".to_owned(), end.to_owned())]);
         let lowered = document

@@ -13,16 +13,16 @@ use lissom::{Model, Override, Session};
 use lissom_core::analysis::path::CriticalKind;
 use paths::{follow, near};
 
-const NEAR_GROWTH: &str = include_str!("modes-near-growth.toml");
-const STIFF_BLADE: &str = include_str!("stiff-blade.toml");
-const DAMPED_ROTOR: &str = include_str!("damped-rotor.toml");
-const GEARED_TRAIN: &str = include_str!("geared-train.toml");
-const FOLLOWER_PATH: &str = include_str!("follower-path.toml");
-const TWO_BIFURCATIONS: &str = include_str!("two-bifurcations.toml");
-const IMPERFECT: &str = include_str!("imperfect-bifurcation.toml");
-const STOP: &str = include_str!("stop.toml");
-const GUYED_MAST: &str = include_str!("guyed-mast.toml");
-const SLACK_CABLE: &str = include_str!("slack-cable.toml");
+const NEAR_GROWTH: &str = include_str!("models/modes-missing.toml");
+const STIFF_BLADE: &str = include_str!("models/steady_rotation_false_refusal.toml");
+const DAMPED_ROTOR: &str = include_str!("models/campbell_not_converged.toml");
+const GEARED_TRAIN: &str = include_str!("models/redundant_modes_1e-5.toml");
+const FOLLOWER_PATH: &str = include_str!("models/path-violates-joint.toml");
+const TWO_BIFURCATIONS: &str = include_str!("models/path-merges-bifurcations.toml");
+const IMPERFECT: &str = include_str!("models/path-imperfect-bifurcation.toml");
+const STOP: &str = include_str!("models/gradient-through-stop.toml");
+const GUYED_MAST: &str = include_str!("models/false_jump_warning_prestress.toml");
+const SLACK_CABLE: &str = include_str!("models/slack_cable_fails_slowly.toml");
 
 fn set(overrides: &[(&str, &str)]) -> Vec<Override> {
     overrides.iter().map(|&(path, value)| (path.to_owned(), value.to_owned())).collect()

@@ -1,5 +1,6 @@
 //! Forces that jump or have kinks by the motion, at instants that coincide with records and samples, and anywhere else.
 
+use crate::rail::{force, rail};
 use crate::refused::refused;
 use crate::sessions::finished;
 
@@ -7,38 +8,26 @@ const SCHEMES: [&str; 4] = ["radau-iia", "energy-decaying", "generalized-alpha",
 
 /// A mass of 1 kg with 1 m/s that meets a law of force after 0.05 m, at 0.05 s.
 fn impact(law: &str, analysis: &str) -> String {
-    format!(
-        r#"
-lissom = 1
-[point_masses.m]
-mass = 1
-velocity = [1, 0, 0]
-[joints.s]
-kind = "point_on_line"
-base = "ground"
-tip = "m"
-axis = [1, 0, 0]
-{law}
-[outputs.s]
-kind = "relative"
-of = "s"
-[analysis]
-kind = "dynamics"
-end = 0.3
-{analysis}
-"#
-    )
+    rail(0.3, 1.0, law, analysis)
 }
 
 /// Free play, one-sided, stops, expressions with a jump, tables and loads: 1000 N/m and 10 N s/m behind 0.05 m.
-const LAWS: [&str; 6] = [
-    "[springs.law]\nkind = \"axial\"\njoint = \"s\"\nstiffness = 1000\ndamping = 10\nbacklash = 0.1",
-    "[springs.law]\nkind = \"axial\"\njoint = \"s\"\nforce = \"if(elongation > 0.05, 1000*(elongation - 0.05) + 10*rate, 0)\"",
-    "[springs.law]\nkind = \"axial\"\njoint = \"s\"\ndamper_force = \"if(elongation > 0.05, 1000*(elongation - 0.05) + 10*rate, 0)\"",
-    "[springs.law]\nkind = \"point\"\nbase = \"ground\"\ntip = \"m\"\nat_base = [-1, 0, 0]\nat_tip = [0, 0, 0]\nlength = 1\nforce = \"if(elongation > 0.05, 1000*(elongation - 0.05) + 10*rate, 0)\"",
-    "[loads.law]\nkind = \"joint_force\"\njoint = \"s\"\nforce = \"if(s.displacement > 0.05, -1000*(s.displacement - 0.05) - 10*s.velocity, 0)\"",
-    "[springs.law]\nkind = \"axial_stop\"\njoint = \"s\"\nrange = [-1, 0.05]\nstiffness = 1000",
-];
+fn laws() -> [String; 6] {
+    const FORCE: &str = "if(elongation > 0.05, 1000*(elongation - 0.05) + 10*rate, 0)";
+    let axial = |law: &str| format!("[springs.law]\nkind = \"axial\"\njoint = \"rail\"\n{law}");
+    [
+        axial("stiffness = 1000\ndamping = 10\nbacklash = 0.1"),
+        axial(&format!("force = \"{FORCE}\"")),
+        axial(&format!("damper_force = \"{FORCE}\"")),
+        format!(
+            "[springs.law]\nkind = \"point\"\nbase = \"ground\"\ntip = \"ball\"\nat_base = [-1, 0, 0]\n\
+             at_tip = [0, 0, 0]\nlength = 1\nforce = \"{FORCE}\""
+        ),
+        force("if(rail.displacement > 0.05, -1000*(rail.displacement - 0.05) - 10*rail.velocity, 0)"),
+        "[springs.law]\nkind = \"axial_stop\"\njoint = \"rail\"\nrange = [-1, 0.05]\nstiffness = 1000"
+            .to_owned(),
+    ]
+}
 
 /// Where the mass is, and how fast, after 0.3 s: motion of a damped oscillator from the contact on until it has left again.
 fn exact(damping: f64, is_adhesive: bool) -> [f64; 2] {
@@ -58,16 +47,16 @@ fn exact(damping: f64, is_adhesive: bool) -> [f64; 2] {
 
 #[test]
 fn jumps_at_records_and_samples_have_error_control() {
-    let sampled = "[signals]\nseen = { value = \"s.velocity\", sample = 0.05 }\n";
+    let sampled = "[signals]\nseen = { value = \"rail.velocity\", sample = 0.05 }\n";
     for scheme in SCHEMES {
-        for (index, law) in LAWS.iter().enumerate() {
+        for (index, law) in laws().iter().enumerate() {
             let damping = if index == 5 { 0.0 } else { 10.0 };
             let [_, speed] = exact(damping, true);
             for (extra, record) in [("", 0.05), ("", 0.025), ("", 0.07), (sampled, 0.07)] {
                 let analysis =
                     format!("scheme = \"{scheme}\"\nrelative_tolerance = 1e-5\noutput_step = {record}");
                 let session = finished(&impact(&format!("{extra}{law}"), &analysis));
-                let found = session.value("s.velocity").unwrap();
+                let found = session.value("rail.velocity").unwrap();
                 let is_clipped = index == 0;
                 let allowed = if is_clipped { 0.05 } else { 2e-3 };
                 assert!(
@@ -83,11 +72,11 @@ fn jumps_at_records_and_samples_have_error_control() {
 #[test]
 fn records_at_a_contact_change_nothing() {
     for scheme in SCHEMES {
-        for (index, law) in LAWS.iter().enumerate() {
+        for (index, law) in laws().iter().enumerate() {
             let ends = [0.05, 0.0499, 0.1].map(|record| {
                 let analysis =
                     format!("scheme = \"{scheme}\"\nrelative_tolerance = 1e-6\noutput_step = {record}");
-                finished(&impact(law, &analysis)).value("s.displacement").unwrap()
+                finished(&impact(law, &analysis)).value("rail.displacement").unwrap()
             });
             for end in &ends[1..] {
                 assert!((end - ends[0]).abs() < 3e-5, "{scheme}, law {index}: {ends:?}");
@@ -152,10 +141,10 @@ relative_tolerance = {tolerance:e}
     }
 }
 
-/// A mass of 2 kg at 1 m/s bounces from a stop which a table describes: no step length may change its speed.
+/// A mass of 1 kg at 1 m/s bounces from a stop which a table describes: no step length may change its speed.
 #[test]
 fn forces_that_begin_late_in_a_step_are_seen_by_the_error_estimate() {
-    let law = |stop: &str| format!("[springs.law]\nkind = \"axial\"\njoint = \"s\"\nforce = {stop}");
+    let law = |stop: &str| format!("[springs.law]\nkind = \"axial\"\njoint = \"rail\"\nforce = {stop}");
     for scheme in ["radau-iia", "energy-decaying"] {
         for k in 0..30 {
             let begin = 1.0 + 0.037 * f64::from(k);
@@ -163,43 +152,20 @@ fn forces_that_begin_late_in_a_step_are_seen_by_the_error_estimate() {
             for tolerance in ["", "relative_tolerance = 1e-6\n"] {
                 let text = impact(&law(&table), &format!("scheme = \"{scheme}\"\n{tolerance}"))
                     .replace("end = 0.3", "end = 4");
-                let found = finished(&text).value("s.velocity").unwrap();
+                let found = finished(&text).value("rail.velocity").unwrap();
                 assert!((found + 1.0).abs() < 1e-2, "{scheme}, {begin}, {tolerance}: {found}");
             }
         }
     }
 }
 
-/// A relation between coordinates that is not smooth.
+/// A relation between the coordinates `x` and `y` of two masses.
 fn related(equation: &str) -> String {
-    format!(
-        r#"
-lissom = 1
-[bodies.a]
-mass = 1
-inertia = [1, 1, 1]
-[bodies.b]
-mass = 1
-inertia = [1, 1, 1]
-[joints.x]
-kind = "prismatic"
-base = "ground"
-tip = "a"
-axis = [1, 0, 0]
-[joints.y]
-kind = "prismatic"
-base = "ground"
-tip = "b"
-axis = [0, 1, 0]
-[joints.relation]
-kind = "equation"
-equation = "{equation}"
-[analysis]
-kind = "dynamics"
-end = 0.1
-step = 1e-2
-"#
-    )
+    let other = "[bodies.other]\nmass = 1\ninertia = [1, 1, 1]\n\
+                 [joints.y]\nkind = \"prismatic\"\nbase = \"ground\"\ntip = \"other\"\naxis = [0, 1, 0]";
+    let equation = equation.replace("x.", "rail.");
+    let relation = format!("[joints.relation]\nkind = \"equation\"\nequation = \"{equation}\"");
+    rail(0.1, 0.0, &format!("{other}\n{relation}"), "step = 1e-2")
 }
 
 #[test]

@@ -1,6 +1,13 @@
 //! Models that once gave a wrong result with exit code 0 and no warning, or were rejected without reason, and models of the same
-//! kinds: against closed forms, independent programs and refined runs.
+//! kinds: against closed forms, independent programs and refined runs. `rows` and `superelements` run the program on every model of
+//! `models/`; the other modules test variations.
 
+#[path = "../support/live.rs"]
+mod live;
+#[path = "../support/program.rs"]
+mod program;
+#[path = "../support/rail.rs"]
+mod rail;
 #[path = "../support/refused.rs"]
 mod refused;
 #[path = "../support/sessions.rs"]
@@ -10,3 +17,6 @@ mod analyses;
 mod clocks;
 mod jumps;
 mod loops;
+mod results;
+mod rows;
+mod superelements;

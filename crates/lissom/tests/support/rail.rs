@@ -1,8 +1,8 @@
 //! A model that several tests share.
 
-/// A mass of 1 kg on a rail along x that starts with `velocity` [m/s]; `tables` and keys of the analysis, which goes on for 1 s,
+/// A mass of 1 kg on a rail along x that starts with `velocity` [m/s]; `tables` and keys of the analysis, which ends at `end` [s],
 /// are added.
-pub(crate) fn rail(velocity: f64, tables: &str, analysis: &str) -> String {
+pub(crate) fn rail(end: f64, velocity: f64, tables: &str, analysis: &str) -> String {
     format!(
         r#"
 lissom = 1
@@ -21,7 +21,7 @@ of = "rail"
 {tables}
 [analysis]
 kind = "dynamics"
-end = 1
+end = {end}
 {analysis}
 "#
     )

@@ -1,0 +1,99 @@
+//! Runs the program in a folder of its own.
+
+use std::ffi::OsStr;
+use std::io::Read;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Stdio};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+/// A folder that is gone afterwards.
+pub(crate) struct Folder(PathBuf);
+
+impl Folder {
+    /// A new, empty folder.
+    pub(crate) fn new(name: &str) -> Self {
+        let path = std::env::temp_dir().join(format!("lissom-program-{name}-{}", std::process::id()));
+        std::fs::create_dir_all(&path).unwrap();
+        Self(path)
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.0
+    }
+
+    pub(crate) fn write(&self, name: &str, text: &str) {
+        std::fs::write(self.0.join(name), text).unwrap();
+    }
+}
+
+impl Drop for Folder {
+    fn drop(&mut self) {
+        let _ = std::fs::remove_dir_all(&self.0);
+    }
+}
+
+/// How the program ended.
+pub(crate) struct Ended {
+    pub(crate) code: i32,
+    pub(crate) output: String,
+    pub(crate) errors: String,
+}
+
+/// The program while it runs.
+pub(crate) struct Run(pub(crate) Child);
+
+impl Run {
+    pub(crate) fn start(args: &[impl AsRef<OsStr>], folder: &Path) -> Self {
+        let program = env!("CARGO_BIN_EXE_lissom");
+        let mut command = Command::new(program);
+        command.args(args).current_dir(folder).stdout(Stdio::piped()).stderr(Stdio::piped());
+        Self(command.spawn().unwrap())
+    }
+
+    /// Waits for the end; a program that does not come to it is killed, and the test fails.
+    pub(crate) fn finish(mut self) -> Ended {
+        let output = read_aside(self.0.stdout.take());
+        let errors = read_aside(self.0.stderr.take());
+        let began = Instant::now();
+        let status = loop {
+            if let Some(status) = self.0.try_wait().unwrap() {
+                break Some(status);
+            }
+            if began.elapsed() > LONGEST {
+                let _ = self.0.kill();
+                let _ = self.0.wait();
+                break None;
+            }
+            std::thread::sleep(Duration::from_millis(2));
+        };
+        let [output, errors] = [output, errors].map(|text| text.join().unwrap());
+        let status = status.unwrap_or_else(|| panic!("not ended after {LONGEST:?}:\n{output}\n{errors}"));
+        Ended { code: status.code().unwrap_or(-1), output, errors }
+    }
+}
+
+/// A program that is left alone by a test that fails does not go on.
+impl Drop for Run {
+    fn drop(&mut self) {
+        let _ = self.0.kill();
+        let _ = self.0.wait();
+    }
+}
+
+/// The longest that a test waits for the program.
+const LONGEST: Duration = Duration::from_secs(300);
+
+/// Reads while the program goes on, so that it need not wait for that.
+fn read_aside(from: Option<impl Read + Send + 'static>) -> JoinHandle<String> {
+    let mut text = String::new();
+    std::thread::spawn(move || {
+        from.expect("it is read once").read_to_string(&mut text).expect("it writes texts");
+        text
+    })
+}
+
+/// Runs the program to its end.
+pub(crate) fn lissom(args: &[impl AsRef<OsStr>], folder: &Path) -> Ended {
+    Run::start(args, folder).finish()
+}
