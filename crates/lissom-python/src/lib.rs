@@ -30,6 +30,7 @@ fn _lissom(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(animation::animation, module)?)?;
     module.add_function(wrap_pyfunction!(animation::modes_animation, module)?)?;
     module.add_function(wrap_pyfunction!(animation::folder_animation, module)?)?;
+    module.add_function(wrap_pyfunction!(results::column_position, module)?)?;
     module.add_function(wrap_pyfunction!(results::read_folder, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::statistics, module)?)?;
     Ok(())

@@ -22,6 +22,16 @@ pub(crate) fn parts(py: Python<'_>, record: Record, summary: String) -> Parts<'_
     (PyArray1::from_vec(py, times), names, units, arrays, summary)
 }
 
+/// Position of the column that is called `name`, which may be one of its other names.
+#[pyfunction]
+pub(crate) fn column_position(names: Vec<String>, name: &str) -> Option<usize> {
+    let column = |full: &String| {
+        let (output, component) = full.rsplit_once('.').unwrap_or((full, ""));
+        lissom::Column::new(output, component, "", "")
+    };
+    lissom::Column::named(&names.iter().map(column).collect::<Vec<_>>(), name)
+}
+
 /// The summary as JSON, with numbers to the last bit.
 pub(crate) fn json(summary: &Summary) -> String {
     summary.to_json()

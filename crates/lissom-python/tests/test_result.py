@@ -74,6 +74,9 @@ def test_columns_are_arrays() -> None:
     assert result.units["bob.x"] == "m" and "bob.x" in result and len(result) == len(list(result)) == 15
     with pytest.raises(KeyError, match="did you mean `bob.x`"):
         result["bob.xx"]
+    # A former name.
+    assert np.array_equal(result["arm.rotation"], result["arm.angle"]) and "arm.rotation" in result
+    assert "arm.rotation" not in result.names and "bob.xx" not in result
     frame = result.to_pandas()
     assert frame.index.name == "time" and np.array_equal(frame["bob.y"], result["bob.y"])
 

@@ -193,17 +193,16 @@ fn unit_of(name: &str, first: &str, second: &str) -> Result<String, CurveError> 
     }
 }
 
-/// Columns of an output, or the one of that name.
+/// Columns of an output, or the one of that name, which may be one of its other names.
 fn columns(source: &Source<'_>, name: &str) -> Result<Vec<usize>, CurveError> {
     let all = &source.record.columns;
-    let found: Vec<usize> =
-        (0..all.len()).filter(|&index| all[index].output == name || all[index].name() == name).collect();
-    if found.is_empty() { Err(unknown(source, name)) } else { Ok(found) }
+    let found: Vec<usize> = (0..all.len()).filter(|&index| all[index].output == name).collect();
+    if found.is_empty() { Ok(vec![one(source, name)?]) } else { Ok(found) }
 }
 
 /// The column of a name.
 fn one(source: &Source<'_>, name: &str) -> Result<usize, CurveError> {
-    source.record.columns.iter().position(|column| column.name() == name).ok_or_else(|| unknown(source, name))
+    Column::named(&source.record.columns, name).ok_or_else(|| unknown(source, name))
 }
 
 fn unknown(source: &Source<'_>, name: &str) -> CurveError {

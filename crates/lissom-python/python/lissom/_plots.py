@@ -34,8 +34,7 @@ def result_figure(result: Result, names: Sequence[str], label: str) -> Any:
         if name in groups:
             chosen.append((name, groups[name]))
         else:
-            result[name]  # tells which column may be meant
-            chosen.append((name, [name]))
+            chosen.append((name, [result._name(name)]))
     if not chosen:
         raise ValueError("there is nothing to plot: the model records no outputs")
     figure, axes = _figure(len(chosen))

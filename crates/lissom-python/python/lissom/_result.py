@@ -57,10 +57,22 @@ class Result:
         return bool(self.summary.get("stopped") == "end")
 
     def __getitem__(self, name: str) -> Array:
-        return self._columns[known(name, self._columns, "column")]
+        return self._columns[self._name(name)]
 
     def __contains__(self, name: object) -> bool:
-        return name in self._columns
+        return isinstance(name, str) and self._found(name) is not None
+
+    def _found(self, name: str) -> str | None:
+        """The present name of the column that is called `name`, which may be one of its former names."""
+        if name in self._columns:
+            return name
+        names = self.names
+        position = _lissom.column_position(names, name)
+        return None if position is None else names[position]
+
+    def _name(self, name: str) -> str:
+        """The same, or a `KeyError` that says which one may be meant."""
+        return self._found(name) or known(name, self._columns, "column")
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._columns)

@@ -28,6 +28,12 @@ fn paths_spectra_and_several_results_are_drawn() {
         assert!(svg.contains(words), "{words}");
     }
     assert!(!svg.contains("relative [rad]"));
+    // Former names of columns are understood, as in expressions.
+    for args in [["--of", "arm.rotation", "--over", "bob.x"], ["--of", "bob.x", "--over", "arm.rotation"]] {
+        let plot = lissom(&[&["plot", "fine", "--out", "former"], &args[..]].concat(), folder.path());
+        assert_eq!(plot.code, 0, "{args:?}: {}", plot.errors);
+    }
+    assert!(read("former/plot-arm.rotation-over-bob.x.svg").contains("relative rotation"));
     let both = lissom(&["plot", "coarse", "fine", "--out", "both"], folder.path());
     assert_eq!(both.code, 0, "{}", both.errors);
     let svg = read("both/plot-bob.svg");
