@@ -34,6 +34,8 @@ mod parts;
 mod path;
 #[path = "command_line/plot.rs"]
 mod plot;
+#[path = "support/rail.rs"]
+mod rail;
 #[path = "command_line/redundancy.rs"]
 mod redundancy;
 #[path = "command_line/silent.rs"]

@@ -6,6 +6,7 @@ use lissom::gradient::gradient;
 use lissom::{Model, Record, Session, SessionSnapshot};
 use serde_json::Value;
 
+use crate::rail::force;
 use crate::support::{Folder, lissom, summary};
 
 /// A cart on a rail with a spring, a damper and a force, beside a disc that a drive speeds up.
@@ -131,9 +132,10 @@ fn the_work_of_a_force_that_jumps_is_the_kinetic_energy() {
     let before = MODEL.split("[springs.spring]").next().unwrap();
     for jump in ["(t > 1)", "(t >= 1)", "step(t - 1)"] {
         let text = format!(
-            "{before}\n[loads.push]\nkind = \"joint_force\"\njoint = \"rail\"\nforce = \"20*{jump} - 8\"\n\
+            "{before}\n{}\
              [outputs.push]\nkind = \"work\"\nof = \"push\"\n[outputs.rail]\nkind = \"relative\"\nof = \"rail\"\n\
-             [analysis]\nkind = \"dynamics\"\nscheme = \"radau-iia\"\nend = 2\nstep = 0.1\n"
+             [analysis]\nkind = \"dynamics\"\nscheme = \"radau-iia\"\nend = 2\nstep = 0.1\n",
+            force(&format!("20*{jump} - 8"))
         );
         let record = run(&text, &[]);
         let speed = last(&record, "rail", "velocity");

@@ -6,6 +6,7 @@ use lissom::{Model, Record, SessionError};
 use lissom_motion::Vector3;
 use serde_json::Value;
 
+use crate::rail::rail;
 use crate::support::{CANTILEVER, Folder, lissom, summary};
 
 /// A disc that turns at 2 rad/s about z at [1, 0, 0], and a stone that flies straight on.
@@ -180,6 +181,31 @@ fn the_summary_has_statistics_of_every_column() {
         assert!((number("mean") - integral(1)).abs() < 1e-12 * (1.0 + most.abs()));
         assert!((number("rms") - integral(2).sqrt()).abs() < 1e-12 * (1.0 + most.abs()));
     }
+}
+
+/// A mass at 1 m/s meets a stop after 0.5 s. Records of chosen steps are closer during the contact, which must not count more.
+#[test]
+fn means_are_over_time_whatever_the_distances_of_records() {
+    let folder = Folder::new("outputs-means");
+    let stop =
+        "[springs.stop]\nkind = \"axial_stop\"\njoint = \"rail\"\nrange = [-9, 0.5]\nstiffness = 1e6\n";
+    folder.write("model.toml", &rail(1.0, 1.0, stop, "relative_tolerance = 1e-6"));
+    let ended = lissom(&["run", "model.toml", "--out", "out", "--no-plots"], folder.path());
+    assert_eq!(ended.code, 0, "{}", ended.errors);
+    let contact = std::f64::consts::PI * 1e-3;
+    let rest = 0.5 - contact;
+    let mean = 0.125 + 0.5 * contact + 2e-6 + 0.5 * rest - 0.5 * rest * rest;
+    let square = (0.25 - contact.powi(3)) / 3.0 + 0.25 * contact;
+    let out = folder.path().join("out");
+    let statistics = &summary(&out)["statistics"]["rail.displacement"];
+    let number = |name: &str| statistics[name].as_f64().unwrap();
+    assert!((number("mean") - mean).abs() < 1e-4, "{} instead of {mean}", number("mean"));
+    assert!((number("rms") - square.sqrt()).abs() < 1e-3, "{} instead of {}", number("rms"), square.sqrt());
+    // Each record counts once.
+    let record = Record::from_csv(&fs::read_to_string(out.join("history.csv")).unwrap()).unwrap();
+    let values = record.column("rail", "displacement").unwrap();
+    let of_records = values.iter().sum::<f64>() / values.len() as f64;
+    assert!((of_records - mean).abs() > 0.02, "{of_records}");
 }
 
 #[test]
