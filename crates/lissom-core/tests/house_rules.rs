@@ -76,3 +76,76 @@ fn the_core_has_no_contact_with_the_outside() {
     let found = offences(&[], &words);
     assert!(found.is_empty(), "contact with the outside:\n{}", found.join("\n"));
 }
+
+/// Pages of the manual below a folder.
+fn pages(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).expect("readable") {
+        let path = entry.expect("readable").path();
+        if path.is_dir() {
+            pages(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "md") {
+            found.push(path);
+        }
+    }
+}
+
+/// Paths in backticks that begin with a folder of the repository or of a crate, with their line numbers. Patterns such as
+/// `examples/<name>.toml` are left out.
+fn quoted_paths(text: &str, folders: &[String]) -> Vec<(usize, String)> {
+    let is_pattern = |piece: &str| piece.contains(|c: char| c.is_whitespace() || "<>*…{}()[]$=".contains(c));
+    let mut found = Vec::new();
+    for (number, line) in text.lines().enumerate() {
+        // Every second piece between backticks is quoted.
+        for piece in line.split('`').skip(1).step_by(2) {
+            let path = piece.split([':', '#']).next().unwrap_or("");
+            let is_path =
+                path.split_once('/').is_some_and(|(first, _)| folders.iter().any(|own| own == first));
+            if is_path && !is_pattern(piece) {
+                found.push((number + 1, path.to_owned()));
+            }
+        }
+    }
+    found
+}
+
+/// Names of the folders in `root` and of the usual folders of crates.
+fn folders_of(root: &Path) -> Vec<String> {
+    let entries = fs::read_dir(root).expect("readable").map(|entry| entry.expect("readable"));
+    let folders = entries.filter(|entry| entry.path().is_dir());
+    let names = folders.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    let of_crates = ["src", "tests", "python"].map(str::to_owned);
+    names.filter(|name| name != "target" && name != "out").chain(of_crates).collect()
+}
+
+#[test]
+fn paths_in_the_documentation_exist() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let folders = folders_of(&root);
+    let mut files = ["ARCHITECTURE.md", "CONTRIBUTING.md", "README.md"].map(|name| root.join(name)).to_vec();
+    pages(&root.join("docs"), &mut files);
+    // Some pages name paths within the crate of which they speak.
+    let crates =
+        fs::read_dir(root.join("crates")).expect("readable").map(|entry| entry.expect("readable").path());
+    let bases: Vec<PathBuf> = std::iter::once(root.clone()).chain(crates).collect();
+    let (mut count, mut missing) = (0, Vec::new());
+    for file in files {
+        let text = fs::read_to_string(&file).expect("readable");
+        for (line, path) in quoted_paths(&text, &folders) {
+            count += 1;
+            if !bases.iter().any(|base| base.join(&path).exists()) {
+                let name = file.strip_prefix(&root).expect("below the root").display();
+                missing.push(format!("{name}:{line}: `{path}`"));
+            }
+        }
+    }
+    assert!(count > 100, "the search must see the paths: {count}");
+    assert!(missing.is_empty(), "paths that do not exist:\n{}", missing.join("\n"));
+}
+
+#[test]
+fn quoted_paths_are_found() {
+    let folders = ["crates".to_owned(), "docs".to_owned()];
+    let text = "`crates/x/src/a.rs:12` and `docs/<name>.md`\n`crates/none` beside `other/x` and docs/y.md";
+    let expected = [(1, "crates/x/src/a.rs".to_owned()), (2, "crates/none".to_owned())];
+    assert_eq!(quoted_paths(text, &folders), expected);
+}
