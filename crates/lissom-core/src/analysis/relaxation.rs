@@ -48,12 +48,13 @@ pub(crate) fn may_help(error: &StepError) -> bool {
 }
 
 /// The equilibrium downhill from the positions of `state`, under loads and drives as they are at `time` [s], and what is to be
-/// told of it; none if it is not found.
+/// told of it; none if it is not found. Adds Newton's iterations to `iterations`.
 pub(crate) fn relax(
     system: &Arc<System>,
     state: &State,
     settings: &Settings,
     time: f64,
+    iterations: &mut usize,
 ) -> Option<(State, Vec<Warning>)> {
     let mut settings =
         Settings { scheme: relaxation(), control: None, from_equilibrium: false, ..settings.clone() };
@@ -73,7 +74,9 @@ pub(crate) fn relax(
         settings.scheme = relaxation();
         settings.step_size = step_size;
         let mut simulation = begin(system, &reached, &settings, &representative, time)?;
-        let Ok(_) = simulation.step() else {
+        let outcome = simulation.step();
+        *iterations += simulation.totals().newton_iterations;
+        let Ok(_) = outcome else {
             step_size *= SHORTER;
             failures += 1;
             if failures > MOST_FAILURES {
@@ -96,7 +99,9 @@ pub(crate) fn relax(
         settings.scheme = statics::statics();
         settings.step_size = 1.0;
         let mut last = begin(system, &reached, &settings, &representative, time)?;
-        if last.step().is_ok() && distance(&reached.kinematics, &last.state().kinematics) <= NEAR * length {
+        let outcome = last.step();
+        *iterations += last.totals().newton_iterations;
+        if outcome.is_ok() && distance(&reached.kinematics, &last.state().kinematics) <= NEAR * length {
             let distance = distance(&state.kinematics, &last.state().kinematics);
             let is_instability = |warning: &&Warning| matches!(warning, Warning::Unstable { .. });
             let mut warnings: Vec<Warning> = last.warnings().iter().filter(is_instability).cloned().collect();
@@ -116,7 +121,9 @@ impl Simulation {
             return Err(error.clone());
         }
         let time = self.state.kinematics.time + size;
-        let found = relax(&self.system, &self.state, &self.settings, time);
+        let mut iterations = 0;
+        let found = relax(&self.system, &self.state, &self.settings, time, &mut iterations);
+        self.totals.newton_iterations += iterations;
         let Some((reached, doubts)) = found else { return Err(error.clone()) };
         self.resize(size)?;
         self.memory = Memory::default();
