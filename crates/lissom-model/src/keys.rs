@@ -116,9 +116,9 @@ pub(crate) enum Shape {
     Table,
 }
 
-/// Pattern of the shapes that hold three numbers or expressions and nothing else.
+/// Pattern of the shapes that hold three numbers or expressions and nothing else, and of others that are added.
 macro_rules! three_numbers {
-    () => {
+    ($($other:pat_param),*) => {
         Shape::Vector
             | Shape::GlobalVector
             | Shape::Direction
@@ -127,6 +127,7 @@ macro_rules! three_numbers {
             | Shape::Distribution
             | Shape::SectionDistribution
             | Shape::Rotation
+            $(| $other)*
     };
 }
 

@@ -162,7 +162,7 @@ fn type_of(shape: &Shape) -> String {
         | Shape::Formula
         | Shape::Profile => "Number",
         Shape::Flag => "bool",
-        three_numbers!() | Shape::Pair | Shape::Numbers | Shape::Range => "Vector",
+        three_numbers!(Shape::Pair, Shape::Numbers, Shape::Range) => "Vector",
         Shape::Point => "Vector | Table",
         Shape::Names | Shape::Words | Shape::Coordinates => "Names",
         Shape::Place | Shape::PlaceOrNode => "Place",
