@@ -4,6 +4,7 @@
 //! This crate opens no file, prints nothing and reads no clock.
 
 pub mod analysis;
+pub mod contact;
 mod dual;
 pub mod elements;
 pub(crate) mod equilibration;
@@ -11,13 +12,14 @@ pub mod instants;
 pub mod interrupt;
 pub mod joints;
 pub mod judge;
-mod lanes;
+pub mod kinematics;
 pub mod linear;
 pub mod mechanisms;
 pub mod newton;
 mod node_motion;
 pub mod numbers;
 pub mod registry;
+pub mod relation;
 pub mod scaling;
 pub mod schemes;
 pub mod signals;

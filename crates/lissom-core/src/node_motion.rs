@@ -17,9 +17,11 @@ use lissom_motion::{
 };
 use pulp::{Simd, WithSimd};
 
-use crate::lanes::{Frames, Part, Screws, gather, gather_frames, gather_twists, parts, processor_for};
+use crate::kinematics::lanes::{
+    Frames, Part, Screws, gather, gather_frames, gather_twists, parts, processor_for,
+};
+use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, NodeId};
 use crate::schemes::MOST_STAGES;
-use crate::system::{Kinematics, LOCKED, Layout, MotionChange, NodeId};
 
 /// What increments mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -361,7 +363,7 @@ mod tests {
     use lissom_motion::{lie_bracket, tangent_rate_times, tangent_times};
 
     use super::*;
-    use crate::system::NodeMotion;
+    use crate::kinematics::NodeMotion;
 
     /// Numbers between -1 and 1 that look random.
     fn numbers(seed: u64) -> impl FnMut() -> f64 {

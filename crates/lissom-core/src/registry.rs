@@ -9,8 +9,8 @@ use std::sync::Arc;
 use lissom_motion::{Matrix6, Vector3};
 use nalgebra::DMatrix;
 
-use crate::joints::coupling::Relation;
-use crate::signals::HeldId;
+use crate::kinematics::HeldId;
+use crate::relation::Relation;
 
 /// A function of time with exact first and second derivatives.
 pub trait TimeFunction: Send + Sync + fmt::Debug {

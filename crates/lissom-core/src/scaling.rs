@@ -14,12 +14,11 @@ use std::ops::Mul;
 use lissom_motion::{Motion, Vector6};
 use serde::{Deserialize, Serialize};
 
-use crate::joints::Quantity;
+use crate::joints::evaluation_point::Augmentation;
+use crate::kinematics::{CoordinateMotion, Kinematics, Layout, MotionChange, Quantity};
 use crate::node_motion::{Known, Meaning, Nodes, StageTable};
 use crate::schemes::{Combination, Increments, Scheme, Stage, Tableau, Weights};
-use crate::system::{
-    Augmentation, Blend, CoordinateMotion, Kinematics, Layout, Linearization, MotionChange, State, System,
-};
+use crate::system::{Blend, Linearization, State, System};
 
 /// How the equations are scaled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -266,7 +265,7 @@ impl Scaled {
         let square = self.h * self.h;
         for (rows, node) in layout.node_rows.iter().zip(&state.kinematics.nodes) {
             for (k, &row) in rows.iter().enumerate() {
-                if row != crate::system::LOCKED {
+                if row != crate::kinematics::LOCKED {
                     out.rate[row as usize] = self.h * node.twist[k];
                     out.curvature[row as usize] = square * node.acceleration[k];
                 }
@@ -372,7 +371,7 @@ impl Scaled {
             let from = &start.kinematics.nodes[node];
             let (a, b) = (&mut first.at.nodes[node], &mut second.at.nodes[node]);
             let to = &mut reached.at.nodes[node];
-            if rows.iter().all(|&row| row == crate::system::LOCKED) {
+            if rows.iter().all(|&row| row == crate::kinematics::LOCKED) {
                 *to = *from;
                 continue;
             }
@@ -385,7 +384,7 @@ impl Scaled {
                 continue;
             }
             let mut psi = Vector6::zeros();
-            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != crate::system::LOCKED) {
+            for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != crate::kinematics::LOCKED) {
                 let row = row as usize;
                 psi[k] = end[0] * increments[0][row] + end[1] * increments[1][row];
             }

@@ -3,7 +3,7 @@
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::inertia::{Gravity, Inertia};
 use lissom_core::elements::{Element, Tangents};
-use lissom_core::system::{Kinematics, NodeMotion};
+use lissom_core::kinematics::{Kinematics, NodeMotion};
 use lissom_motion::{Block, Matrix6, Motion, Vector3, Vector6, WIDTH};
 
 /// Every level of vector instructions this processor has, and none.

@@ -6,11 +6,12 @@ use lissom_core::elements::beam::line::{BeamLineDescription, add_beam_line};
 use lissom_core::elements::inertia::Inertia;
 use lissom_core::elements::{Attached, LOADS};
 use lissom_core::joints;
+use lissom_core::kinematics::Freedoms;
 use lissom_core::newton::Limits;
 use lissom_core::registry::{Parameters, Value};
 use lissom_core::scaling::ScalingChoice;
 use lissom_core::schemes::{Scheme, energy_decaying, generalized_alpha, radau_iia, statics};
-use lissom_core::system::{Builder, Freedoms, Placement, State, System};
+use lissom_core::system::{Builder, Placement, State, System};
 use lissom_motion::{Matrix3, Matrix6, Motion, Vector3, Vector6};
 
 fn joint_kind(name: &str) -> &'static joints::JointKind {

@@ -149,3 +149,51 @@ fn quoted_paths_are_found() {
     let expected = [(1, "crates/x/src/a.rs".to_owned()), (2, "crates/none".to_owned())];
     assert_eq!(quoted_paths(text, &folders), expected);
 }
+
+/// Folders and files of the lower floors, and what of this crate they may name.
+const FLOORS: [(&str, &[&str]); 8] = [
+    ("kinematics/", &["kinematics"]),
+    ("dual.rs", &[]),
+    ("relation.rs", &[]),
+    ("registry.rs", &["kinematics", "relation"]),
+    ("contact/", &["dual", "kinematics", "registry"]),
+    ("signals/", &["instants", "kinematics"]),
+    ("joints/", &["contact", "joints", "kinematics", "registry", "relation"]),
+    ("elements/", &["contact", "dual", "elements", "kinematics", "registry"]),
+];
+
+/// Names beyond the floors: kinds of elements add themselves to a system that is built, and a joint that rolls reports the forces of
+/// the element that keeps it rolling.
+const BEYOND: [(&str, &str); 2] =
+    [("elements/", "crate::system::Builder"), ("joints/attached.rs", "crate::elements::")];
+
+/// Elements and joints know no system: every import of the lower floors stays on its floor or goes down.
+#[test]
+fn the_lower_floors_import_nothing_from_above() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut files = Vec::new();
+    sources(&root, &mut files);
+    let (mut found, mut seen) = (Vec::new(), 0);
+    for file in files {
+        let name = file.strip_prefix(&root).expect("below the root").to_string_lossy().replace('\\', "/");
+        let Some((_, allowed)) = FLOORS.iter().find(|(floor, _)| name.starts_with(floor)) else { continue };
+        let text = fs::read_to_string(&file).expect("readable");
+        let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or("");
+        for (number, line) in code.lines().enumerate() {
+            let line = line.split("//").next().unwrap_or("");
+            for (start, _) in line.match_indices("crate::") {
+                seen += 1;
+                let path = &line[start..];
+                let first =
+                    path["crate::".len()..].split(|c: char| !(c.is_alphanumeric() || c == '_')).next();
+                let is_beyond =
+                    BEYOND.iter().any(|(own, beyond)| name.starts_with(own) && path.starts_with(beyond));
+                if !is_beyond && !first.is_some_and(|first| allowed.contains(&first)) {
+                    found.push(format!("{name}:{}: {}", number + 1, line.trim()));
+                }
+            }
+        }
+    }
+    assert!(seen > 100, "the search must see the imports");
+    assert!(found.is_empty(), "imports from above:\n{}", found.join("\n"));
+}

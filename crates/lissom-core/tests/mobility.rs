@@ -3,8 +3,9 @@
 use lissom_core::analysis::mobility;
 use lissom_core::elements::inertia::Inertia;
 use lissom_core::joints;
+use lissom_core::kinematics::{Freedoms, NodeId};
 use lissom_core::registry::Parameters;
-use lissom_core::system::{Builder, Freedoms, NodeId, Placement};
+use lissom_core::system::{Builder, Placement};
 use lissom_motion::{Matrix3, Motion, Vector3};
 
 fn body(builder: &mut Builder, name: &str, place: Vector3) -> NodeId {

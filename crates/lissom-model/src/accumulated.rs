@@ -3,7 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 use lissom_core::analysis::accumulated::{AcceptedStep, Accumulated};
-use lissom_core::system::{ElementId, Kinematics};
+use lissom_core::kinematics::Kinematics;
+use lissom_core::system::ElementId;
 use lissom_motion::{Rotation, Vector3};
 
 use crate::channels::Place;

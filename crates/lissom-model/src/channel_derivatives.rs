@@ -9,9 +9,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
 use lissom_core::joints::slider::Slider;
+use lissom_core::kinematics::{CoordinateId, GROUND, LOCKED, NodeId};
 use lissom_core::linear::{LinearModel, OutputDerivatives};
 use lissom_core::signals::Argument;
-use lissom_core::system::{CoordinateId, GROUND, LOCKED, NodeId, State, System};
+use lissom_core::system::{State, System};
 use lissom_motion::{Motion, Vector6};
 
 use crate::channels::{Channel, Place, Source};

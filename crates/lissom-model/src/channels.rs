@@ -8,9 +8,10 @@ use lissom_core::elements::quadrature::gauss_lobatto;
 use lissom_core::elements::shape::lagrange;
 use lissom_core::elements::superelement::Deformation;
 use lissom_core::joints::attached::AttachedJoint;
-use lissom_core::joints::{Equations, MOST_COORDINATES, Quantity};
+use lissom_core::joints::{Equations, MOST_COORDINATES};
+use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use lissom_core::signals::{Argument, SignalFunction};
-use lissom_core::system::{CoordinateId, ElementId, Kinematics, NodeId, State, System};
+use lissom_core::system::{ElementId, State, System};
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3, rotation_part, translation_part};
 use nalgebra::DMatrix;
 
@@ -512,7 +513,7 @@ fn place(
     };
     let unknown = |name: &str| Problem::error(node.span, format!("there is no part called `{name}`"));
     match &node.value {
-        NodeReference::Ground => Ok(carried(lissom_core::system::GROUND)),
+        NodeReference::Ground => Ok(carried(lissom_core::kinematics::GROUND)),
         NodeReference::Body(name) | NodeReference::PointMass(name) => {
             names.nodes.get(name).map(|&node| carried(node)).ok_or_else(|| unknown(name))
         }

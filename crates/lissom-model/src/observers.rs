@@ -8,7 +8,7 @@
 //!
 //! where v_F(x) and a_F(x) are those of the point of F that is at x.
 
-use lissom_core::system::{Kinematics, NodeId};
+use lissom_core::kinematics::{Kinematics, NodeId};
 use lissom_motion::{Motion, Vector3};
 
 use crate::document::OutputKind;

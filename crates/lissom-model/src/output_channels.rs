@@ -83,7 +83,7 @@ impl Made<'_> {
                 Source::Power(element) => Arc::new(Work { name, of: Actor::Element(element) }),
                 Source::DrivePower(drive) => Arc::new(Work { name, of: Actor::Drive(drive) }),
                 Source::Place(place, start) => {
-                    let ground = Observer { node: lissom_core::system::GROUND, offset: Motion::IDENTITY };
+                    let ground = Observer { node: lissom_core::kinematics::GROUND, offset: Motion::IDENTITY };
                     let observer = output.relative_to.as_ref().map(|node| self.observer(node)).transpose()?;
                     let observer = observer.unwrap_or(ground);
                     let own = observer.frame(at).rotation;
@@ -121,7 +121,7 @@ impl Made<'_> {
     fn observer(&self, node: &Located<NodeReference>) -> Result<Observer, Problem> {
         let unknown = |name: &str| Problem::error(node.span, format!("there is no part called `{name}`"));
         let (node, offset) = match &node.value {
-            NodeReference::Ground => (lissom_core::system::GROUND, Motion::IDENTITY),
+            NodeReference::Ground => (lissom_core::kinematics::GROUND, Motion::IDENTITY),
             NodeReference::Body(name) | NodeReference::PointMass(name) => {
                 (*self.names.nodes.get(name).ok_or_else(|| unknown(name))?, Motion::IDENTITY)
             }

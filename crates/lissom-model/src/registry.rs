@@ -1,7 +1,7 @@
 //! The kinds of joints, springs and loads, and the schemes and solvers, that a model file may name.
 //! The tables are an input of the decoder, so that this crate knows no mechanics.
 
-use lissom_core::joints::Quantity;
+use lissom_core::kinematics::Quantity;
 use lissom_core::registry::Parameter;
 
 /// The frame a joint between two nodes needs, besides its location.

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use lissom_core::elements::superelement::Deformation;
-use lissom_core::system::Kinematics;
+use lissom_core::kinematics::Kinematics;
 use nalgebra::{DMatrix, DVector};
 
 use crate::channels::{Resolver, Source};

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
 
-use lissom_core::joints::Quantity;
+use lissom_core::kinematics::Quantity;
 use lissom_core::linear::{LinearModel, OutputDerivatives, StateSpace, StateSpaceError};
 use lissom_model::Document;
 use lissom_model::output::{Summary, full_matrix, quoted, sparse_matrix};

@@ -5,11 +5,11 @@ use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use lissom_core::analysis::{InitialError, StepError};
+use lissom_core::kinematics::Kinematics;
 use lissom_core::linear::{
     Completeness, Departure, EffectiveMasses, LinearError, LinearModel, Mode, ModeError, ModeKind,
     ModeOptions, Modes, NodeShape, SteadyError,
 };
-use lissom_core::system::Kinematics;
 use lissom_model::document::AnalysisKind;
 use lissom_model::output::Summary;
 use lissom_model::{Document, Report};

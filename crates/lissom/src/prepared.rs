@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use lissom_core::analysis::InitialError;
-use lissom_core::system::{Kinematics, State, System};
+use lissom_core::kinematics::Kinematics;
+use lissom_core::system::{State, System};
 use lissom_model::Document;
 use lissom_model::document::AnalysisKind;
 use lissom_model::lower::{Lowered, Plan, lower};
@@ -198,7 +199,7 @@ impl Prepared {
         for (index, ((violation, known), quantity)) in
             given.iter().zip(violations(&own.kinematics)).zip(rows).enumerate()
         {
-            let unit = if *quantity == lissom_core::joints::Quantity::Angle { 1.0 } else { size };
+            let unit = if *quantity == lissom_core::kinematics::Quantity::Angle { 1.0 } else { size };
             // What the model starts with is told when it is read.
             if violation.abs() > known.abs() + LARGEST_VIOLATION * unit {
                 let (joint, equation) = system.layout().constraint_name(index);
@@ -214,7 +215,7 @@ impl Prepared {
 }
 
 fn is_finite(at: &Kinematics) -> bool {
-    let of_node = |node: &lissom_core::system::NodeMotion| {
+    let of_node = |node: &lissom_core::kinematics::NodeMotion| {
         node.frame.position.iter().chain(node.twist.iter()).all(|number| number.is_finite())
             && node.frame.rotation.quaternion().iter().all(|number| number.is_finite())
     };

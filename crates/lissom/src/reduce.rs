@@ -6,9 +6,9 @@ use std::fmt::Write;
 use std::time::{Duration, Instant};
 
 use lissom_core::elements::superelement::{Damping, ReducedMatrices};
+use lissom_core::kinematics::{Kinematics, LOCKED, Layout, NodeId};
 use lissom_core::linear::{Assembly, ReductionError};
 use lissom_core::registry::ParameterError;
-use lissom_core::system::{Kinematics, LOCKED, Layout, NodeId};
 use lissom_model::Document;
 use lissom_model::document::{Attachment, Component, NodeReference};
 use lissom_model::lower::{Lowered, Names, lower, lower_locked};

@@ -19,6 +19,7 @@ use super::workspace::Workspace;
 use crate::judge::rates::ConstraintRates;
 use crate::judge::singular::SingularPositions;
 use crate::judge::{self, Judge, Ledger, Warning};
+use crate::kinematics::{Kinematics, MotionChange};
 use crate::newton::{self, Equations, Failure, Limits, Memory, Outcome};
 use crate::scaling::{Representative, Scaled, ScalingChoice};
 use crate::schemes::{Coupling, Scheme};
@@ -26,7 +27,7 @@ use crate::stepping::kinks::{self, Kink};
 use crate::stepping::{
     Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, StepControl, TimeFunctions, Watch,
 };
-use crate::system::{Kinematics, Linearization, MotionChange, State, System, Threads};
+use crate::system::{Linearization, State, System, Threads};
 
 /// What a simulation is told besides system and state.
 #[derive(Clone)]

@@ -7,16 +7,17 @@ use super::compliance::Compliance;
 use super::corrections::{Add, Measure, Multiply};
 use super::phase::{Phase, Stopwatch};
 use super::workspace::Workspace;
-use crate::elements::step_stages::StepStages;
 use crate::joints::blocks::JointStarts;
 use crate::joints::derivatives::IncrementTangent;
-use crate::joints::{Quantity, attached};
+use crate::joints::evaluation_point::{self, Chart, Point};
+use crate::kinematics::step_stages::StepStages;
+use crate::kinematics::{Kinematics, LOCKED, Quantity};
 use crate::mechanisms::Mechanism;
 use crate::newton::{Correction, Equations, Failure};
 use crate::numbers::Number;
 use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
 use crate::schemes::{Increments, Scheme, Tableau};
-use crate::system::{Chart, Kinematics, LOCKED, Point, Receiver, State, StepPoint, System};
+use crate::system::{Receiver, State, StepPoint, System};
 
 /// Roundings that add up in a force.
 const ROUNDINGS: f64 = 16.0;
@@ -509,7 +510,12 @@ pub(super) fn joint_changes<'a>(
     start: &'a Kinematics,
     motion: &'a StageMotion,
     joints: &'a JointStarts,
-) -> attached::Increments<'a> {
+) -> evaluation_point::Increments<'a> {
     let StageMotion { changes, coordinate_changes, .. } = motion;
-    attached::Increments { start, nodes: changes, coordinates: coordinate_changes, joints: Some(joints) }
+    evaluation_point::Increments {
+        start,
+        nodes: changes,
+        coordinates: coordinate_changes,
+        joints: Some(joints),
+    }
 }

@@ -8,9 +8,9 @@ use super::equations::StepEquations;
 use super::factorization::Factorization;
 use super::phase::Unwatched;
 use super::workspace::Workspace;
+use crate::kinematics::Layout;
 use crate::newton::Equations;
 use crate::scaling::{ScaleBy, Scaled, ScalingChoice};
-use crate::system::Layout;
 
 /// Newton iterations made, far more than convergence takes.
 pub const ITERATIONS: usize = 15;

@@ -6,9 +6,9 @@
 use super::dynamics::{Settings, Simulation};
 use super::initial::{Initial, InitialError};
 use crate::elements::latch::holds;
-use crate::joints::Quantity;
+use crate::kinematics::{Kinematics, LOCKED, Quantity};
 use crate::signals::SignalError;
-use crate::system::{Kinematics, LOCKED, State, System};
+use crate::system::{State, System};
 
 /// An input that cannot be set.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

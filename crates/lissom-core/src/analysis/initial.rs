@@ -13,12 +13,11 @@ use lissom_solver::{FactorError, LinearSolver, SolverKind};
 use super::compliance::Compliance;
 pub use super::initial_error::InitialError;
 use super::step_error::pivot_hint;
-use crate::joints::attached::Increments;
+use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::judge::singular::SingularPositions;
+use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange};
 use crate::scaling::Representative;
-use crate::system::{
-    Augmentation, Chart, Kinematics, LOCKED, Layout, Linearization, MotionChange, Point, State, System,
-};
+use crate::system::{Linearization, State, System};
 
 /// Repetitions after which forces by multipliers count as not found.
 const MOST_REPETITIONS: usize = 100;
@@ -572,8 +571,8 @@ fn gather(
     layout: &Layout,
     at: &Kinematics,
     out: &mut [f64],
-    of_node: impl Fn(&crate::system::NodeMotion) -> &Vector6,
-    of_coordinate: impl Fn(&crate::system::CoordinateMotion) -> f64,
+    of_node: impl Fn(&crate::kinematics::NodeMotion) -> &Vector6,
+    of_coordinate: impl Fn(&crate::kinematics::CoordinateMotion) -> f64,
 ) {
     for (rows, node) in layout.node_rows.iter().zip(&at.nodes) {
         for (k, &row) in rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED) {

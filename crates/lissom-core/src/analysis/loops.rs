@@ -4,10 +4,10 @@
 
 use nalgebra::DMatrix;
 
-use crate::joints::Quantity;
 use crate::joints::derivatives::{OWN, TIP};
 use crate::joints::slider;
-use crate::system::{Kinematics, LOCKED, System};
+use crate::kinematics::{Kinematics, LOCKED, Quantity};
+use crate::system::System;
 
 /// Joints, sliders, drives and couplings that close loops with each other.
 #[derive(Clone, Debug, Default)]

@@ -3,7 +3,7 @@
 use lissom_solver::SolverKind;
 
 use super::initial::{Initial, InitialError};
-use crate::joints::Quantity;
+use crate::kinematics::Quantity;
 use crate::scaling::Representative;
 use crate::schemes::Tableau;
 use crate::system::{State, System};

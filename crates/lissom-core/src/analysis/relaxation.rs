@@ -9,12 +9,13 @@ use std::sync::Arc;
 use super::dynamics::{Settings, Simulation, warn};
 use super::step_error::StepError;
 use crate::judge::Warning;
+use crate::kinematics::Kinematics;
 use crate::mechanisms::Mechanism;
 use crate::newton::Memory;
 use crate::scaling::Representative;
 use crate::schemes::relaxation::relaxation;
 use crate::schemes::statics;
-use crate::system::{Kinematics, Linearization, State, System};
+use crate::system::{Linearization, State, System};
 
 /// Steps until there is no equilibrium to be found.
 const MOST_STEPS: usize = 300;

@@ -3,8 +3,8 @@
 use lissom_solver::FactorError;
 
 use super::dynamics::Settings;
+use crate::kinematics::Layout;
 use crate::newton::Failure;
-use crate::system::Layout;
 
 /// A step that could not be completed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]

@@ -9,14 +9,14 @@ use super::corrections::processor;
 use super::factorization::Factorization;
 use super::predictor::Predictor;
 use crate::equilibration::Equilibration;
-use crate::joints::Quantity;
 use crate::joints::blocks::JointStarts;
 use crate::joints::derivatives::IncrementTangent;
+use crate::kinematics::{Layout, Quantity};
 use crate::mechanisms::Without;
 use crate::numbers::Numbers;
 use crate::scaling::{Representative, Scaled, StageMotion, UnitStart};
 use crate::schemes::{Increments, Scheme};
-use crate::system::{Layout, Scratch, State, System, Threads};
+use crate::system::{Scratch, State, System, Threads};
 
 /// What was done to find solutions.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 use lissom_motion::{Block, WIDTH};
 
-use crate::system::{Kinematics, NodeId};
+use crate::kinematics::{Kinematics, NodeId};
 
 /// All elements of a batch, eight to a block.
 pub trait Blocks: Send + Sync {

@@ -9,9 +9,11 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
+use super::kind::{Attached, Attachment, ElementKind};
+use super::{Element, Energy, Tangents};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
+use crate::system::Builder;
 
 /// Eigenvalues of symmetric matrices below this part of the largest are round-off.
 const ROUND_OFF: f64 = 1e-10;

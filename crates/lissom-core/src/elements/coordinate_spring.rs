@@ -2,11 +2,12 @@
 //! another law of φ - φ₀ and φ̇.
 
 use super::force_law::{ForceLaw, SIDE_OF_ANGLE, SIDE_OF_LENGTH};
+use super::kind::{Attached, Attachment, ElementKind};
 use super::sides::Sides;
-use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
-use crate::joints::Quantity;
+use super::{Element, Energy, Tangents};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
+use crate::system::Builder;
 
 /// Registry entry of the spring on a rotation.
 pub(crate) const TORSIONAL: ElementKind = ElementKind {

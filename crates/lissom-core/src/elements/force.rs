@@ -2,9 +2,11 @@
 
 use lissom_motion::{Vector3, skew};
 
-use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents, add_block};
+use super::kind::{Attached, Attachment, ElementKind};
+use super::{Element, Energy, Tangents, add_block};
+use crate::kinematics::{Kinematics, NodeId};
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::{Builder, Kinematics, NodeId};
+use crate::system::Builder;
 
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {

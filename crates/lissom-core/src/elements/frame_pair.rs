@@ -10,8 +10,7 @@
 use lissom_motion::{Matrix3, Matrix6, Vector3, Vector6, rotation_part, skew, translation_part};
 
 use super::{Tangents, add_block};
-use crate::joints::attached::CarriedFrame;
-use crate::system::{Kinematics, NodeId};
+use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
 
 /// Base's and tip's frame.
 #[derive(Clone, Copy, Debug)]

@@ -8,10 +8,11 @@
 //! z' = v - σ₀ |v| z/g(v),      g = F_c + (F_s - F_c) exp(-(v/v_s)²),      F = σ₀ z + σ₁ z' + σ₂ v
 //! ```
 
-use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
-use crate::joints::Quantity;
+use super::kind::{Attached, Attachment, ElementKind};
+use super::{Element, Energy, Tangents};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
+use crate::system::Builder;
 
 /// Deflection at which the bristle slips, where it is not given [rad, m].
 const DEFLECTION: f64 = 1e-4;

@@ -11,9 +11,11 @@
 
 use lissom_motion::{Vector3, rotation_part, skew};
 
-use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents, add_block};
+use super::kind::{Attached, Attachment, ElementKind};
+use super::{Element, Energy, Tangents, add_block};
+use crate::kinematics::{Kinematics, NodeId};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::{Builder, Kinematics, NodeId};
+use crate::system::Builder;
 
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {

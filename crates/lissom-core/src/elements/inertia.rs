@@ -11,11 +11,10 @@ use lissom_motion::{Matrix6, Vector3, Vector6, coadjoint_matrix, coadjoint_times
 
 use super::blocks::Blocks;
 use super::inertia_blocks::InertiaBlocks;
-use super::step_stages::{STAGES, StepStages};
 use super::{Element, Energy, Tangents, add_block, is_same};
+use crate::kinematics::step_stages::{STAGES, StepStages};
+use crate::kinematics::{Kinematics, NodeId, split};
 use crate::registry::Function;
-use crate::system::state::split;
-use crate::system::{Kinematics, NodeId};
 
 /// Acceleration of gravity, applied in full or by a factor that is a function of time.
 #[derive(Clone, Debug)]

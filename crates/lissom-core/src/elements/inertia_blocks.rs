@@ -9,9 +9,11 @@ use pulp::{Simd, WithSimd};
 
 use super::blocks::{Blocks, block_of, nodes_of};
 use super::inertia::Inertia;
-use crate::lanes::{Frames, Part, Screws, gather_accelerations, gather_frames, gather_twists, parts};
+use crate::kinematics::lanes::{
+    Frames, Part, Screws, gather_accelerations, gather_frames, gather_twists, parts,
+};
+use crate::kinematics::{Kinematics, NodeId};
 use crate::registry::Function;
-use crate::system::{Kinematics, NodeId};
 
 /// Inertias eight to a block.
 pub(super) struct InertiaBlocks(Vec<InertiaBlock>);

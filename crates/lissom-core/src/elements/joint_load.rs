@@ -1,9 +1,10 @@
 //! Torque or force in a joint: acts on a relative coordinate, on the tip and with the opposite sign on the base.
 
-use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
-use crate::joints::Quantity;
+use super::kind::{Attached, Attachment, ElementKind};
+use super::{Element, Energy, Tangents};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Function, Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
+use crate::system::Builder;
 
 /// Registry entry of the torque on a rotation.
 pub(crate) const TORQUE: ElementKind = ElementKind {

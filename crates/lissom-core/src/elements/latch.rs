@@ -8,11 +8,11 @@
 //!
 //! What it does at the instant of latching, an impact without rebound, is a matter of `Simulation::change_held_values`.
 
-use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
-use crate::joints::Quantity;
+use super::kind::{Attached, Attachment, ElementKind};
+use super::{Element, Energy, Tangents};
+use crate::kinematics::{CoordinateId, HeldId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
-use crate::signals::HeldId;
-use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
+use crate::system::Builder;
 
 /// An input above this holds.
 const HOLDS: f64 = 0.5;

@@ -17,6 +17,8 @@ pub mod gyrostat;
 pub mod inertia;
 mod inertia_blocks;
 pub(crate) mod joint_load;
+pub mod kind;
+mod kinds;
 pub mod latch;
 pub mod moment;
 pub(crate) mod point_spring;
@@ -26,17 +28,17 @@ pub(crate) mod rolling_contact;
 pub(crate) mod rope;
 pub mod shape;
 pub mod sides;
-pub mod step_stages;
 pub mod stop;
 pub mod superelement;
 
-use crate::joints::Quantity;
-use crate::registry::{Parameter, ParameterError, Parameters};
-use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
+pub use kind::{Attached, Attachment, ElementKind};
+pub use kinds::{LOADS, SPRINGS};
+
+use crate::kinematics::step_stages::{STAGES, StepStages};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId};
 use blocks::Blocks;
 use lissom_motion::Vector3;
 use serde::{Deserialize, Serialize};
-use step_stages::{STAGES, StepStages};
 
 /// Local unknowns that elements usually have at most: four nodes and two coordinates. Superelements may have more.
 pub const USUAL_UNKNOWNS: usize = 26;
@@ -307,135 +309,6 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
         None
     }
 }
-
-/// What a springlike or loadlike kind is attached to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Attachment {
-    /// One node and a point carried by it.
-    OneNode,
-    /// Two nodes, base and tip, and a point carried by each.
-    TwoNodes,
-    /// A joint's algebraic coordinate of this quantity.
-    Coordinate(Quantity),
-    /// Places one after the other, each carried by a node, and algebraic coordinates if there are any.
-    Places,
-    /// Several algebraic coordinates, of any quantity.
-    Coordinates,
-}
-
-/// A node and a point in its body frame [m].
-pub(crate) type Carried = (NodeId, Vector3);
-
-/// Where a component is attached, resolved to indices.
-#[derive(Clone, Debug)]
-pub enum Attached {
-    /// A node and a point in its body frame [m].
-    OneNode(NodeId, Vector3),
-    /// Base and tip node, each with a point in its body frame [m].
-    TwoNodes([NodeId; 2], [Vector3; 2]),
-    /// An algebraic coordinate.
-    Coordinate(CoordinateId),
-    /// Nodes in their order, each with a point in its body frame [m]; a node may be there several times. Then algebraic
-    /// coordinates in their order, none of them twice.
-    Places(Vec<(NodeId, Vector3)>, Vec<CoordinateId>),
-    /// Algebraic coordinates in their order, none of them twice.
-    Coordinates(Vec<CoordinateId>),
-}
-
-impl Attached {
-    /// The node and point of a one-node attachment.
-    ///
-    /// # Errors
-    /// If the attachment is of another form.
-    pub(crate) fn one_node(self) -> Result<(NodeId, Vector3), ParameterError> {
-        match self {
-            Self::OneNode(node, point) => Ok((node, point)),
-            _ => Err(ParameterError::new("on", "must name one node")),
-        }
-    }
-
-    /// Nodes and points of a two-node attachment.
-    ///
-    /// # Errors
-    /// If the attachment is of another form.
-    pub fn two_nodes(self) -> Result<([NodeId; 2], [Vector3; 2]), ParameterError> {
-        match self {
-            Self::TwoNodes(nodes, points) => Ok((nodes, points)),
-            _ => Err(ParameterError::new("base", "and `tip` must name two nodes")),
-        }
-    }
-
-    /// Nodes and points of an attachment to places, and the coordinates.
-    ///
-    /// # Errors
-    /// If the attachment is of another form.
-    pub(crate) fn places(self) -> Result<(Vec<Carried>, Vec<CoordinateId>), ParameterError> {
-        match self {
-            Self::Places(places, coordinates) => Ok((places, coordinates)),
-            _ => Err(ParameterError::new("along", "must list places")),
-        }
-    }
-
-    /// The coordinates of an attachment to several.
-    ///
-    /// # Errors
-    /// If the attachment is of another form, or names no coordinate.
-    pub(crate) fn coordinates(self) -> Result<Vec<CoordinateId>, ParameterError> {
-        match self {
-            Self::Coordinates(coordinates) if !coordinates.is_empty() => Ok(coordinates),
-            _ => Err(ParameterError::new("coordinates", "must list coordinates of joints")),
-        }
-    }
-
-    /// The coordinate of a coordinate attachment.
-    ///
-    /// # Errors
-    /// If the attachment is of another form.
-    pub fn coordinate(self) -> Result<CoordinateId, ParameterError> {
-        match self {
-            Self::Coordinate(coordinate) => Ok(coordinate),
-            _ => Err(ParameterError::new("joint", "must name a joint with a relative coordinate")),
-        }
-    }
-}
-
-/// A kind of spring or load, as the model file and the tests know it.
-#[derive(Clone, Copy, Debug)]
-pub struct ElementKind {
-    /// Name in the model file.
-    pub name: &'static str,
-    /// One sentence.
-    pub summary: &'static str,
-    /// A minimal model-file entry of its own parameters.
-    pub sample: &'static str,
-    /// Parameters beyond the attachment.
-    pub parameters: &'static [Parameter],
-    /// What it is attached to.
-    pub attachment: Attachment,
-    /// Builds it and adds it to a system.
-    pub build: fn(&mut Builder, Attached, &Parameters) -> Result<(), ParameterError>,
-}
-
-/// Springs and dampers, one line each.
-pub static SPRINGS: &[ElementKind] = &[
-    coordinate_spring::AXIAL,
-    point_spring::KIND,
-    rolling_contact::KIND,
-    rope::KIND,
-    coordinate_spring::TORSIONAL,
-    friction::AXIAL,
-    friction::TORSIONAL,
-    bushing::KIND,
-    coordinate_dynamics::KIND,
-    stop::AXIAL,
-    stop::TORSIONAL,
-    latch::AXIAL,
-    latch::TORSIONAL,
-];
-
-/// Loads, one line each.
-pub static LOADS: &[ElementKind] =
-    &[force::KIND, moment::KIND, joint_load::TORQUE, joint_load::FORCE, gyrostat::KIND];
 
 #[cfg(test)]
 mod tests {

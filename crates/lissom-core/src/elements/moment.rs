@@ -3,9 +3,11 @@
 use lissom_motion::skew;
 
 use super::force::{DirectedLoad, LOAD_PARAMETERS};
-use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents, add_block};
+use super::kind::{Attached, Attachment, ElementKind};
+use super::{Element, Energy, Tangents, add_block};
+use crate::kinematics::{Kinematics, NodeId};
 use crate::registry::{ParameterError, Parameters};
-use crate::system::{Builder, Kinematics, NodeId};
+use crate::system::Builder;
 
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {

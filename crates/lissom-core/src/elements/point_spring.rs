@@ -8,12 +8,13 @@ use lissom_motion::{Matrix3, Vector3, skew};
 use nalgebra::SMatrix;
 
 use super::force_law::{ForceLaw, Response, SIDE_OF_LENGTH};
+use super::kind::{Attached, Attachment, ElementKind};
 use super::sides::Sides;
-use super::step_stages::{STAGES, StepStages, above_round_off};
-use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents, add_block};
+use super::{Element, Energy, Tangents, add_block};
+use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
+use crate::kinematics::{Kinematics, NodeId, NodeMotion, split};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::state::split;
-use crate::system::{Builder, Kinematics, NodeId, NodeMotion};
+use crate::system::Builder;
 
 /// Registry entry.
 pub(crate) const KIND: ElementKind = ElementKind {

@@ -1,7 +1,7 @@
 //! Rolling without sliding: a constraint between velocities, with the forces that hold it.
 //!
 //! Legend: (R, x) tip's joint frame in the base's, V twists in the frames' own axes, A = Ad((R, x)⁻¹), η variation of
-//! the tip's frame relative to the base's, b_k see `joints::contact`, Λ_k impulses: coordinates without mass whose rates
+//! the tip's frame relative to the base's, b_k see `contact::wheel_on_plane`, Λ_k impulses: coordinates without mass whose rates
 //! are the forces of the plane against sliding.
 //!
 //! ```text
@@ -17,9 +17,8 @@ use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 
 use super::frame_pair::{FramePair, RelativeMotion};
 use super::{Element, Energy, Tangents, add_block};
-use crate::joints::attached::CarriedFrame;
-use crate::joints::contact::{Contact, DIRECTIONS};
-use crate::system::{CoordinateId, Kinematics, NodeId};
+use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
+use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, NodeId};
 
 /// A wheel on a plane.
 #[derive(Clone, Debug)]

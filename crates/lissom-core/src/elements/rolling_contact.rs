@@ -1,6 +1,6 @@
 //! A wheel on a plane that yields and slips: a one-sided normal force, and friction by a law over the sliding velocity.
 //!
-//! Legend: as in `joints::rolling` and `joints::contact`; g gap between wheel and plane, δ = -g penetration, V relative twist, η
+//! Legend: as in `joints::rolling` and `contact::wheel_on_plane`; g gap between wheel and plane, δ = -g penetration, V relative twist, η
 //! its variation of place, b_n = ∂g/∂η, s_k = b_k·V sliding velocities, σ = |s|, μ(σ) coefficient of friction.
 //!
 //! ```text
@@ -12,12 +12,13 @@
 use lissom_motion::{Matrix6, Motion, Rotation, Vector3, Vector6, lie_bracket_matrix};
 
 use super::frame_pair::{FramePair, RelativeMotion};
+use super::kind::{Attached, Attachment, ElementKind};
 use super::sides::{Sides, is_above};
-use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
-use crate::joints::attached::CarriedFrame;
-use crate::joints::contact::{Contact, DIRECTIONS};
+use super::{Element, Energy, Tangents};
+use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
+use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::{Builder, Kinematics, NodeId};
+use crate::system::Builder;
 
 /// Sliding velocities below are those of rolling, where the law is linear [m/s].
 const STILL: f64 = 1e-9;

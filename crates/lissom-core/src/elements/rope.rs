@@ -13,12 +13,14 @@ use lissom_motion::{Matrix3, Vector3, skew};
 use nalgebra::SMatrix;
 
 use super::force_law::{ForceLaw, Response};
+use super::kind::{Attached, Attachment, ElementKind};
 use super::point_spring::Point;
 use super::sides::Sides;
-use super::step_stages::{STAGES, StepStages, above_round_off};
-use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents, add_block};
+use super::{Element, Energy, Tangents, add_block};
+use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
+use crate::kinematics::{CoordinateId, GROUND, Kinematics, NodeId};
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters, Value};
-use crate::system::{Builder, CoordinateId, GROUND, Kinematics, NodeId};
+use crate::system::Builder;
 
 /// Registry entry.
 pub(crate) const KIND: ElementKind = ElementKind {

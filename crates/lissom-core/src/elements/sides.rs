@@ -1,7 +1,7 @@
 //! The sides of an element's switches: where its forces have a kink or a jump, and steps end, they go on from the side on
 //! which the step began.
 
-use crate::system::Kinematics;
+use crate::kinematics::Kinematics;
 
 /// Where the sides of an element's switches are held; nowhere until the system is built.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -12,11 +12,12 @@
 //! the whole contact, whatever m, k and n. The force is continuous at touch and never pulls. Between e and the velocity of
 //! impact there is the relation of the law: slower impacts lose less.
 
+use super::kind::{Attached, Attachment, ElementKind};
 use super::sides::{Sides, is_above};
-use super::{Attached, Attachment, Element, ElementKind, Energy, Tangents};
-use crate::joints::Quantity;
+use super::{Element, Energy, Tangents};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::{Builder, CoordinateId, Kinematics, NodeId};
+use crate::system::Builder;
 
 /// Least restitution that a contact can have.
 const LEAST_RESTITUTION: f64 = 0.01;

@@ -13,9 +13,9 @@
 
 use lissom_motion::{Matrix3, Vector3, skew};
 
-use super::attached::Increments;
 use super::slider::{CarriedPoint, LOCAL, OWN, Place, Row, TIP};
-use crate::system::{Kinematics, NodeMotion};
+use crate::joints::evaluation_point::Increments;
+use crate::kinematics::{Kinematics, NodeMotion};
 
 /// What a direction of the tip stays across.
 #[derive(Clone, Debug, PartialEq)]

@@ -9,23 +9,13 @@
 use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
 use nalgebra::{SMatrix, SVector};
 
-use super::blocks::JointStarts;
 use super::derivatives::{Derivatives, IncrementTangent, Inner, LOCAL, OWN, Side, TIP};
-use super::wheel_on_rail::contact::{Pose, RailContactValues};
 use super::{AnyJoint, Curvature, Equations, Gradient, MOST_COORDINATES, MOST_EQUATIONS, Own, Relative};
+use crate::contact::wheel_on_rail::{Pose, RailContactValues};
 use crate::elements::creep_force::CreepForce;
 use crate::elements::rolling::Rolling;
-use crate::system::state::split;
-use crate::system::{Chart, CoordinateId, Kinematics, MotionChange, NodeId, Point};
-
-/// A joint frame: a frame carried by a node.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CarriedFrame {
-    /// The node that carries it.
-    pub node: NodeId,
-    /// The frame in the node's frame.
-    pub offset: Motion,
-}
+use crate::joints::evaluation_point::{Chart, Increments, Point};
+use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, split};
 
 /// Derivatives of the equations with respect to the local unknowns.
 pub type LocalGradient = SMatrix<f64, MOST_EQUATIONS, LOCAL>;
@@ -49,19 +39,6 @@ pub struct AttachedJoint {
     /// Coordinates whose rates are the forces against sliding, of joints that roll.
     pub impulses: Vec<CoordinateId>,
     pub(crate) joint: Box<dyn AnyJoint>,
-}
-
-/// What has changed since the start of the step.
-#[derive(Clone, Copy, Debug)]
-pub struct Increments<'a> {
-    /// The start of the step.
-    pub start: &'a Kinematics,
-    /// Change of every node's motion.
-    pub nodes: &'a [MotionChange],
-    /// Change of every coordinate.
-    pub coordinates: &'a [f64],
-    /// What joints see at the start, if somebody has it at hand.
-    pub joints: Option<&'a JointStarts>,
 }
 
 impl AttachedJoint {

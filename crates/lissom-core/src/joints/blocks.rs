@@ -16,9 +16,10 @@ use super::attached::AttachedJoint;
 use super::derivatives::{Derivatives, LOCAL, OWN, TIP};
 use super::moved::{Angle, Axes, FrameChange, Moved, OwnMoved};
 use super::singly::Singly;
-use super::{Coordinate, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Quantity};
-use crate::lanes::{Frames, Part, gather, gather_frames, parts, processor_for};
-use crate::system::{Chart, Kinematics, Point};
+use super::{Coordinate, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS};
+use crate::joints::evaluation_point::{Chart, Point};
+use crate::kinematics::lanes::{Frames, Part, gather, gather_frames, parts, processor_for};
+use crate::kinematics::{Kinematics, Quantity};
 
 /// Forces on the local unknowns and violations of eight joints, in the order of a joint's rows.
 pub(crate) type Results = [Block; LOCAL + MOST_EQUATIONS];

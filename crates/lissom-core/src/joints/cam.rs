@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::coupling::{Relation, RelationPoint};
-use super::{Build, Coupled, JointKind};
+use super::kind::{Build, Coupled, JointKind};
 use crate::registry::{
     Function, OTHER_COORDINATE, Parameter, ParameterError, ParameterType, WHICH_COORDINATE,
 };

@@ -3,11 +3,11 @@
 
 use lissom_motion::{Real, Screw, Vector3};
 
+use super::kind::{Build, Frames, JointKind};
 use super::moved::{Moved, OwnMoved};
 use super::primitives::{JointRotation, coincident, coincident_curvature, coincident_gradient};
 use super::{
-    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, MOST_EQUATIONS,
-    MOST_NUMBERS, Own, Relative,
+    Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
 
 /// Registry entry.

@@ -7,14 +7,14 @@
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
+use super::kind::{Build, Frames, JointKind};
 use super::moved::{Moved, OwnMoved};
 use super::primitives::{
     JointRotation, coincident, coincident_change, coincident_curvature, coincident_gradient,
     coincident_wrench,
 };
 use super::{
-    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, MOST_EQUATIONS,
-    MOST_NUMBERS, Own, Relative,
+    Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
 use crate::registry::{Parameter, ParameterError, ParameterType};
 

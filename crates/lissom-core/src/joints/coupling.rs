@@ -7,55 +7,10 @@
 //!
 //! Derivatives come from second-order jets along directions: d²c/dε² along u + v, u and v gives the mixed one of u and v.
 
-use std::fmt::Debug;
 use std::sync::Arc;
 
-use crate::system::{CoordinateId, Kinematics};
-
-/// Most coordinates that one relation may name.
-pub const MOST_COUPLED: usize = 16;
-
-/// One number per coordinate; those that are not there stay zero.
-pub type Coupled = [f64; MOST_COUPLED];
-
-/// An instant: time [s] and coordinates [rad, m]; or a direction in both.
-pub type RelationPoint<'a> = (f64, &'a [f64]);
-
-/// An equation between coordinates and time.
-pub trait Relation: Send + Sync + Debug {
-    /// Value, and first and second derivative along a direction.
-    fn jet(&self, at: RelationPoint<'_>, direction: RelationPoint<'_>) -> [f64; 3];
-
-    /// Change from one instant to another without cancellation, `elapsed` [s] and `change` later. Default: the
-    /// difference of the values, or over short ways, where that is round-off, the integral of the derivative.
-    fn change(&self, from: RelationPoint<'_>, elapsed: f64, change: &[f64]) -> f64 {
-        const OFFSET: f64 = 0.774_596_669_241_483_4;
-        let (time, start) = from;
-        let at = |share: f64| {
-            let mut there = Coupled::default();
-            for (k, (start, change)) in start.iter().zip(change).enumerate() {
-                there[k] = start + share * change;
-            }
-            self.jet((time + share * elapsed, &there[..start.len()]), (elapsed, change))
-        };
-        let slope = |x: f64| at(0.5 + 0.5 * x)[1];
-        // Three Gauss points.
-        let integral = (5.0 * (slope(-OFFSET) + slope(OFFSET)) + 8.0 * slope(0.0)) / 18.0;
-        let ([before, ..], [after, ..]) = (at(0.0), at(1.0));
-        let difference = after - before;
-        // What values round, and what they do because their arguments are rounded.
-        let by_arguments: f64 = (0..start.len())
-            .map(|k| {
-                let mut unit = Coupled::default();
-                unit[k] = start[k];
-                self.jet(from, (0.0, &unit[..start.len()]))[1].abs()
-            })
-            .sum();
-        let by_time = self.jet(from, (time, &Coupled::default()[..start.len()]))[1].abs();
-        let rounding = 4.0 * f64::EPSILON * (before.abs() + after.abs() + by_arguments + by_time);
-        if (integral - difference).abs() <= rounding { integral } else { difference }
-    }
-}
+use crate::kinematics::{CoordinateId, Kinematics};
+pub use crate::relation::{Coupled, MOST_COUPLED, Relation, RelationPoint};
 
 /// A relation with its place in the system.
 #[derive(Debug)]
@@ -260,7 +215,7 @@ mod tests {
             scale: 2.0,
             positions: Vec::new(),
         };
-        let motion = |value, rate| crate::system::CoordinateMotion { value, rate, acceleration: 0.0 };
+        let motion = |value, rate| crate::kinematics::CoordinateMotion { value, rate, acceleration: 0.0 };
         let at = Kinematics {
             time: 0.7,
             elapsed: 0.0,

@@ -3,10 +3,10 @@
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
 
+use super::kind::{Build, Frames, JointKind};
 use super::moved::{Moved, OwnMoved};
 use super::{
-    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, MOST_EQUATIONS,
-    MOST_NUMBERS, Own, Relative,
+    Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
 use crate::registry::ParameterError;
 

@@ -1,6 +1,6 @@
 //! Equation: any expression of joints' coordinates and of time vanishes, c = f(q, t).
 
-use super::{Build, Coupled, JointKind};
+use super::kind::{Build, Coupled, JointKind};
 use crate::registry::{Parameter, ParameterType};
 
 /// Registry entry.

@@ -1,7 +1,9 @@
 //! Generalised coordinates without a place in space: numbers that springs, loads, relations and the matrices of
 //! `elements::coordinate_dynamics` act on, as on the coordinates of joints. They have no equations of their own.
 
-use super::{Build, Coordinate, JointKind, Quantity};
+use super::Coordinate;
+use super::kind::{Build, JointKind};
+use crate::kinematics::Quantity;
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 
 /// Registry entry.

@@ -14,10 +14,11 @@ use lissom_motion::{Real, Screw, Triple, Vector3};
 use super::base_axes::{
     component_gradient, cosine_curvature, cosine_gradient, force_curvature, force_wrench, row,
 };
+use super::kind::{Build, Frames, JointKind};
 use super::moved::{Moved, OwnMoved};
 use super::{
-    AnyJoint, Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
-    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+    AnyJoint, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
+    Relative,
 };
 use crate::registry::{Parameter, ParameterError, ParameterType};
 

@@ -1,7 +1,7 @@
 //! In-line: the tip's point stays on a line of the base, x·e₁ = x·e₂ = 0.
 
 use super::generic::locking;
-use super::{Build, Frames, JointKind};
+use super::kind::{Build, Frames, JointKind};
 
 /// Registry entry: the generic joint that locks two translations. Unlike `point_on_line` it has no coordinate.
 pub const KIND: JointKind = JointKind {

@@ -12,16 +12,18 @@ pub mod cam;
 pub(crate) mod centerline;
 pub mod clamp;
 pub mod constant_velocity;
-pub mod contact;
 pub mod coupling;
 pub mod cylindrical;
 pub mod derivatives;
 pub mod distance;
 pub mod equation;
+pub mod evaluation_point;
 pub mod gear;
 pub mod generalized_coordinates;
 pub mod generic;
 pub mod inline;
+pub mod kind;
+mod kinds;
 pub mod moved;
 pub mod parallel_axes;
 pub mod perpendicular_axes;
@@ -46,21 +48,20 @@ pub mod swing_arm;
 pub mod universal;
 pub mod wheel_on_rail;
 
-use std::sync::Arc;
+pub use kind::{Build, Coupled, Frames, Geometry, JointKind, MakeFree, MakeJoint, MakeRelation};
+pub use kinds::KINDS;
 
-use lissom_motion::{Matrix3, Motion, Real, Rotation, Screw, Vector3, Vector6};
+use lissom_motion::{Matrix3, Motion, Real, Screw, Vector3, Vector6};
 use nalgebra::{SMatrix, SVector};
 
+use crate::contact::wheel_on_plane::Contact;
+use crate::contact::wheel_on_rail::RailContact;
 use attached::AttachedJoint;
 use blocks::Batches;
-use contact::Contact;
-use coupling::Relation;
-use generalized_coordinates::FreeCoordinate;
 use moved::{Moved, OwnMoved};
-use wheel_on_rail::contact::RailContact;
 
-use crate::elements::creep_force::CreepLaw;
-use crate::registry::{Function, Parameter, ParameterError, Parameters};
+use crate::contact::CreepLaw;
+use crate::kinematics::Quantity;
 
 /// Most equations a joint may have.
 pub const MOST_EQUATIONS: usize = 6;
@@ -69,28 +70,6 @@ pub const MOST_COORDINATES: usize = 2;
 
 /// Most numbers of its own that the equations of a joint hold.
 pub const MOST_NUMBERS: usize = 10;
-
-/// What an equation or a coordinate of a joint is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Quantity {
-    /// [m]
-    Length,
-    /// [rad]
-    Angle,
-    /// A first-order state, in units of its own.
-    State,
-}
-
-impl Quantity {
-    /// What a joint's relative coordinate of this quantity is called.
-    pub fn relative(self) -> &'static str {
-        match self {
-            Self::Length => "displacement",
-            Self::Angle => "rotation",
-            Self::State => "state",
-        }
-    }
-}
 
 /// Motion of the tip's joint frame in the base's joint frame, and its change since the start of the
 /// step, computed from the increments without cancellation.
@@ -319,113 +298,3 @@ impl<J: Joint> AnyJoint for J {
         batches.enter(*self, index, attached);
     }
 }
-
-/// How the joint frames are laid at the start.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Frames {
-    /// Both at one point; their direction does not matter.
-    Point,
-    /// Both at one point, third axis along `axis`.
-    Axis,
-    /// Both at one point, first axis along `axis`, second along `second_axis`.
-    TwoAxes,
-    /// The same; along the global axes where none is given.
-    GivenOrGlobalAxes,
-    /// One at the base's point, one at the tip node; third axis along `axis`.
-    SpanWithAxis,
-    /// One at the base's point, one at the tip node; their direction does not matter.
-    Span,
-}
-
-/// Place of the tip's joint frame at the start, seen from the base's joint frame.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Geometry {
-    /// From the base's point to the tip's point, in the base's joint frame [m].
-    pub span: Vector3,
-    /// Whether the tip node can only move in the joint frame's plane of the first two axes.
-    pub planar: bool,
-    /// The base's joint frame at the start, in inertial axes.
-    pub axes: Rotation,
-}
-
-/// Makes the equations of a joint.
-pub type MakeJoint = fn(&Parameters, &Geometry) -> Result<Box<dyn AnyJoint>, ParameterError>;
-
-/// Makes a relation between coordinates; they have these values at the start [rad, m].
-pub type MakeRelation = fn(&Parameters, &[f64]) -> Result<Arc<dyn Relation>, ParameterError>;
-
-/// Makes coordinates that are not between nodes.
-pub type MakeFree = fn(&Parameters) -> Result<Vec<FreeCoordinate>, ParameterError>;
-
-/// Which coordinates a relation is between.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Coupled {
-    /// One of a joint, and one of another joint.
-    Two,
-    /// Those that its expression names.
-    Named,
-}
-
-/// How a joint is made.
-#[derive(Clone, Copy, Debug)]
-pub enum Build {
-    /// Between two nodes.
-    Relative(Frames, MakeJoint),
-    /// Prescribes an algebraic coordinate of another joint, of this quantity, as a function of time.
-    Coordinate(Quantity, fn(&Parameters) -> Result<Function, ParameterError>),
-    /// Prescribes the whole motion of a node relative to another.
-    Motion,
-    /// Lets a point of the tip slide along beams.
-    AlongBeams,
-    /// Has coordinates of its own, not between nodes.
-    Free(MakeFree),
-    /// Relates algebraic coordinates of other joints.
-    Coupling(Coupled, MakeRelation),
-}
-
-/// A kind of joint, as the model file and the tests know it.
-#[derive(Clone, Copy, Debug)]
-pub struct JointKind {
-    /// Name in the model file.
-    pub name: &'static str,
-    /// One sentence.
-    pub summary: &'static str,
-    /// A minimal model-file entry of its own parameters.
-    pub sample: &'static str,
-    /// Parameters beyond base, tip, at and the axes.
-    pub parameters: &'static [Parameter],
-    /// How it is made.
-    pub build: Build,
-}
-
-/// All kinds of joints, one line each.
-pub static KINDS: &[JointKind] = &[
-    cam::KIND,
-    clamp::KIND,
-    constant_velocity::KIND,
-    cylindrical::KIND,
-    distance::KIND,
-    equation::KIND,
-    gear::KIND,
-    generalized_coordinates::KIND,
-    generic::KIND,
-    inline::KIND,
-    parallel_axes::KIND,
-    perpendicular_axes::KIND,
-    planar::KIND,
-    point_in_plane::KIND,
-    point_on_line::KIND,
-    prescribed_displacement::KIND,
-    prescribed_motion::KIND,
-    prescribed_rotation::KIND,
-    prismatic::KIND,
-    revolute::KIND,
-    rigid_link::KIND,
-    rolling::KIND,
-    screw::KIND,
-    slider::KIND,
-    spherical::KIND,
-    swing_arm::KIND,
-    universal::KIND,
-    wheel_on_rail::KIND,
-];

@@ -105,7 +105,7 @@ impl From<Axes<f64>> for Matrix3 {
     }
 }
 
-/// Change of a frame, see [`crate::system::MotionChange`].
+/// Change of a frame, see [`crate::kinematics::MotionChange`].
 #[derive(Clone, Copy, Debug)]
 pub struct FrameChange<R> {
     /// E - I.

@@ -1,7 +1,7 @@
 //! Perpendicular axes: an axis of the base and one of the tip stay at a right angle, -R_12 = 0.
 
 use super::generic::locking;
-use super::{Build, Frames, JointKind};
+use super::kind::{Build, Frames, JointKind};
 
 /// Registry entry: the generic joint that locks the rotation about the third axis alone.
 pub const KIND: JointKind = JointKind {

@@ -1,7 +1,7 @@
 //! Point in plane: the tip's point stays in a plane of the base, x·e₃ = 0.
 
 use super::generic::locking;
-use super::{Build, Frames, JointKind};
+use super::kind::{Build, Frames, JointKind};
 
 /// Registry entry: the generic joint that locks the translation along the third axis alone.
 pub const KIND: JointKind = JointKind {

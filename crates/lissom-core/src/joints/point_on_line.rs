@@ -5,11 +5,12 @@
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3};
 
 use super::base_axes::{component_gradient, force_curvature, force_wrench};
+use super::kind::{Build, Frames, JointKind};
 use super::moved::{Moved, OwnMoved};
 use super::primitives::POINT_EQUATIONS;
 use super::{
-    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
-    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+    Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
+    Relative,
 };
 use crate::registry::DISPLACEMENT_AT_START;
 

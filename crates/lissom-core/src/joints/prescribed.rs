@@ -1,7 +1,7 @@
 //! A joint's coordinate that is a function of time, c = φ - f(t). Its multiplier is the drive's moment or force.
 
+use crate::kinematics::CoordinateId;
 use crate::registry::Function;
-use crate::system::CoordinateId;
 
 /// A driven coordinate.
 #[derive(Clone, Debug)]

@@ -1,6 +1,7 @@
 //! Prescribed relative displacement: a joint's displacement is a function of time; the multiplier is the drive's force.
 
-use super::{Build, JointKind, Quantity};
+use super::kind::{Build, JointKind};
+use crate::kinematics::Quantity;
 use crate::registry::{COORDINATE, Parameter, ParameterType};
 
 /// Registry entry.

@@ -8,7 +8,8 @@
 //! Built of joints that are there: slides along the axes, then hinges about them, one after the other with frames without
 //! mass between them, each with a drive. What is not given is held, so that the reaction has all six components.
 
-use super::{Build, JointKind, Quantity};
+use super::kind::{Build, JointKind};
+use crate::kinematics::Quantity;
 use crate::registry::{Parameter, ParameterType};
 
 /// The components, in the order in which they move.

@@ -1,6 +1,7 @@
 //! Prescribed relative rotation: a joint's angle is a function of time; the multiplier is the drive's moment.
 
-use super::{Build, JointKind, Quantity};
+use super::kind::{Build, JointKind};
+use crate::kinematics::Quantity;
 use crate::registry::{COORDINATE, Parameter, ParameterType};
 
 /// Registry entry.

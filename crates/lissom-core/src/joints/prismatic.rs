@@ -5,11 +5,12 @@
 use lissom_motion::{Motion, Real, Rotation, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
+use super::kind::{Build, Frames, JointKind};
 use super::moved::{Moved, OwnMoved};
 use super::primitives::{JointRotation, coincident_curvature, coincident_gradient, on_third_axis};
 use super::{
-    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
-    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+    Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
+    Relative,
 };
 use crate::registry::DISPLACEMENT_AT_START;
 

@@ -1,7 +1,7 @@
 //! Rigid link: two nodes at different places move as one body.
 
 use super::clamp::Clamp;
-use super::{Build, Frames, JointKind};
+use super::kind::{Build, Frames, JointKind};
 
 /// Registry entry. The joint frames of a clamp may lie anywhere: here, at the tip node.
 pub const KIND: JointKind = JointKind {

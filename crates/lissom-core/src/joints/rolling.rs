@@ -15,12 +15,12 @@
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
 
 use super::base_axes::row;
-use super::contact::{Contact, upright};
+use super::kind::{Build, Frames, Geometry, JointKind};
 use super::moved::{Moved, OwnMoved};
 use super::{
-    Build, Curvature, Equations, Frames, Geometry, Gradient, Joint, JointKind, MOST_COORDINATES,
-    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+    Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
+use crate::contact::wheel_on_plane::{Contact, upright};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
 
 /// Registry entry.

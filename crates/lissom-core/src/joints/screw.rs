@@ -7,13 +7,14 @@ use std::f64::consts::TAU;
 use lissom_motion::{Motion, Real, Rotation, Screw as Wrench, Vector3};
 
 use super::clamp::EQUATIONS;
+use super::kind::{Build, Frames, JointKind};
 use super::moved::{Moved, OwnMoved};
 use super::primitives::{
     JointRotation, coincident_curvature, coincident_gradient, elementary, on_third_axis,
 };
 use super::{
-    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
-    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+    Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
+    Relative,
 };
 use crate::registry::{ANGLE_AT_START, Parameter, ParameterType};
 

@@ -10,7 +10,8 @@ use super::Equations;
 use super::attached::AttachedJoint;
 use super::blocks::{JointBatch, Results, StartBlock, Wanted};
 use super::derivatives::{Derivatives, LOCAL};
-use crate::system::{Chart, Kinematics, Point};
+use crate::joints::evaluation_point::{Chart, Point};
+use crate::kinematics::Kinematics;
 
 /// Such joints of all kinds.
 pub(crate) struct Singly {

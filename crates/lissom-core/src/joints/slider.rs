@@ -15,11 +15,11 @@
 use lissom_motion::{Matrix3, Vector3, Vector6, skew};
 
 use super::alignment::{Aligned, Alignment};
-use super::attached::Increments;
 use super::centerline::{Centerline, SUPPORT, Support};
-use super::{Build, JointKind, Quantity};
+use super::kind::{Build, JointKind};
+use crate::joints::evaluation_point::Increments;
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, NodeMotion, Quantity};
 use crate::registry::{Parameter, ParameterType};
-use crate::system::{CoordinateId, Kinematics, NodeId, NodeMotion};
 
 /// Registry entry.
 pub const KIND: JointKind = JointKind {

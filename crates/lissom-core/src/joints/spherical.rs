@@ -3,14 +3,14 @@
 
 use lissom_motion::{Real, Screw, Triple, Vector3};
 
+use super::kind::{Build, Frames, JointKind};
 use super::moved::{Moved, OwnMoved};
 use super::primitives::{
     POINT_EQUATIONS, coincident, coincident_change, coincident_curvature, coincident_gradient,
     coincident_wrench,
 };
 use super::{
-    Build, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES, MOST_EQUATIONS,
-    MOST_NUMBERS, Own, Relative,
+    Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
 };
 
 /// Registry entry.

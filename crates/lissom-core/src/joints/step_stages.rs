@@ -5,14 +5,16 @@
 //! ```
 //!
 //! c_i = 0 at both stages means B̃_j V_j = -c_start/h at each: no power, and no violation at the end. See
-//! `elements::step_stages` for B̃.
+//! `kinematics::step_stages` for B̃.
 
 use nalgebra::SVector;
 
-use super::attached::{AttachedJoint, Increments, LocalGradient};
+use super::attached::{AttachedJoint, LocalGradient};
 use super::derivatives::{LOCAL, OWN, TIP};
-use super::{Equations, MOST_EQUATIONS, Quantity};
-use crate::elements::step_stages::{STAGES, StepStages, above_round_off, weigh};
+use super::{Equations, MOST_EQUATIONS};
+use crate::joints::evaluation_point::Increments;
+use crate::kinematics::Quantity;
+use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off, weigh};
 
 /// Round-off of a change of violation, in units of what its terms cancel from.
 pub(crate) const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
@@ -89,7 +91,7 @@ impl AttachedJoint {
     }
 
     /// Velocities of the local unknowns.
-    pub(crate) fn speeds(&self, at: &crate::system::Kinematics) -> SVector<f64, LOCAL> {
+    pub(crate) fn speeds(&self, at: &crate::kinematics::Kinematics) -> SVector<f64, LOCAL> {
         let mut speeds = SVector::<f64, LOCAL>::zeros();
         for (frame, first) in self.frames.iter().zip([0, TIP]) {
             speeds.fixed_rows_mut::<6>(first).copy_from(&at.nodes[frame.node].twist);

@@ -4,11 +4,12 @@
 
 use lissom_motion::{Motion, Real, Rotation, Screw, Triple, Vector3, skew};
 
+use super::kind::{Build, Frames, JointKind};
 use super::moved::{Moved, OwnMoved};
 use super::primitives::{POINT_EQUATIONS, elementary, elementary_of};
 use super::{
-    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
-    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+    Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
+    Relative,
 };
 use crate::registry::{Parameter, ParameterError, ParameterType};
 

@@ -5,11 +5,12 @@
 use lissom_motion::{Real, Screw, Vector3};
 
 use super::clamp::EQUATIONS;
+use super::kind::{Build, Frames, JointKind};
 use super::moved::{Moved, OwnMoved};
 use super::primitives::{JointRotation, coincident, coincident_curvature, coincident_gradient};
 use super::{
-    Build, Coordinate, Curvature, Equations, Frames, Gradient, Joint, JointKind, MOST_COORDINATES,
-    MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+    Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
+    Relative,
 };
 
 /// Registry entry.

@@ -2,10 +2,11 @@
 //! the time in which the point of contact runs round.
 
 use super::Warning;
+use crate::contact::wheel_on_rail::Pose;
 use crate::elements::rolling::Rolling;
 use crate::joints::attached::AttachedJoint;
-use crate::joints::wheel_on_rail::contact::Pose;
-use crate::system::{Kinematics, State, System};
+use crate::kinematics::Kinematics;
+use crate::system::{State, System};
 
 /// Forces below this part of the largest multiplier are round-off.
 const ROUND_OFF: f64 = 1e-9;

@@ -1,9 +1,9 @@
 //! Drives that jump: however short the step, a place that changes at once is reached with a speed that nothing prescribes.
 
 use super::Warning;
-use crate::joints::Quantity;
+use crate::kinematics::{Kinematics, Quantity};
 use crate::scaling::Representative;
-use crate::system::{Kinematics, System};
+use crate::system::System;
 
 /// A drive goes at once if it goes further in a step than its larger rate at both ends would take it, so many times over.
 const MOST: f64 = 2.0;

@@ -6,9 +6,10 @@
 
 use nalgebra::DMatrix;
 
+use crate::joints::MOST_COORDINATES;
 use crate::joints::attached::AttachedJoint;
-use crate::joints::{MOST_COORDINATES, Quantity};
-use crate::system::{Kinematics, System};
+use crate::kinematics::{Kinematics, Quantity};
+use crate::system::System;
 
 /// A joint holds nearly nothing in one direction where the smallest singular value is less than this part of that at the
 /// start: for the rotation of a `constant_velocity` joint, 26 degrees beside half a turn.

@@ -15,8 +15,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::analysis::StepError;
 use crate::elements::Energy;
+use crate::kinematics::Kinematics;
 use crate::scaling::Representative;
-use crate::system::{Kinematics, State, System};
+use crate::system::{State, System};
 
 /// A surplus of this part of the energy turned over is told.
 const NOTEWORTHY: f64 = 0.05;

@@ -21,9 +21,9 @@ pub use warning::Warning;
 use std::f64::consts::PI;
 
 use crate::analysis::StepError;
-use crate::joints::Quantity;
+use crate::kinematics::{Kinematics, Quantity};
 use crate::scaling::Representative;
-use crate::system::{Kinematics, State, System};
+use crate::system::{State, System};
 
 /// Violation of a constraint at which it is not held, relative to the representative length, or in radians. Solutions
 /// and redundant constraints that agree leave some 1e-10.

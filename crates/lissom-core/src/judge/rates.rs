@@ -7,8 +7,8 @@
 
 use lissom_motion::Motion;
 
-use crate::joints::Quantity;
-use crate::system::{Kinematics, System};
+use crate::kinematics::{Kinematics, Quantity};
+use crate::system::System;
 
 /// ε is this part of the time in which the fastest node goes a representative length, or a radian, and of the step: what the difference
 /// errs is half of it times the rate, and round-off 1e-11 of it.

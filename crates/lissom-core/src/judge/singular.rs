@@ -15,7 +15,8 @@ use serde::{Deserialize, Serialize};
 
 use super::Warning;
 use crate::analysis::loops::{self, Gradient, Loop};
-use crate::system::{Kinematics, System};
+use crate::kinematics::Kinematics;
+use crate::system::System;
 
 /// Pivots below this part of their equation's square are round-off: the equation repeats others.
 const REPEATS: f64 = 1e-9;

@@ -4,10 +4,9 @@ use lissom_motion::Vector3;
 
 use super::Warning;
 use crate::analysis::InitialError;
-use crate::joints::Quantity;
+use crate::kinematics::{Kinematics, NodeMotion, Quantity, split};
 use crate::scaling::Representative;
-use crate::system::state::split;
-use crate::system::{Kinematics, NodeMotion, System};
+use crate::system::System;
 
 /// Changes of given velocities below this part of the largest are round-off of given numbers.
 const NOTEWORTHY: f64 = 1e-3;

@@ -21,7 +21,7 @@ use super::model::{LinearError, LinearModel};
 use super::schur::schur;
 use super::shifted::{GeneralShift, Shift, small_square};
 use crate::interrupt;
-use crate::joints::Quantity;
+use crate::kinematics::Quantity;
 
 const BLOCK: usize = 6;
 const TOLERANCE: f64 = 1e-8;

@@ -8,9 +8,9 @@ use num_complex::Complex64;
 use super::mode::Mode;
 use super::model::LinearModel;
 use super::shapes::part_of;
-use crate::joints::Quantity;
+use crate::kinematics::{Kinematics, LOCKED, NodeId, Quantity};
 
-use crate::system::{Kinematics, LOCKED, Mass, NodeId, Owner};
+use crate::system::{Mass, Owner};
 
 /// Largest displacement over the model's length, and rotation, at which energies are taken: errors are of its square.
 const SMALL: f64 = 1e-4;

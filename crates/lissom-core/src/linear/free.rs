@@ -10,8 +10,7 @@ use std::collections::BTreeSet;
 use super::krylov::Noise;
 use super::model::{LinearModel, nothing, point};
 use super::shifted::{GeneralShift, small_square};
-use crate::joints::Quantity;
-use crate::system::LOCKED;
+use crate::kinematics::{LOCKED, Quantity};
 
 /// s² over the small square of the model at first …
 const SHIFT: f64 = 1e-4;

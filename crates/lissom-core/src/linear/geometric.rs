@@ -21,7 +21,8 @@ use super::model::{LinearModel, nothing, point};
 use super::reduction::{Assembly, ReductionError};
 use super::shifted::RealShift;
 use crate::elements::superelement::{GeometricMatrices, PAIRS, ReducedMatrices};
-use crate::system::{Kinematics, LOCKED, System};
+use crate::kinematics::{Kinematics, LOCKED};
+use crate::system::System;
 
 /// Displacements of differences, as part of the model's length.
 const DISPLACED: f64 = 1e-4;

@@ -14,8 +14,7 @@ use lissom_solver::Pattern;
 use super::krylov::Noise;
 use super::model::{LinearModel, nothing, point};
 use super::shifted::{GeneralShift, SMALL, small_square};
-use crate::joints::Quantity;
-use crate::system::{Kinematics, LOCKED};
+use crate::kinematics::{Kinematics, LOCKED, Quantity};
 
 /// Directions that are tried.
 const DIRECTIONS: usize = 3;

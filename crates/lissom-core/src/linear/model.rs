@@ -11,12 +11,10 @@ use super::shifted::{ComplexShift, GeneralShift, RealShift, small_square};
 use crate::analysis::InitialError;
 use crate::analysis::initial::Initial;
 use crate::interrupt::{self, Interrupted};
-use crate::joints::Quantity;
-use crate::joints::attached::Increments;
+use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
+use crate::kinematics::{Kinematics, LOCKED, MotionChange, Quantity};
 use crate::scaling::Representative;
-use crate::system::{
-    Augmentation, Chart, Kinematics, LOCKED, Linearization, MotionChange, Point, State, System,
-};
+use crate::system::{Linearization, State, System};
 
 /// An entry and its mirror image differ if by more than this part of the larger one …
 const UNEQUAL: f64 = 1e-9;

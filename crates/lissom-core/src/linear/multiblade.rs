@@ -26,7 +26,8 @@ use num_complex::Complex64;
 
 use super::mode::Mode;
 use super::model::LinearModel;
-use crate::system::{Kinematics, LOCKED, Linearization, NodeId};
+use crate::kinematics::{Kinematics, LOCKED, NodeId};
+use crate::system::Linearization;
 
 /// Places that differ by less, over the length of the model, and axes [rad], are the same.
 const SAME: f64 = 1e-6;

@@ -13,8 +13,8 @@ use lissom_motion::{Vector6, lie_bracket_matrix};
 use num_complex::Complex64;
 
 use super::model::LinearModel;
+use crate::kinematics::LOCKED;
 use crate::signals::HeldId;
-use crate::system::LOCKED;
 
 /// Derivatives of a number by row; rows that are not there have none.
 #[derive(Clone, Debug, Default, PartialEq)]

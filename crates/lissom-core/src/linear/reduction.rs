@@ -23,7 +23,9 @@ use super::mode::{Completeness, ModeError, ModeOptions};
 use super::model::{LinearError, LinearModel, is_symmetric, nothing, point};
 use super::shifted::RealShift;
 use crate::elements::superelement::{Damping, ReducedMatrices};
-use crate::system::{Chart, LOCKED, Linearization, NodeId, State, System};
+use crate::joints::evaluation_point::Chart;
+use crate::kinematics::{LOCKED, NodeId};
+use crate::system::{Linearization, State, System};
 
 /// Forces on parts between the interfaces that displace them by less than this part of the model's length are round-off.
 const BALANCED: f64 = 1e-7;

@@ -12,7 +12,7 @@ use nalgebra::{ColPivQR, DMatrix, Dyn, LU};
 
 use super::model::LinearModel;
 use super::output::OutputDerivatives;
-use crate::joints::Quantity;
+use crate::kinematics::Quantity;
 
 /// Most coordinates of a model whose matrices are filled.
 const MOST_COORDINATES: usize = 600;

@@ -18,9 +18,10 @@ use super::mode::Mode;
 use super::model::{LinearError, LinearModel, nothing, point, stopped};
 use super::shifted::ComplexShift;
 use crate::analysis::initial::Initial;
-use crate::joints::Quantity;
+use crate::joints::evaluation_point::Chart;
+use crate::kinematics::{LOCKED, NodeMotion, Quantity};
 use crate::scaling::Representative;
-use crate::system::{Chart, LOCKED, Linearization, NodeMotion, State, System};
+use crate::system::{Linearization, State, System};
 
 /// Most corrections.
 const MOST: usize = 60;

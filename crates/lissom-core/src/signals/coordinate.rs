@@ -1,7 +1,7 @@
 //! Value or rate of a relative coordinate of a joint, or the value of a first-order state.
 
 use super::measurement::{Gradient, Measurement};
-use crate::system::{CoordinateId, Kinematics};
+use crate::kinematics::{CoordinateId, Kinematics};
 
 /// What of a coordinate is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,7 +5,7 @@ use std::fmt;
 use serde::{Deserialize, Serialize};
 
 use super::{Graph, HeldId, SignalId};
-use crate::system::Kinematics;
+use crate::kinematics::Kinematics;
 
 /// Which way a signal passes through zero.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,6 +1,6 @@
 //! What a signal may know of the motion: one number, with its derivatives by places and velocities.
 
-use crate::system::{CoordinateId, Kinematics, NodeId};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId};
 
 /// Most unknowns a measurement may touch: two nodes and two coordinates.
 pub const MOST_TOUCHED: usize = 14;

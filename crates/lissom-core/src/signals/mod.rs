@@ -21,11 +21,10 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::instants;
-use crate::system::{CoordinateId, Kinematics, NodeId};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId};
 use measurement::Measurement;
 
-/// Index of a held value: an input, or the last sample of a signal.
-pub type HeldId = usize;
+pub use crate::kinematics::HeldId;
 /// Index of a signal.
 pub type SignalId = usize;
 /// Index of a measurement.

@@ -10,7 +10,7 @@
 use lissom_motion::Vector3;
 
 use super::measurement::{Gradient, Measurement};
-use crate::system::{Kinematics, NodeId};
+use crate::kinematics::{Kinematics, NodeId};
 
 /// What of a point is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -67,7 +67,7 @@ impl Measurement for Point {
             by_point[3 + k] = turned[k];
         }
         if self.of == Of::Velocity {
-            let (velocity, spin) = crate::system::state::split(&node.twist);
+            let (velocity, spin) = crate::kinematics::split(&node.twist);
             let turned = (velocity + spin.cross(&self.offset)).cross(&axis);
             for k in 0..3 {
                 gradient.by_place[3 + k] = turned[k];

@@ -10,7 +10,7 @@
 use lissom_motion::{Rotation, Vector3, inverse_tangent_times, rotation_part, screw};
 
 use super::measurement::{Gradient, Measurement};
-use crate::system::{Kinematics, NodeId};
+use crate::kinematics::{Kinematics, NodeId};
 
 /// What of a rotation is measured.
 #[derive(Clone, Copy, Debug, PartialEq)]

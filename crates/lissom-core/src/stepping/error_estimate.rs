@@ -18,8 +18,8 @@
 //! The filter is that of [Hairer and Wanner 1996, IV.8]. The norm is the largest entry, lengths in ℓ_r. The reference is how
 //! far any node has moved or turned since the start, or a drive will have within the longest step, at most 1.
 
-use crate::joints::Quantity;
-use crate::system::{CoordinateId, CoordinateMass, Drive, Kinematics, LOCKED, System};
+use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Quantity};
+use crate::system::{CoordinateMass, Drive, System};
 
 /// Motions smaller than this part of the model's size are not resolved for their own sake.
 pub(crate) const SMALLEST_REFERENCE: f64 = 1e-6;

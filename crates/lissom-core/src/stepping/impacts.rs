@@ -8,7 +8,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::system::{Kinematics, System};
+use crate::kinematics::Kinematics;
+use crate::system::System;
 
 /// Steps after a crossing at whose ends the rate is looked at.
 const STEPS: u8 = 2;

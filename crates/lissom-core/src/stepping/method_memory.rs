@@ -16,8 +16,9 @@ use lissom_solver::SolverKind;
 
 use crate::analysis::InitialError;
 use crate::analysis::initial::Initial;
+use crate::kinematics::LOCKED;
 use crate::scaling::Representative;
-use crate::system::{LOCKED, State, System};
+use crate::system::{State, System};
 
 /// Where the step grows by more than this at once, as after one that ended at an event, what is known of ȧ and v_B may be
 /// round-off of a short step, which would grow by r² from step to step: a stays, and velocities are made consistent.

@@ -34,8 +34,8 @@ pub(crate) use time_functions::TimeFunctions;
 pub(crate) use watch::{Watch, Watched};
 
 use crate::analysis::{Phase, Simulation, StepError, StepReport, Stopwatch, Unwatched, cause};
-use crate::joints::Quantity;
 use crate::judge::{LARGEST_TURN, Ledger};
+use crate::kinematics::Quantity;
 use crate::mechanisms::Mechanism;
 use crate::newton::{Memory, Outcome};
 use crate::numbers::Number;

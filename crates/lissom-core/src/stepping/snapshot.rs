@@ -14,9 +14,10 @@ use crate::analysis::snapshot_parts::{Learned, TangentNumbers};
 use crate::analysis::{Settings, Simulation, Totals};
 use crate::judge::singular::Known;
 use crate::judge::{Ledger, Warning};
+use crate::kinematics::{CoordinateMotion, Kinematics, NodeMotion};
 use crate::newton::Memory;
 use crate::scaling::Scaled;
-use crate::system::{CoordinateMotion, Kinematics, NodeMotion, State};
+use crate::system::State;
 
 /// Changes whenever what a snapshot holds does.
 const VERSION: u32 = 12;

@@ -20,8 +20,9 @@
 use serde::{Deserialize, Serialize};
 
 use super::dense;
+use crate::kinematics::Kinematics;
 use crate::signals::event::{Event, Occurrence};
-use crate::system::{Kinematics, State, System};
+use crate::system::{State, System};
 
 /// Instants within a step at which signs are looked at, in parts of the step: numbers that pass through zero and back
 /// between two of them pass unseen.

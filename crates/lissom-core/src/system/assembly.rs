@@ -8,61 +8,16 @@
 
 use lissom_motion::WIDTH;
 
-use super::batch::{Chart, scatter, scatter_lane};
-use super::layout::LOCKED;
+use super::batch::{scatter, scatter_lane};
 use super::receiver::{Place, Receiver};
-use super::state::{Kinematics, MotionChange};
 use super::threads::Threads;
 use super::{Drive, System};
 use crate::elements::{Tangents, USUAL_UNKNOWNS};
-use crate::joints::attached::Increments;
+use crate::joints::Equations;
 use crate::joints::blocks::{Results, Wanted};
 use crate::joints::derivatives::{Derivatives, LOCAL, OWN, TIP};
-use crate::joints::{Equations, Quantity};
-
-/// Where residual and tangent are evaluated.
-#[derive(Clone, Copy, Debug)]
-pub struct Point<'a> {
-    /// Places, twists and accelerations.
-    pub at: &'a Kinematics,
-    /// Where the stresses of the geometric stiffness are taken from: `at` itself, or, while iterations are
-    /// far from equilibrium, the start of the step. Stresses of a far iterate can be larger than any that
-    /// the motion ever sees, for a small turn stretches a stiff element [cf. Magisano, Leonetti and Garcea
-    /// 2017].
-    pub stressed: &'a Kinematics,
-    /// What has changed since the start of the step.
-    pub increments: Increments<'a>,
-    /// Multipliers [N, N m].
-    pub multipliers: &'a [f64],
-    /// Violations at the start of the step.
-    pub violations: &'a [f64],
-    /// The augmented Lagrangian term.
-    pub augmentation: Augmentation,
-}
-
-/// How violations are turned into forces by the augmented Lagrangian term.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Augmentation {
-    /// Force per violation of a length [N/m].
-    pub weight: f64,
-    /// The length that stands for a radian: an angle's violation weighs its square [m].
-    pub radian: f64,
-}
-
-impl Augmentation {
-    /// No forces.
-    pub fn none() -> Self {
-        Self { weight: 0.0, radian: 1.0 }
-    }
-
-    /// Weight of an equation's violation relative to that of a length: 1 or [m²].
-    pub fn relative(&self, quantity: Quantity) -> f64 {
-        match quantity {
-            Quantity::Length | Quantity::State => 1.0,
-            Quantity::Angle => self.radian * self.radian,
-        }
-    }
-}
+use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
+use crate::kinematics::{Kinematics, LOCKED, MotionChange};
 
 /// Derivatives of the equations of motion in SI, each on the values of the tangent's pattern.
 #[derive(Clone, Debug, Default)]

@@ -7,19 +7,18 @@ use std::ops::Range;
 use lissom_motion::{Block, Matrix6, Vector3, WIDTH, lie_bracket_matrix};
 use lissom_solver::Pattern;
 
-use super::GROUND;
-use super::layout::{LOCKED, Layout};
 use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
-use super::state::{CoordinateId, Kinematics, NodeId, NodeMotion};
 use super::threads::Threads;
 use super::work::{power, work};
 use crate::elements::blocks::Blocks;
 use crate::elements::sides::Sides;
-use crate::elements::step_stages::{STAGES, StepStages};
 use crate::elements::{Element, Energy, LinearLimit, LinearRange, Tangents, USUAL_UNKNOWNS, is_same};
 use crate::joints::derivatives::IncrementTangent;
-use crate::lanes::processor_for;
+use crate::joints::evaluation_point::Chart;
+use crate::kinematics::lanes::processor_for;
+use crate::kinematics::step_stages::{STAGES, StepStages};
+use crate::kinematics::{CoordinateId, GROUND, Kinematics, LOCKED, Layout, NodeId};
 
 /// All elements of one kind.
 pub(crate) struct Batch<E> {
@@ -136,18 +135,6 @@ impl Mass<'_> {
 pub(crate) struct Owner {
     pub(crate) node: Option<NodeId>,
     pub(crate) coordinate: Option<CoordinateId>,
-}
-
-/// Which unknowns derivatives are taken with respect to.
-#[derive(Clone, Copy, Debug)]
-pub enum Chart<'a> {
-    /// Body variations at the point of linearisation.
-    Body,
-    /// Increments ψ of each node from the start of the step, H = H_start exp ψ: δh = T(ψ) δψ, T given by node.
-    Increments(&'a [IncrementTangent]),
-    /// Departures ψ̂ from going on with each node's twist V, at ψ̂ = 0: δV = δψ̂' + ad_V δψ̂ and
-    /// δV̇ = δψ̂'' + ad_V δψ̂'.
-    Departures(&'a [NodeMotion]),
 }
 
 impl<E: Element> Batch<E> {

@@ -20,19 +20,22 @@ use self::drawn::{joint_rotation, start_values};
 use self::rolling::Impulse;
 use super::batch::{AnyBatch, Batch};
 use super::feedback::{Feedback, Target};
-use super::layout::{Freedoms, LOCKED, Layout};
 use super::places::{Places, free_rows, position_of};
-use super::state::{CoordinateId, CoordinateMotion, Kinematics, NodeId, NodeMotion, State};
-use super::{CoordinateMass, Drive, ElementId, GROUND, System};
+use super::state::State;
+use super::{CoordinateMass, Drive, ElementId, System};
 use crate::elements::Element;
 use crate::elements::creep_force::CreepForce;
 use crate::elements::inertia::{Gravity, Inertia};
-use crate::joints::attached::{AttachedJoint, CarriedFrame};
+use crate::joints::attached::AttachedJoint;
 use crate::joints::blocks::Batches;
 use crate::joints::coupling::Coupling;
 use crate::joints::derivatives::{LOCAL, OWN, TIP};
 use crate::joints::slider::Slider;
-use crate::joints::{Build, Geometry, JointKind, Quantity};
+use crate::joints::{Build, Geometry, JointKind};
+use crate::kinematics::{
+    CarriedFrame, CoordinateId, CoordinateMotion, Freedoms, GROUND, Kinematics, LOCKED, Layout, NodeId,
+    NodeMotion, Quantity,
+};
 use crate::registry::{Function, ParameterError, Parameters};
 use crate::signals::{Graph, HeldId, SignalId};
 

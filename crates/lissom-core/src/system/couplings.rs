@@ -1,12 +1,12 @@
 //! Couplings in the equations of the whole system: forces, violations and derivatives.
 
-use super::assembly::Point;
 use super::receiver::Receiver;
-use super::{Kinematics, StepPoint, System};
-use crate::elements::step_stages::{STAGES, above_round_off};
-use crate::joints::Quantity;
+use super::{StepPoint, System};
 use crate::joints::coupling::{Coupled, Coupling, MOST_COUPLED};
+use crate::joints::evaluation_point::Point;
 use crate::joints::step_stages::ROUND_OFF;
+use crate::kinematics::step_stages::{STAGES, above_round_off};
+use crate::kinematics::{Kinematics, Quantity};
 
 /// A coupling at a stage of a step whose violations are integrated, see `joints::step_stages`.
 pub(crate) struct CouplingVisit {

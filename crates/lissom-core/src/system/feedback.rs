@@ -14,15 +14,15 @@ use std::sync::Arc;
 use lissom_solver::Pattern;
 
 use super::System;
-use super::batch::{AnyBatch, Changed, Chart, Mass, Owner, scatter, through};
-use super::layout::Layout;
+use super::batch::{AnyBatch, Changed, Mass, Owner, scatter, through};
 use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
-use super::state::{CoordinateId, Kinematics, NodeId};
 use super::threads::Threads;
 use super::work::{power, work};
-use crate::elements::step_stages::StepStages;
 use crate::elements::{Element, Energy, LinearLimit, LinearRange, Tangents, USUAL_UNKNOWNS};
+use crate::joints::evaluation_point::Chart;
+use crate::kinematics::step_stages::StepStages;
+use crate::kinematics::{CoordinateId, Kinematics, Layout, NodeId};
 use crate::signals::measurement::Measurement;
 use crate::signals::{Argument, Graph, HeldId, SignalId};
 

@@ -5,26 +5,23 @@ mod batch;
 mod builder;
 mod couplings;
 mod feedback;
-mod layout;
 pub(crate) mod places;
 mod reach;
 mod receiver;
 mod sliders;
-pub(crate) mod state;
+mod state;
 mod step_stages;
 mod threads;
 mod work;
 
 use std::sync::Arc;
 
-pub use assembly::{Augmentation, Linearization, Point, Scratch};
-pub use batch::Chart;
+pub use assembly::{Linearization, Scratch};
 pub(crate) use batch::Owner;
 pub use builder::{BuildError, Builder, PlaceOnTip, Placement};
-pub use layout::{Freedoms, LOCKED, Layout};
 pub(crate) use reach::Reach;
 pub use receiver::{Blend, Receiver, Sum};
-pub use state::{CoordinateId, CoordinateMotion, Kinematics, MotionChange, NodeId, NodeMotion, State};
+pub use state::State;
 pub use step_stages::StepPoint;
 pub(crate) use threads::Threads;
 pub use threads::WORTH_WHILE;
@@ -40,15 +37,13 @@ use crate::joints::blocks::{Batches, JointStarts};
 use crate::joints::coupling::Coupling;
 use crate::joints::prescribed::Prescribed;
 use crate::joints::slider::Slider;
+use crate::kinematics::{self, CoordinateId, HeldId, Kinematics, Layout, NodeId};
 use crate::registry::Function;
-use crate::signals::{Graph, HeldId};
+use crate::signals::Graph;
 use batch::AnyBatch;
 pub(crate) use batch::Mass;
 pub(crate) use feedback::Feedback;
 use places::Places;
-
-/// The ground: node 0 of every system, without freedoms.
-pub const GROUND: NodeId = 0;
 
 /// A coordinate driven as a function of time, with its place among the multipliers.
 #[derive(Debug)]
@@ -280,7 +275,7 @@ impl System {
         let mut angular = Vector3::zeros();
         for inertia in &self.inertias {
             let node = &at.nodes[inertia.node()];
-            let (p, l) = state::split(&(inertia.mass() * node.twist));
+            let (p, l) = kinematics::split(&(inertia.mass() * node.twist));
             let p = node.frame.rotation.apply(&p);
             linear += p;
             angular += node.frame.rotation.apply(&l) + node.frame.position.cross(&p);

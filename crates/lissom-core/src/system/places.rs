@@ -2,7 +2,7 @@
 
 use lissom_solver::Pattern;
 
-use super::layout::LOCKED;
+use crate::kinematics::LOCKED;
 
 /// Entries of a local column that follow each other in the pattern.
 #[derive(Clone, Copy, Debug)]

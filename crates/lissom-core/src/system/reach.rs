@@ -12,12 +12,12 @@
 
 use std::sync::Arc;
 
+use super::System;
 use super::batch::{AnyBatch, Changed};
-use super::layout::LOCKED;
-use super::{Kinematics, System};
 use crate::elements::is_same;
 use crate::joints::Equations;
 use crate::joints::derivatives::LOCAL;
+use crate::kinematics::{Kinematics, LOCKED};
 
 /// What differs between models of the same unknowns.
 pub(crate) struct Reach {

@@ -2,13 +2,12 @@
 
 use lissom_motion::Vector6;
 
-use super::assembly::{Augmentation, Point};
-use super::batch::Chart;
-use super::layout::{LOCKED, Layout};
 use super::receiver::Receiver;
-use super::{Kinematics, StepPoint, System};
-use crate::elements::step_stages::STAGES;
+use super::{StepPoint, System};
+use crate::joints::evaluation_point::{Augmentation, Chart, Point};
 use crate::joints::slider::{LOCAL, MOST_EQUATIONS, OWN, Row, Slider};
+use crate::kinematics::step_stages::STAGES;
+use crate::kinematics::{Kinematics, LOCKED, Layout};
 
 impl System {
     /// All sliders along beams.

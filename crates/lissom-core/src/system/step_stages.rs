@@ -3,12 +3,13 @@
 
 use nalgebra::SVector;
 
-use super::layout::LOCKED;
-use super::{Augmentation, Drive, System};
-use crate::elements::step_stages::{STAGES, StepStages};
-use crate::joints::attached::{AttachedJoint, Increments};
+use super::{Drive, System};
+use crate::joints::attached::AttachedJoint;
 use crate::joints::derivatives::LOCAL;
+use crate::joints::evaluation_point::{Augmentation, Increments};
 use crate::joints::{Equations, MOST_EQUATIONS};
+use crate::kinematics::LOCKED;
+use crate::kinematics::step_stages::{STAGES, StepStages};
 
 /// Where the residuals of a step are evaluated.
 #[derive(Clone, Copy, Debug)]

@@ -3,8 +3,8 @@
 use lissom_motion::Vector3;
 
 use super::batch::with_room;
-use super::state::Kinematics;
 use crate::elements::Element;
+use crate::kinematics::Kinematics;
 
 /// Work of an element's forces on its nodes and coordinates between two configurations, times `factors` there: forces in
 /// inertial axes over the way of their nodes, moments over the turn between, forces on coordinates over their change.

@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use lissom_core::joints::attached::Increments;
-use lissom_core::joints::coupling::{Relation, RelationPoint};
+use lissom_core::joints::evaluation_point::{Augmentation, Increments, Point};
+use lissom_core::kinematics::{Kinematics, LOCKED, Layout, MotionChange};
 use lissom_core::registry::{
     Constant, ForceFunction, Parameter, ParameterType, Parameters, TimeFunction, Value,
 };
-use lissom_core::system::{Augmentation, Kinematics, LOCKED, Layout, MotionChange, Point, State, System};
+use lissom_core::relation::{Relation, RelationPoint};
+use lissom_core::system::{State, System};
 use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
 use nalgebra::DMatrix;
 

@@ -1,6 +1,7 @@
 //! Derivatives by departures from going on: `H(t) = H exp(t V) exp ψ̂(t)`, differentiated along the motion itself.
 
-use lissom_core::system::{Chart, Linearization, System};
+use lissom_core::joints::evaluation_point::Chart;
+use lissom_core::system::{Linearization, System};
 use lissom_motion::{Motion, Vector6, tangent};
 
 use crate::configuration::{Configuration, Unknown, difference, unknown};

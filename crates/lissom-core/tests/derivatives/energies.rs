@@ -1,9 +1,9 @@
 //! Every registered spring: its forces at rest are the gradient of its energy, and what it tells of its motion belongs to them.
 
 use lissom_core::elements::{Attached, Attachment, ElementKind, SPRINGS};
-use lissom_core::joints::Quantity;
+use lissom_core::kinematics::{Kinematics, Quantity};
 use lissom_core::registry::{ParameterType, Parameters, Value};
-use lissom_core::system::{ElementId, Kinematics, Placement, State, System};
+use lissom_core::system::{ElementId, Placement, State, System};
 use lissom_motion::Motion;
 use nalgebra::DMatrix;
 

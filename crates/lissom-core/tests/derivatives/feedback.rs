@@ -3,17 +3,17 @@
 use std::sync::Arc;
 
 use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
+use lissom_core::kinematics::{CoordinateId, NodeId, Quantity};
 use lissom_core::registry::{Constant, ParameterType, Value};
 use lissom_core::signals::coordinate::{self, Coordinate};
 use lissom_core::signals::point::{self, Point};
 use lissom_core::signals::rotation::{self, Turn};
 use lissom_core::signals::{Argument, Sampling, Signal, SignalFunction};
-use lissom_core::system::{Builder, CoordinateId, NodeId};
+use lissom_core::system::Builder;
 use lissom_motion::Vector3;
 
 use super::configuration::{Configuration, Random, sample_parameters};
 use super::{check, joint_with, two_bodies, two_coordinates};
-use lissom_core::joints::Quantity;
 use lissom_core::system::Placement;
 
 /// Σ sin(k + argument k), times the cosine of time.

@@ -2,8 +2,10 @@
 
 use lissom_core::joints::blocks::JointStarts;
 use lissom_core::joints::derivatives::LOCAL;
+use lissom_core::joints::evaluation_point::Point;
 use lissom_core::joints::{self, Build};
-use lissom_core::system::{Builder, Freedoms, LOCKED, Placement, Point, State, System};
+use lissom_core::kinematics::{Freedoms, LOCKED};
+use lissom_core::system::{Builder, Placement, State, System};
 use lissom_motion::{Motion, Vector3};
 
 use crate::configuration::{Configuration, Random, sample_parameters};

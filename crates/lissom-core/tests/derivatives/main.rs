@@ -13,12 +13,12 @@ use configuration::{Configuration, Random, difference, sample_parameters};
 use lissom_core::elements::beam::{Beam, SectionLaw};
 use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
 use lissom_core::joints::derivatives::IncrementTangent;
+use lissom_core::joints::evaluation_point::Chart;
 use lissom_core::joints::slider::{CarriedPoint, Orientation};
-use lissom_core::joints::{self, Build, JointKind, Quantity};
+use lissom_core::joints::{self, Build, JointKind};
+use lissom_core::kinematics::{Freedoms, Quantity};
 use lissom_core::registry::{Parameters, Value};
-use lissom_core::system::{
-    Blend, Builder, Chart, Freedoms, Linearization, Placement, Receiver, Scratch, State, Sum, System,
-};
+use lissom_core::system::{Blend, Builder, Linearization, Placement, Receiver, Scratch, State, Sum, System};
 use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
 
 /// Compares all blocks of the linearisation with differences of the residual.

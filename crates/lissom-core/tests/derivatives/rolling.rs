@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use lissom_core::elements::{Attached, SPRINGS};
 use lissom_core::joints;
+use lissom_core::kinematics::Freedoms;
 use lissom_core::registry::{Parameters, TimeFunction, Value};
-use lissom_core::system::{Builder, Freedoms, Placement};
+use lissom_core::system::{Builder, Placement};
 use lissom_motion::{Motion, Vector3};
 
 use crate::check;

@@ -6,7 +6,8 @@ use lissom_core::elements::superelement::{
     SuperelementDescription, add_superelement,
 };
 use lissom_core::elements::{Element, LinearLimit};
-use lissom_core::system::{Builder, Freedoms, State, System};
+use lissom_core::kinematics::Freedoms;
+use lissom_core::system::{Builder, State, System};
 use lissom_motion::{Motion, Vector3};
 use nalgebra::{DMatrix, DVector};
 

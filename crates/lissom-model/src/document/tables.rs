@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use lissom_core::joints::Quantity;
+use lissom_core::kinematics::Quantity;
 use lissom_core::registry::ModelAxis;
 
 use super::analysis_tables::analyses;

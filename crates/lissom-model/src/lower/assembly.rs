@@ -1,8 +1,8 @@
 //! Moves parts that are placed approximately until all joints close, and tells what has moved.
 
 use lissom_core::analysis::assembly::{AssemblyError, Gap, Request, assemble};
-use lissom_core::joints::Quantity;
-use lissom_core::system::{CoordinateId, Kinematics, NodeId, System};
+use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
+use lissom_core::system::System;
 use lissom_motion::Motion;
 
 use super::Names;

@@ -1,8 +1,8 @@
 //! Whether prescribed motions begin where their joints are, and go on without jumps of speed.
 
 use lissom_core::analysis::Settings;
-use lissom_core::joints::Quantity;
 use lissom_core::judge::Warning;
+use lissom_core::kinematics::Quantity;
 use lissom_core::linear::{LinearModel, steady};
 use lissom_core::system::{Drive, State, System};
 

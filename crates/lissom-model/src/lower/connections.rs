@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use lissom_core::elements::{self, Attached, ElementKind, LOADS, SPRINGS};
-use lissom_core::joints::{self, Build, JointKind, Quantity};
+use lissom_core::joints::{self, Build, JointKind};
+use lissom_core::kinematics::{CoordinateId, NodeId, Quantity};
 use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Value};
 use lissom_core::signals::Argument;
 use lissom_core::signals::coordinate::Of;
-use lissom_core::system::{Builder, CoordinateId, NodeId, PlaceOnTip, Placement};
+use lissom_core::system::{Builder, PlaceOnTip, Placement};
 use lissom_motion::Vector3;
 
 use super::order::by_name;

@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use lissom_core::joints::coupling::{MOST_COUPLED, Relation, RelationPoint};
-use lissom_core::joints::{JointKind, Quantity};
+use lissom_core::joints::JointKind;
+use lissom_core::kinematics::{CoordinateId, Quantity};
 use lissom_core::registry::Value;
+use lissom_core::relation::{MOST_COUPLED, Relation, RelationPoint};
 use lissom_core::signals::coordinate::Of;
-use lissom_core::system::{Builder, CoordinateId, State, System};
+use lissom_core::system::{Builder, State, System};
 
 use super::signals::relative_components;
 use super::{Names, parameter_problem};

@@ -1,8 +1,9 @@
 //! Components of outputs and of joints' coordinates that expressions name, as measurements.
 
+use lissom_core::kinematics::{CoordinateId, GROUND, NodeId};
 use lissom_core::signals::coordinate::Coordinate;
 use lissom_core::signals::{MeasurementId, point, rotation};
-use lissom_core::system::{Builder, CoordinateId, GROUND, NodeId};
+use lissom_core::system::Builder;
 use lissom_motion::Vector3;
 
 use super::Names;

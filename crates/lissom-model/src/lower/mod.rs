@@ -25,11 +25,11 @@ use lissom_core::analysis::Settings;
 use lissom_core::analysis::accumulated::Accumulated;
 use lissom_core::elements::beam::line::BeamLine;
 use lissom_core::elements::superelement::Deformation;
-use lissom_core::joints::Quantity;
 use lissom_core::judge::Warning;
+use lissom_core::kinematics::{CoordinateId, NodeId, Quantity};
 use lissom_core::registry::ParameterError;
 use lissom_core::signals::{Argument, MeasurementId, SignalId};
-use lissom_core::system::{Builder, CoordinateId, ElementId, NodeId, State, System};
+use lissom_core::system::{Builder, ElementId, State, System};
 use lissom_motion::Motion;
 use nalgebra::DMatrix;
 
@@ -118,7 +118,7 @@ impl Names {
                 .help("name a body, a point mass, a beam's end or `ground`")
         };
         match &reference.value {
-            NodeReference::Ground => Ok(lissom_core::system::GROUND),
+            NodeReference::Ground => Ok(lissom_core::kinematics::GROUND),
             NodeReference::Body(name) | NodeReference::PointMass(name) => {
                 self.nodes.get(name).copied().ok_or_else(|| unknown(name))
             }

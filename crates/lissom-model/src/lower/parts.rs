@@ -3,7 +3,8 @@
 use lissom_core::elements::beam::SectionLaw;
 use lissom_core::elements::beam::line::{BeamLineDescription, add_beam_line};
 use lissom_core::elements::inertia::Inertia;
-use lissom_core::system::{Builder, Freedoms, Kinematics, LOCKED, NodeId, System};
+use lissom_core::kinematics::{Freedoms, Kinematics, LOCKED, NodeId};
+use lissom_core::system::{Builder, System};
 use lissom_motion::{Matrix3, Matrix6, Motion, Rotation, Vector3, Vector6, screw};
 
 use super::Names;

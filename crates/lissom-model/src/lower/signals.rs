@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use lissom_core::joints::Quantity;
+use lissom_core::kinematics::{CoordinateId, Quantity};
 use lissom_core::signals::coordinate::{Coordinate, Of};
 use lissom_core::signals::event::Event;
 use lissom_core::signals::{Argument, HeldId, Sampling, Signal, SignalId};
-use lissom_core::system::{Builder, CoordinateId};
+use lissom_core::system::Builder;
 
 use super::Names;
 use super::measurements::measure;

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use lissom_core::elements::superelement::{InterfacePlace, SuperelementDescription, add_superelement};
-use lissom_core::system::{Builder, NodeId};
+use lissom_core::kinematics::NodeId;
+use lissom_core::system::Builder;
 use lissom_motion::{Motion, Rotation};
 
 use super::order::by_name;

@@ -13,7 +13,7 @@ mod solids;
 mod superelements;
 mod symbols;
 
-use lissom_core::system::NodeId;
+use lissom_core::kinematics::NodeId;
 use lissom_motion::{Motion, Vector3};
 use serde::{Deserialize, Serialize};
 
@@ -193,7 +193,7 @@ impl Places<'_> {
     fn node(&self, reference: &NodeReference) -> Option<NodeId> {
         let names = &self.lowered.names;
         match reference {
-            NodeReference::Ground => Some(lissom_core::system::GROUND),
+            NodeReference::Ground => Some(lissom_core::kinematics::GROUND),
             NodeReference::Body(name) | NodeReference::PointMass(name) => names.nodes.get(name).copied(),
             NodeReference::Interface { superelement, interface } => {
                 names.nodes.get(&interface_name(superelement, interface)).copied()

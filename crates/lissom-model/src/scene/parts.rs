@@ -1,6 +1,6 @@
 //! Bodies, point masses and beams as they look.
 
-use lissom_core::system::NodeId;
+use lissom_core::kinematics::NodeId;
 use lissom_motion::{Matrix3, Motion};
 use serde::{Deserialize, Serialize};
 

@@ -1,6 +1,6 @@
 //! A stand-in for the simulator's tables of kinds.
 
-use lissom_core::joints::Quantity;
+use lissom_core::kinematics::Quantity;
 use lissom_core::registry::{Parameter, ParameterType};
 use lissom_model::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry, Registry};
 

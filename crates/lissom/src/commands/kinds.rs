@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use clap::Args;
-use lissom_core::joints::Quantity;
+use lissom_core::kinematics::Quantity;
 use lissom_core::registry::{Parameter, ParameterType};
 use lissom_model::lower::registry::registry;
 use lissom_model::registry::{ActsOn, ChoiceEntry, FrameRule, KindEntry, Registry};

@@ -4,8 +4,8 @@ use std::fmt::Write;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use lissom::core::kinematics::Kinematics;
 use lissom::core::linear::Completeness;
-use lissom::core::system::Kinematics;
 use lissom::modes::{About, ModeReport, ModeRequest, ModesError, modes, of_request};
 use lissom::motion::{Motion, MotionRecorder};
 use lissom::picture::Picture;

@@ -1,6 +1,6 @@
 //! What stands before the frames of a motion file.
 
-use lissom_core::system::{Layout, NodeMotion};
+use lissom_core::kinematics::{Layout, NodeMotion};
 use lissom_model::lower::Lowered;
 use serde::{Deserialize, Serialize};
 

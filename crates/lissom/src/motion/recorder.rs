@@ -10,7 +10,8 @@ use std::time::{Duration, Instant};
 
 use lissom_core::analysis::Simulation;
 use lissom_core::elements::beam::line::BeamProbe;
-use lissom_core::system::{Kinematics, NodeMotion, State};
+use lissom_core::kinematics::{Kinematics, NodeMotion};
+use lissom_core::system::State;
 use lissom_model::lower::Lowered;
 
 use super::header::{Header, POINTS};

@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use lissom_core::system::Kinematics;
+use lissom_core::kinematics::Kinematics;
 use lissom_model::Document;
 use lissom_model::lower::Lowered;
 use lissom_model::scene::{PathValues, Scene};

@@ -15,8 +15,8 @@ use lissom_solver::{LinearSolver, Pattern, Structure};
 use super::columns::Columns;
 use super::groups::Groups;
 use super::{Gap, WORTH_TELLING, gap};
-use crate::joints::Quantity;
-use crate::system::{CoordinateId, Kinematics, Linearization, System};
+use crate::kinematics::{CoordinateId, Kinematics, Quantity};
+use crate::system::{Linearization, System};
 
 const MOST_ITERATIONS: usize = 200;
 /// Coordinates of joints follow the parts: their weight only makes them unique.

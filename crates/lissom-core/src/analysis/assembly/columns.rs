@@ -4,8 +4,8 @@
 use lissom_motion::Vector3;
 
 use super::groups::Groups;
-use crate::joints::Quantity;
-use crate::system::{CoordinateId, LOCKED, NodeId, System};
+use crate::kinematics::{CoordinateId, LOCKED, NodeId, Quantity};
+use crate::system::System;
 
 /// What a row of the system's equations of motion belongs to.
 #[derive(Clone, Copy)]

@@ -2,7 +2,8 @@
 
 use lissom_motion::{Motion, Vector3};
 
-use crate::system::{GROUND, Kinematics, LOCKED, NodeId, System};
+use crate::kinematics::{GROUND, Kinematics, LOCKED, NodeId};
+use crate::system::System;
 
 /// A rigid body of the assembly.
 pub(super) struct RigidGroup {

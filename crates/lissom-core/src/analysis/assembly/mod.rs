@@ -19,8 +19,9 @@ use self::closing::{Closing, Pose};
 use self::groups::Groups;
 use self::tree::Tree;
 use crate::joints::attached::AttachedJoint;
-use crate::joints::{Own, Quantity, Relative};
-use crate::system::{CoordinateId, Kinematics, NodeId, System};
+use crate::joints::{Own, Relative};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
+use crate::system::System;
 
 /// Held angles are changed by no more than this between two closings [rad], so that a loop stays in its assembly mode.
 const TURN: f64 = 0.1;

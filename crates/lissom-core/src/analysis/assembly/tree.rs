@@ -7,8 +7,9 @@ use nalgebra::{DMatrix, DVector};
 use super::closing::Pose;
 use super::groups::Groups;
 use crate::joints::attached::AttachedJoint;
-use crate::joints::{Own, Quantity, Relative};
-use crate::system::{CoordinateId, System};
+use crate::joints::{Own, Relative};
+use crate::kinematics::{CoordinateId, Quantity};
+use crate::system::System;
 
 /// Iterations that put a single joint into place; a joint that needs more is closed with all others.
 const MOST_ITERATIONS: usize = 30;

@@ -19,11 +19,12 @@ use lissom_motion::Block;
 use super::{Lanes, stages::largest_found};
 use crate::analysis::dynamics::Simulation;
 use crate::analysis::equations::joint_changes;
-use crate::elements::step_stages::{STAGES, StepStages};
 use crate::joints::blocks::JointStarts;
+use crate::joints::evaluation_point::Augmentation;
+use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::scaling::{StageIncrements, StageMotion, UnitStart};
 use crate::schemes::Tableau;
-use crate::system::{Augmentation, State, StepPoint, System};
+use crate::system::{State, StepPoint, System};
 
 /// Displacement of places over which residuals are differentiated, by the length of the model [-, rad].
 const PLACES: f64 = 1e-3;

@@ -26,7 +26,7 @@ use lissom_motion::{Block, WIDTH};
 
 use super::StepError;
 use super::dynamics::Simulation;
-use crate::joints::Quantity;
+use crate::kinematics::Quantity;
 use crate::schemes::Tableau;
 use crate::system::{Reach, State};
 use integrated::Neighbour;

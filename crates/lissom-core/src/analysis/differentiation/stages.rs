@@ -11,8 +11,10 @@ use super::{Lanes, Number, relative_weights};
 use crate::analysis::dynamics::Simulation;
 use crate::analysis::equations::StepEquations;
 use crate::analysis::phase::Unwatched;
+use crate::joints::evaluation_point::Chart;
+use crate::kinematics::{LOCKED, NodeId};
 use crate::schemes::Combination;
-use crate::system::{Chart, LOCKED, Linearization, NodeId};
+use crate::system::Linearization;
 
 /// Variations at a stage, by row.
 #[derive(Clone, Debug, Default)]

@@ -3,7 +3,8 @@
 
 use lissom_motion::{Block, Motion, Vector6, WIDTH};
 
-use crate::system::{CoordinateMotion, Kinematics, LOCKED, Layout, NodeMotion, State};
+use crate::kinematics::{CoordinateMotion, Kinematics, LOCKED, Layout, NodeMotion};
+use crate::system::State;
 
 /// Nothing in any lane.
 pub(super) const NOTHING: Block = [0.0; WIDTH];

@@ -13,15 +13,13 @@ use super::super::workspace::sizes;
 use super::systems::PathSystems;
 use super::{PathSettings, Solution, Tangent};
 use crate::equilibration::Equilibration;
-use crate::joints::Quantity;
-use crate::joints::attached::Increments;
+use crate::joints::evaluation_point::{Chart, Increments, Point};
+use crate::kinematics::{Kinematics, LOCKED, MotionChange, Quantity};
 use crate::newton::{Correction, Equations, Failure};
 use crate::numbers::{Number, Numbers};
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
-use crate::system::{
-    Chart, Kinematics, LOCKED, Linearization, MotionChange, Point, Receiver, Scratch, State, Sum, System,
-};
+use crate::system::{Linearization, Receiver, Scratch, State, Sum, System};
 
 /// Corrections larger than this are cut short [-, rad].
 const LARGEST_CORRECTION: f64 = 0.5;

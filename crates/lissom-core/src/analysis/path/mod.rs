@@ -16,10 +16,11 @@ use std::sync::Arc;
 use lissom_solver::SolverKind;
 
 use super::StepError;
+use crate::kinematics::Kinematics;
 use crate::newton::{self, Limits, Memory};
 use crate::scaling::ScalingChoice;
 use crate::stepping::ArcControl;
-use crate::system::{Kinematics, State, System};
+use crate::system::{State, System};
 pub use branch::BranchChoice;
 use branch::Departure;
 pub use critical::{CriticalKind, CriticalPoint};

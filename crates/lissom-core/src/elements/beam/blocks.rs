@@ -11,8 +11,8 @@ use super::Beam;
 use super::forces::{Constants, forces};
 use super::stiffness::{stiffness, times_from_right, transpose_times_rows};
 use crate::elements::blocks::{Blocks, block_of, nodes_of};
-use crate::lanes::{Frames, Part, Screws, gather_frames, gather_twists, parts};
-use crate::system::{Kinematics, NodeId};
+use crate::kinematics::lanes::{Frames, Part, Screws, gather_frames, gather_twists, parts};
+use crate::kinematics::{Kinematics, NodeId};
 
 /// Beams eight to a block.
 pub(super) struct BeamBlocks<const N: usize> {

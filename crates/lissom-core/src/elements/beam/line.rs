@@ -6,7 +6,8 @@ use lissom_motion::{Matrix6, Motion, Vector6};
 
 use super::{Beam, SectionLaw};
 use crate::elements::quadrature::gauss_lobatto;
-use crate::system::{Builder, Freedoms, Kinematics, NodeId};
+use crate::kinematics::{Freedoms, Kinematics, NodeId};
+use crate::system::Builder;
 
 /// Motion and section forces anywhere in a beam element, for outputs.
 pub trait BeamProbe: Send + Sync {

@@ -38,10 +38,9 @@ use forces::{Constants, forces};
 use super::blocks::Blocks;
 use super::quadrature::gauss_legendre;
 use super::shape::lagrange;
-use super::step_stages::{STAGES, StepStages};
 use super::{Element, Energy, Tangents, add_block};
-use crate::system::state::split;
-use crate::system::{Kinematics, NodeId};
+use crate::kinematics::step_stages::{STAGES, StepStages};
+use crate::kinematics::{Kinematics, NodeId, split};
 
 /// Elastic law of a beam's cross section: forces (axial, shear 2, shear 3) and moments (torsion,
 /// bending 2, bending 3) for the six strains.

@@ -7,8 +7,8 @@ use lissom_motion::{
 };
 
 use super::{Beam, Relative, Station, combine};
-use crate::elements::step_stages::{STAGES, StepStages, above_round_off, weigh};
-use crate::system::Kinematics;
+use crate::kinematics::Kinematics;
+use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off, weigh};
 
 /// Changes of relative coordinates below this [rad, element lengths] lose digits in a difference; for these the
 /// formulas for small changes are good to round-off.

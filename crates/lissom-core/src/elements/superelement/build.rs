@@ -6,9 +6,9 @@ use nalgebra::DMatrix;
 use super::deformation::Deformation;
 use super::matrices::{Damping, rigid_motion};
 use super::{LARGEST_SPIN, LARGEST_SPIN_KNOWN, ReducedMatrices, Superelement};
-use crate::joints::Quantity;
+use crate::kinematics::{CoordinateId, Freedoms, NodeId, Quantity};
 use crate::registry::ParameterError;
-use crate::system::{Builder, CoordinateId, Freedoms, NodeId};
+use crate::system::Builder;
 
 /// Most unknowns of a superelement.
 const MOST: usize = 255;

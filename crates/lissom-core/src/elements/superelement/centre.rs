@@ -19,7 +19,7 @@ use nalgebra::{Matrix3x6, Matrix3xX};
 
 use super::Superelement;
 use crate::elements::{Tangents, add_block};
-use crate::system::Kinematics;
+use crate::kinematics::Kinematics;
 
 /// One interface as the centre sees it.
 struct Seen {

@@ -2,7 +2,7 @@
 
 use lissom_motion::{Motion, Vector3};
 
-use crate::system::{CoordinateId, Kinematics, NodeId};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId};
 
 /// Where the unknowns of a superelement's matrices are found.
 #[derive(Clone, Debug)]
@@ -60,7 +60,7 @@ impl Deformation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::system::{CoordinateMotion, NodeMotion};
+    use crate::kinematics::{CoordinateMotion, NodeMotion};
 
     /// Three interfaces, the second of which carries the frame, and two modes whose units differ: u has as many rows as `size` says.
     #[test]

@@ -19,7 +19,7 @@ use nalgebra::{DMatrix, Matrix3xX, SymmetricEigen};
 
 use super::relative::Relative;
 use super::{Superelement, product, three};
-use crate::system::Kinematics;
+use crate::kinematics::Kinematics;
 
 /// Error of forces, as a share of the largest inertial or elastic force of the element, from which on a warning is given.
 pub(super) const LARGEST_ERROR: f64 = 0.05;
@@ -115,7 +115,7 @@ mod tests {
     use super::*;
     use crate::elements::inertia::Gravity;
     use crate::elements::superelement::{Damping, ReducedMatrices};
-    use crate::system::NodeMotion;
+    use crate::kinematics::NodeMotion;
     use lissom_motion::Motion;
 
     /// A rod with linear shapes: a quarter of its mass is left out, and a sixth of it times the acceleration of its end is missed.

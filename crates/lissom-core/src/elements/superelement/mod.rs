@@ -58,10 +58,9 @@ use self::matrices::{RigidMotion, rigid_motion};
 use self::room::{Room, product};
 use self::second_order::{Deformed, SecondOrder};
 use super::inertia::Gravity;
-use super::step_stages::{STAGES, StepStages};
 use super::{Element, Energy, LinearLimit, LinearRange, Tangents};
-use crate::system::state::split;
-use crate::system::{CoordinateId, Kinematics, NodeId};
+use crate::kinematics::step_stages::{STAGES, StepStages};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, split};
 
 /// Elastic rotation of an interface against the floating frame from which on linear matrices are in doubt [rad].
 pub const LARGEST_ROTATION: f64 = 0.3;

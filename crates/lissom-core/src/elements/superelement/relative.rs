@@ -14,7 +14,7 @@ use lissom_motion::{
 
 use super::Superelement;
 use crate::elements::add_block;
-use crate::system::Kinematics;
+use crate::kinematics::Kinematics;
 
 /// One interface at one instant.
 pub(super) struct Relative {

@@ -4,8 +4,7 @@ use lissom_motion::{Matrix3, Vector3, rotation_inverse_tangent};
 use nalgebra::DMatrix;
 
 use super::{Superelement, three};
-use crate::system::Kinematics;
-use crate::system::state::split;
+use crate::kinematics::{Kinematics, split};
 
 /// Motion and forces of one superelement at one instant. Vectors count as the unknowns do: six per interface, then the modal
 /// coordinates.

@@ -27,7 +27,7 @@ use super::matrices::rigid_column;
 use super::relative::Relative;
 use super::{Superelement, add};
 use crate::elements::{Energy, Tangents};
-use crate::system::Kinematics;
+use crate::kinematics::Kinematics;
 
 /// Part of the geometric mean of two stiffnesses below which their coupling is round-off.
 const UNCOUPLED: f64 = 1e-10;

@@ -1,4 +1,4 @@
-//! A superelement's forces at the stages of a step, with u integrated from its rates: see `elements::step_stages` for the
+//! A superelement's forces at the stages of a step, with u integrated from its rates: see `kinematics::step_stages` for the
 //! formulas. With σ_j = u̇_j the remainder r acts by s_j + W σ_j (r·s_j) / Q instead of the stress s_j. Inertia and weight are
 //! those of the stages.
 
@@ -6,7 +6,7 @@ use lissom_motion::{Vector3, rotation_inverse_tangent, rotation_part};
 
 use super::room::{Room, product};
 use super::{Centre, Superelement, three};
-use crate::elements::step_stages::{STAGES, StepStages, above_round_off};
+use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 
 /// What rates miss of u is noise below this part of the way that the element comes.
 const ROUND_OFF: f64 = 4096.0 * f64::EPSILON;
@@ -126,7 +126,7 @@ mod tests {
     use super::*;
     use crate::elements::inertia::Gravity;
     use crate::elements::superelement::{Damping, ReducedMatrices};
-    use crate::system::{CoordinateMotion, Kinematics, MotionChange, NodeMotion};
+    use crate::kinematics::{CoordinateMotion, Kinematics, MotionChange, NodeMotion};
 
     /// Three interfaces that go straight on at the first stage and turn about the floating frame, the second of them, at the other:
     /// the longer way counts, with turns as arcs of the size of the part, 5 m.

@@ -5,10 +5,10 @@ use nalgebra::DMatrix;
 use super::{Builder, Coordinate};
 use crate::joints::coupling::{Coupling, MOST_COUPLED, Relation, RelationPoint};
 use crate::joints::prescribed::Prescribed;
-use crate::joints::{Build, JointKind, Quantity};
+use crate::joints::{Build, JointKind};
+use crate::kinematics::{CoordinateId, Layout, Quantity};
 use crate::registry::{ParameterError, Parameters};
-use crate::system::layout::Layout;
-use crate::system::{CoordinateId, CoordinateMass, Drive};
+use crate::system::{CoordinateMass, Drive};
 
 impl Builder {
     /// Prescribes a coordinate, with a drive of a kind that acts on one.

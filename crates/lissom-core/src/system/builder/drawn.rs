@@ -4,8 +4,8 @@ use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::{Builder, Placement};
 use crate::joints::{AnyJoint, Frames};
+use crate::kinematics::CoordinateId;
 use crate::registry::{ParameterError, Parameters};
-use crate::system::CoordinateId;
 
 /// Where the joint frame of the tip lies, on the tip as it is drawn, in inertial axes.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -4,7 +4,7 @@ use lissom_solver::Group;
 
 use super::Builder;
 use super::rolling::Impulse;
-use crate::system::layout::Layout;
+use crate::kinematics::Layout;
 use crate::system::places::free_rows;
 
 impl Builder {

@@ -3,12 +3,10 @@
 use lissom_motion::{Motion, Vector3};
 
 use super::{Builder, Placement, joint_rotation};
-use crate::joints::attached::CarriedFrame;
 use crate::joints::prescribed_motion::COMPONENTS;
-use crate::joints::{Frames, Quantity, prescribed_displacement, prescribed_rotation, prismatic, revolute};
+use crate::joints::{Frames, prescribed_displacement, prescribed_rotation, prismatic, revolute};
+use crate::kinematics::{CarriedFrame, CoordinateId, Freedoms, Quantity};
 use crate::registry::{ParameterError, Parameters, Value};
-use crate::system::layout::Freedoms;
-use crate::system::state::CoordinateId;
 
 impl Builder {
     /// Prescribes the motion of the tip relative to the base; gives the coordinates that are driven. The last joint of the

@@ -1,12 +1,10 @@
 //! Joints that roll: impulses, and the element with the constraint between velocities.
 
 use super::{Builder, Coordinate};
+use crate::contact::wheel_on_plane::Contact;
 use crate::elements::rolling::Rolling;
-use crate::joints::Quantity;
-use crate::joints::attached::CarriedFrame;
-use crate::joints::contact::Contact;
+use crate::kinematics::{CarriedFrame, CoordinateId, NodeId, Quantity};
 use crate::signals::HeldId;
-use crate::system::state::{CoordinateId, NodeId};
 
 /// A coordinate whose rate is the force of a constraint between velocities.
 pub(super) struct Impulse {

@@ -1,12 +1,11 @@
 //! Adds held values, first-order states, measurements, signals and events, and loads whose size is a signal.
 
 use super::{Builder, Coordinate};
-use crate::joints::Quantity;
+use crate::kinematics::{CoordinateId, Quantity};
 use crate::registry::ParameterError;
 use crate::signals::event::Event;
 use crate::signals::measurement::Measurement;
 use crate::signals::{Argument, HeldId, MOST_ARGUMENTS, MeasurementId, Signal, SignalId};
-use crate::system::CoordinateId;
 use crate::system::feedback::Target;
 
 impl Builder {

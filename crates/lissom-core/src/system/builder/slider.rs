@@ -4,16 +4,13 @@ use lissom_motion::Vector3;
 use lissom_solver::Pattern;
 
 use super::{Builder, Coordinate};
-use crate::joints::Quantity;
 use crate::joints::alignment::{Across, Alignment};
 use crate::joints::centerline::{Centerline, Support};
 use crate::joints::slider::{CarriedPoint, LOCAL, Orientation, Slider};
+use crate::kinematics::{CoordinateId, Freedoms, Layout, NodeId, Quantity};
 use crate::registry::ParameterError;
-use crate::system::Freedoms;
-use crate::system::layout::Layout;
 use crate::system::places::position_of;
 use crate::system::sliders::rows_of_slider;
-use crate::system::{CoordinateId, NodeId};
 
 /// A point may be that far from the line at the start, relative to the length of the line: digits of a text, and what the
 /// smooth line through the nodes leaves of a curved one.

@@ -49,7 +49,7 @@ pub(crate) enum RailProfile {
 
 impl RailProfile {
     /// The point (outwards, upwards) [m].
-    pub(super) fn point<T: Number>(&self, u: T) -> [T; 2] {
+    pub(crate) fn point<T: Number>(&self, u: T) -> [T; 2] {
         match self {
             Self::Circle { radius, cant } => {
                 let (sine, cosine) = u.scaled(radius.recip()).plus(-cant).sine_cosine();

@@ -7,22 +7,18 @@
 //! g gap along the common normal N, p point of contact from the tip's origin, both in the tip's axes: see [`contact`]. The
 //! multiplier is the normal force that pulls. Forces of creep depend on it, see `elements::creep_force`.
 
-pub mod contact;
-pub(crate) mod profile;
-
 use lissom_motion::{Motion, Rotation, Vector3, Vector6};
 use nalgebra::SVector;
 
-use self::contact::{Pose, RailContact};
-use self::profile::{RailProfile, WheelProfile};
 use super::attached::AttachedJoint;
 use super::blocks::Batches;
-use super::contact::Contact;
-use super::{
-    AnyJoint, Build, Coordinate, Curvature, Equations, Frames, Geometry, Gradient, JointKind,
-    MOST_COORDINATES, Own, Quantity, Relative,
-};
-use crate::elements::creep_force::CreepLaw;
+use super::kind::{Build, Frames, Geometry, JointKind};
+use super::{AnyJoint, Coordinate, Curvature, Equations, Gradient, MOST_COORDINATES, Own, Relative};
+use crate::contact::CreepLaw;
+use crate::contact::profile::{RailProfile, WheelProfile};
+use crate::contact::wheel_on_plane::Contact;
+use crate::contact::wheel_on_rail::{Pose, RailContact};
+use crate::kinematics::Quantity;
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
 
 /// Gaps below this part of the wheel's radius are round-off of the places given.

@@ -6,7 +6,7 @@
 use lissom_motion::{Block, Lanes, Pose, Real, Screw, WIDTH};
 use pulp::Simd;
 
-use crate::system::{Kinematics, NodeId};
+use crate::kinematics::{Kinematics, NodeId};
 
 /// What evaluates so many elements soonest: vectors, or for one or two, which would leave most lanes empty, none.
 pub(crate) fn processor_for(count: usize) -> pulp::Arch {

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
-use super::state::{CoordinateId, NodeId};
-use crate::joints::Quantity;
+use super::motion::{CoordinateId, NodeId};
+use crate::kinematics::Quantity;
 
 /// Marks a freedom that is locked: it has no row.
 pub const LOCKED: u32 = u32::MAX;

@@ -10,7 +10,7 @@
 
 use lissom_motion::{Matrix3, Matrix6, Real, Vector3, Vector6, screw, skew};
 
-use crate::system::state::split;
+use crate::kinematics::split;
 
 /// Added to S², so that S never vanishes.
 const NEVER_ZERO: f64 = 1e-14;
@@ -21,7 +21,7 @@ pub const DIRECTIONS: usize = 2;
 /// Sine S of the angle between the wheel's axis and the normal, from its cosine.
 #[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
 #[inline(always)]
-pub(super) fn upright<R: Real>(cosine: R) -> R {
+pub(crate) fn upright<R: Real>(cosine: R) -> R {
     cosine.like(1.0 + NEVER_ZERO).minus_product(cosine, cosine).square_root()
 }
 

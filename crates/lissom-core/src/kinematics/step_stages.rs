@@ -14,7 +14,7 @@ use std::ops::{Add, Mul};
 
 use lissom_motion::Vector6;
 
-use crate::system::{Kinematics, MotionChange};
+use crate::kinematics::{Kinematics, MotionChange};
 
 /// Stages of a step.
 pub const STAGES: usize = 2;

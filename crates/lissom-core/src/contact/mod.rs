@@ -1,0 +1,9 @@
+//! Geometry and laws of contact between wheels, planes and rails. Knows no element, joint or system.
+
+pub mod creep_law;
+pub mod profile;
+pub mod wheel_on_plane;
+pub mod wheel_on_rail;
+
+pub use creep_law::CreepLaw;
+pub use wheel_on_plane::Contact;

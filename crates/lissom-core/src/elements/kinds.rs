@@ -1,0 +1,28 @@
+//! The tables of kinds of springs and loads.
+
+use super::kind::ElementKind;
+use super::{
+    bushing, coordinate_dynamics, coordinate_spring, force, friction, gyrostat, joint_load, latch, moment,
+    point_spring, rolling_contact, rope, stop,
+};
+
+/// Springs and dampers, one line each.
+pub static SPRINGS: &[ElementKind] = &[
+    coordinate_spring::AXIAL,
+    point_spring::KIND,
+    rolling_contact::KIND,
+    rope::KIND,
+    coordinate_spring::TORSIONAL,
+    friction::AXIAL,
+    friction::TORSIONAL,
+    bushing::KIND,
+    coordinate_dynamics::KIND,
+    stop::AXIAL,
+    stop::TORSIONAL,
+    latch::AXIAL,
+    latch::TORSIONAL,
+];
+
+/// Loads, one line each.
+pub static LOADS: &[ElementKind] =
+    &[force::KIND, moment::KIND, joint_load::TORQUE, joint_load::FORCE, gyrostat::KIND];

@@ -1,0 +1,74 @@
+//! The point at which constraints, residual and tangent are evaluated, and the unknowns of their derivatives.
+
+use super::blocks::JointStarts;
+use super::derivatives::IncrementTangent;
+use crate::kinematics::{Kinematics, MotionChange, NodeMotion, Quantity};
+
+/// What has changed since the start of the step.
+#[derive(Clone, Copy, Debug)]
+pub struct Increments<'a> {
+    /// The start of the step.
+    pub start: &'a Kinematics,
+    /// Change of every node's motion.
+    pub nodes: &'a [MotionChange],
+    /// Change of every coordinate.
+    pub coordinates: &'a [f64],
+    /// What joints see at the start, if somebody has it at hand.
+    pub joints: Option<&'a JointStarts>,
+}
+
+/// Where residual and tangent are evaluated.
+#[derive(Clone, Copy, Debug)]
+pub struct Point<'a> {
+    /// Places, twists and accelerations.
+    pub at: &'a Kinematics,
+    /// Where the stresses of the geometric stiffness are taken from: `at` itself, or, while iterations are
+    /// far from equilibrium, the start of the step. Stresses of a far iterate can be larger than any that
+    /// the motion ever sees, for a small turn stretches a stiff element [cf. Magisano, Leonetti and Garcea
+    /// 2017].
+    pub stressed: &'a Kinematics,
+    /// What has changed since the start of the step.
+    pub increments: Increments<'a>,
+    /// Multipliers [N, N m].
+    pub multipliers: &'a [f64],
+    /// Violations at the start of the step.
+    pub violations: &'a [f64],
+    /// The augmented Lagrangian term.
+    pub augmentation: Augmentation,
+}
+
+/// How violations are turned into forces by the augmented Lagrangian term.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Augmentation {
+    /// Force per violation of a length [N/m].
+    pub weight: f64,
+    /// The length that stands for a radian: an angle's violation weighs its square [m].
+    pub radian: f64,
+}
+
+impl Augmentation {
+    /// No forces.
+    pub fn none() -> Self {
+        Self { weight: 0.0, radian: 1.0 }
+    }
+
+    /// Weight of an equation's violation relative to that of a length: 1 or [m²].
+    pub fn relative(&self, quantity: Quantity) -> f64 {
+        match quantity {
+            Quantity::Length | Quantity::State => 1.0,
+            Quantity::Angle => self.radian * self.radian,
+        }
+    }
+}
+
+/// Which unknowns derivatives are taken with respect to.
+#[derive(Clone, Copy, Debug)]
+pub enum Chart<'a> {
+    /// Body variations at the point of linearisation.
+    Body,
+    /// Increments ψ of each node from the start of the step, H = H_start exp ψ: δh = T(ψ) δψ, T given by node.
+    Increments(&'a [IncrementTangent]),
+    /// Departures ψ̂ from going on with each node's twist V, at ψ̂ = 0: δV = δψ̂' + ad_V δψ̂ and
+    /// δV̇ = δψ̂'' + ad_V δψ̂'.
+    Departures(&'a [NodeMotion]),
+}
