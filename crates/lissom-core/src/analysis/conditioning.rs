@@ -4,9 +4,9 @@
 //! estimated. Knows no scheme but through its tangent.
 
 use lissom_solver::{LinearSolver, Pattern, Scalar, Structure, condition_estimate, condition_number, kind};
-use num_complex::Complex64;
 
 use super::dynamics::Simulation;
+use super::tangent_values::TangentValues;
 use crate::equilibration::Equilibration;
 use crate::scaling::{Scaled, ScalingChoice};
 use crate::schemes::Coupling;
@@ -43,15 +43,6 @@ pub struct Condition {
     pub method: ConditionMethod,
 }
 
-/// Values of a tangent on its pattern.
-#[derive(Clone, Debug, PartialEq)]
-pub enum TangentValues {
-    /// Of a scheme of one stage.
-    Real(Vec<f64>),
-    /// Of the complex form of a scheme of two stages.
-    Complex(Vec<Complex64>),
-}
-
 impl TangentValues {
     /// Brings rows and columns to one size, see [`Equilibration`].
     fn equilibrate(&mut self, pattern: &Pattern, coordinate_count: usize) {
@@ -59,14 +50,6 @@ impl TangentValues {
         match self {
             Self::Real(values) => equilibration.apply(pattern, values),
             Self::Complex(values) => equilibration.apply(pattern, values),
-        }
-    }
-
-    /// Room for the tangent of a scheme.
-    pub(crate) fn zeros(coupling: &Coupling, entries: usize) -> Self {
-        match coupling {
-            Coupling::Single(_) => Self::Real(vec![0.0; entries]),
-            Coupling::Pair { .. } => Self::Complex(vec![Complex64::default(); entries]),
         }
     }
 
@@ -168,6 +151,8 @@ impl Simulation {
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
+
+    use num_complex::Complex64;
 
     use super::*;
 

@@ -6,51 +6,29 @@ use lissom_solver::{FactorError, FactorReport, SolverKind};
 
 use super::accumulated::Accumulation;
 use super::compliance::Compliance;
-use super::conditioning::TangentValues;
 use super::equations::StepEquations;
 use super::equilibrium;
 use super::held_values::settle;
 use super::initial::{Initial, InitialError};
 use super::phase::{Stopwatch, Unwatched};
 use super::projection::Projection;
+use super::settings::Settings;
 use super::step_error::{StepError, describe};
+use super::tangent_values::TangentValues;
 use super::totals::{StepReport, Totals};
 use super::workspace::Workspace;
 use crate::judge::rates::ConstraintRates;
 use crate::judge::singular::SingularPositions;
 use crate::judge::{self, Judge, Ledger, Warning};
 use crate::kinematics::{Kinematics, MotionChange};
-use crate::newton::{self, Equations, Failure, Limits, Memory, Outcome};
-use crate::scaling::{Representative, Scaled, ScalingChoice};
-use crate::schemes::{Coupling, Scheme};
+use crate::newton::{self, Equations, Failure, Memory, Outcome};
+use crate::scaling::{Representative, Scaled};
+use crate::schemes::Coupling;
 use crate::stepping::kinks::{self, Kink};
 use crate::stepping::{
-    Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, StepControl, TimeFunctions, Watch,
+    Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, TimeFunctions, Watch,
 };
 use crate::system::{Linearization, State, System, Threads};
-
-/// What a simulation is told besides system and state.
-#[derive(Clone)]
-pub struct Settings {
-    /// Time scheme.
-    pub scheme: Scheme,
-    /// Step size [s], with step-size control that of the first step; in statics, the step of the load parameter.
-    pub step_size: f64,
-    /// Step-size control; none for steps of one size.
-    pub control: Option<StepControl>,
-    /// Scaling and augmented term.
-    pub scaling: ScalingChoice,
-    /// When Newton's iterations stop.
-    pub limits: Limits,
-    /// Linear solver.
-    pub solver: &'static SolverKind,
-    /// Threads that evaluate elements and joints of a large system. Results do not depend on it.
-    pub threads: usize,
-    /// Whether a motion starts from the static equilibrium under the loads of the first instant.
-    pub from_equilibrium: bool,
-    /// Whether a motion with much more energy than anything put in fails.
-    pub energy_check: bool,
-}
 
 /// Where round-off keeps such a scheme from that, a last correction below this is a solution all the same: what it does
 /// to the energy is seen by the ledger.

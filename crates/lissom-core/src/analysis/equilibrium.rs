@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use lissom_solver::SolverKind;
 
-use super::dynamics::{Settings, Simulation};
+use super::dynamics::Simulation;
 use super::initial::InitialError;
 use super::relaxation::{may_help, relax};
+use super::settings::Settings;
 use crate::judge::Warning;
 use crate::linear::LinearModel;
 use crate::schemes::statics;

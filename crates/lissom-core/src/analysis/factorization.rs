@@ -7,8 +7,8 @@ use lissom_solver::{
 use num_complex::Complex64;
 
 use super::compliance::Compliance;
-use super::conditioning::TangentValues;
-use super::snapshot_parts::TangentNumbers;
+use super::tangent_numbers::TangentNumbers;
+use super::tangent_values::TangentValues;
 use crate::equilibration::Equilibration;
 use crate::schemes::Coupling;
 

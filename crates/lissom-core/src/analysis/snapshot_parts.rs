@@ -6,17 +6,9 @@ use serde::{Deserialize, Serialize};
 use super::anderson::Anderson;
 use super::compliance::Compliance;
 use super::predictor::Predictor;
+use super::tangent_numbers::TangentNumbers;
 use super::workspace::{Effort, Workspace};
 use crate::system::System;
-
-/// Values of a tangent as plain numbers.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub(crate) enum TangentNumbers {
-    /// Of a scheme of one stage.
-    Real(Vec<f64>),
-    /// Of a pair, real and imaginary part.
-    Complex(Vec<[f64; 2]>),
-}
 
 /// All that outlives a step besides the state.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -2,7 +2,7 @@
 
 use lissom_solver::FactorError;
 
-use super::dynamics::Settings;
+use super::settings::Settings;
 use crate::kinematics::Layout;
 use crate::newton::Failure;
 

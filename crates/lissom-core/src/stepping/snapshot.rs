@@ -6,11 +6,10 @@
 use std::sync::Arc;
 
 use lissom_motion::{Motion, Rotation, Vector3, Vector6, Versor};
-use num_complex::Complex64;
 use serde::{Deserialize, Serialize};
 
 use super::{Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, Watched};
-use crate::analysis::snapshot_parts::{Learned, TangentNumbers};
+use crate::analysis::snapshot_parts::Learned;
 use crate::analysis::{Settings, Simulation, Totals};
 use crate::judge::singular::Known;
 use crate::judge::{Ledger, Warning};
@@ -157,13 +156,6 @@ impl From<&StateNumbers> for State {
             position_remainders: numbers.position_remainders.iter().map(|&place| place.into()).collect(),
             accumulated: numbers.accumulated.clone(),
         }
-    }
-}
-
-impl TangentNumbers {
-    /// From complex values.
-    pub(crate) fn of_complex(values: &[Complex64]) -> Self {
-        Self::Complex(values.iter().map(|value| [value.re, value.im]).collect())
     }
 }
 
