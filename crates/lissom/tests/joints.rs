@@ -1,5 +1,7 @@
 //! Kinds of joints against closed forms, and all of them with every scheme, with chosen steps and restarted.
 
+#[path = "joints/rates.rs"]
+mod rates;
 #[path = "support/runs.rs"]
 mod runs;
 

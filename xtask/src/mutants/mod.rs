@@ -1,5 +1,5 @@
-//! `cargo xtask mutants`: breaks the code on purpose, one place at a time, and tells what no test notices. A seed chooses a
-//! sample of the places, whose first part is a sample too; all of them are built at once, and one is chosen for each run.
+//! `cargo xtask mutants`: mutation tests. Each seed draws a sample of the mutants, whose first part is a sample too. All samples are
+//! built at once, and an environment variable selects one mutant for each run.
 
 mod build;
 mod copy;
@@ -20,28 +20,31 @@ use trial::{Outcome, Trials};
 use crate::random::draw::Draw;
 use crate::verify::root;
 
-/// What is broken.
+/// Largest share of survivors with which the command succeeds.
+const MAX_SURVIVORS: f64 = 0.03;
+
+/// Options of the command.
 #[derive(clap::Args)]
 pub(crate) struct MutantsArguments {
-    /// Mutants to choose
-    #[arg(long, default_value_t = 300)]
+    /// Seeds of the samples, separated by commas; they are fresh if no test was written for their survivors
+    #[arg(long, value_delimiter = ',', required = true)]
+    seed: Vec<u64>,
+    /// Number of mutants in the sample of each seed
+    #[arg(long, default_value_t = 120)]
     sample: usize,
-    /// Seed of the choice
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Begin no trial after so many minutes; the same command goes on from there
+    /// Start no trial after this many minutes; the same command continues from there
     #[arg(long)]
     minutes: Option<f64>,
-    /// Part of the names of mutants to choose from, as `joints/`
+    /// Restrict the samples to mutants whose name contains this text, for example `joints/`
     #[arg(long, default_value = "")]
     only: String,
-    /// Print the mutants chosen, and try none
+    /// Print the samples without trying them
     #[arg(long)]
     list: bool,
-    /// Try again those that survived
+    /// Try the survivors of the samples again; the figures of the seeds are kept
     #[arg(long)]
     survivors: bool,
-    /// Folder for the copy that is broken, its build, and what is known
+    /// Folder for the mutated copy, its build and the outcomes
     #[arg(long, default_value = "target/mutants")]
     folder: PathBuf,
     /// Tests to build and run, as arguments of `cargo test`, as `-- --lib`; what they do not notice stays unknown
@@ -98,25 +101,31 @@ impl MutantsError {
     }
 }
 
-/// Tries mutants; whether all were noticed.
+/// Tries mutants; returns whether at most [`MAX_SURVIVORS`] of each sample survive.
 ///
 /// # Errors
-/// If the copy cannot be made or run, or the tests fail in code that is not broken.
+/// If the copy cannot be made or run, or the tests fail without a mutant.
 pub(crate) fn mutants(arguments: &MutantsArguments) -> Result<bool, MutantsError> {
     let root = root();
-    let sample = sample(place::list(&root)?, arguments);
+    let all = place::list(&root)?;
+    let samples: Vec<Vec<Mutant>> =
+        arguments.seed.iter().map(|&seed| sample(all.clone(), arguments, seed)).collect();
     if arguments.list {
-        for mutant in &sample {
+        for mutant in samples.iter().flatten() {
             println!("{}", mutant.name());
         }
         return Ok(true);
     }
     let folder = root.join(&arguments.folder);
     let mut known = Known::read(&folder)?;
-    let trials = trials(&root, &folder, &sample, &arguments.targets, &mut known)?;
+    let union = union(&samples);
+    let trials = trials(&root, &folder, &union, &arguments.targets, &mut known)?;
+    if !arguments.survivors {
+        known.forget_survivors_of_other_builds(trials.built());
+    }
     let began = Instant::now();
     let limit = arguments.minutes.map(|minutes| Duration::from_secs_f64(60.0 * minutes.max(0.0)));
-    for (number, mutant) in &sample_with_numbers(&sample) {
+    for (number, mutant) in sample_with_numbers(&union) {
         let is_due = match known.outcome(mutant) {
             None => !arguments.survivors,
             Some(outcome) => arguments.survivors && outcome.is_survivor(),
@@ -127,23 +136,39 @@ pub(crate) fn mutants(arguments: &MutantsArguments) -> Result<bool, MutantsError
         if limit.is_some_and(|limit| began.elapsed() >= limit) {
             break;
         }
-        let outcome = trials.try_mutant(*number)?;
+        let outcome = trials.try_mutant(number)?;
         println!("{:5.0} s  {}: {}", began.elapsed().as_secs_f64(), mutant.name(), outcome.words());
-        // Other tests may notice it.
+        // The tests that were not selected may notice it.
         if arguments.targets.is_empty() || !outcome.is_survivor() {
-            known.note(mutant, outcome);
+            known.note(mutant, outcome, trials.built());
             known.write(&folder)?;
         }
     }
-    // Up to the first that is not known: those behind it that are would be the ones that are noticed soonest.
-    let tried: Vec<(&Mutant, &Outcome)> =
-        sample.iter().map_while(|mutant| Some((mutant, known.outcome(mutant)?))).collect();
-    let figures = table::Figures::of(&tried, sample.len(), arguments.seed);
-    println!("{}", figures.words());
-    if arguments.only.is_empty() && arguments.targets.is_empty() {
-        table::write(&root.join("docs/mutants.md"), &figures, &tried)?;
+    let is_recorded = arguments.only.is_empty() && arguments.targets.is_empty();
+    let mut is_good = true;
+    for (&seed, sample) in arguments.seed.iter().zip(&samples) {
+        // Up to the first unknown one: mutants that are noticed soon would be over-represented behind it.
+        let tried: Vec<(&Mutant, &Outcome)> =
+            sample.iter().map_while(|mutant| Some((mutant, known.outcome(mutant)?))).collect();
+        let figures = table::Figures::of(&tried, sample.len(), seed);
+        println!("{}", figures.words());
+        is_good &= figures.share() <= MAX_SURVIVORS;
+        if is_recorded {
+            table::write(&root.join("docs/mutants.md"), &figures, &tried)?;
+        }
     }
-    Ok(figures.survived == 0)
+    Ok(is_good)
+}
+
+/// The mutants of all samples, without repetition. The first ones of each sample come first.
+fn union(samples: &[Vec<Mutant>]) -> Vec<Mutant> {
+    let longest = samples.iter().map(Vec::len).max().unwrap_or(0);
+    let mut keys = std::collections::BTreeSet::new();
+    (0..longest)
+        .flat_map(|index| samples.iter().filter_map(move |sample| sample.get(index)))
+        .filter(|mutant| keys.insert(mutant.key()))
+        .cloned()
+        .collect()
 }
 
 /// Builds all mutants that are programs, and runs the tests without one.
@@ -165,7 +190,7 @@ fn trials(
             Built::Refused(numbers) => {
                 for number in numbers {
                     println!("{}: {}", sample[number - 1].name(), Outcome::NotBuilt.words());
-                    known.note(&sample[number - 1], Outcome::NotBuilt);
+                    known.note(&sample[number - 1], Outcome::NotBuilt, 0);
                 }
                 known.write(folder)?;
             }
@@ -178,23 +203,33 @@ fn sample_with_numbers(sample: &[Mutant]) -> Vec<(usize, &Mutant)> {
     (1..).zip(sample).collect()
 }
 
-/// Mutants in the order in which they are tried. Each has its own random number, so that the others stay in the sample
+/// The sample of a seed, in the order of the trials. Each mutant has its own random number, so that the others stay in the sample
 /// when code is added or removed.
-fn sample(mut all: Vec<Mutant>, arguments: &MutantsArguments) -> Vec<Mutant> {
+fn sample(mut all: Vec<Mutant>, arguments: &MutantsArguments, seed: u64) -> Vec<Mutant> {
     all.retain(|mutant| mutant.name().contains(&arguments.only));
-    let number = |mutant: &Mutant| Draw::new(arguments.seed, place::mark(&mutant.key())).fraction();
+    let number = |mutant: &Mutant| Draw::new(seed, place::mark(&mutant.key())).fraction();
     all.sort_by(|a, b| number(a).total_cmp(&number(b)));
     all.truncate(arguments.sample);
     all
 }
 
-/// What is known of mutants, by key. A mutant whose function has changed since is not known.
+/// Outcome of a trial.
+#[derive(serde::Serialize, serde::Deserialize)]
+struct Entry {
+    /// Changes with the function.
+    mark: u64,
+    outcome: Outcome,
+    /// When the tests were built [ns since 1970].
+    built: u64,
+}
+
+/// Outcomes by the mutants' keys. The outcome of a mutant whose function has changed since is not known.
 #[derive(Default, serde::Serialize, serde::Deserialize)]
-struct Known(std::collections::BTreeMap<String, (u64, Outcome)>);
+struct Known(std::collections::BTreeMap<String, Entry>);
 
 impl Known {
     fn path(folder: &Path) -> PathBuf {
-        folder.join("known.json")
+        folder.join("outcomes.json")
     }
 
     fn read(folder: &Path) -> Result<Self, MutantsError> {
@@ -213,12 +248,17 @@ impl Known {
     }
 
     fn outcome(&self, mutant: &Mutant) -> Option<&Outcome> {
-        let (mark, outcome) = self.0.get(&mutant.key())?;
-        (*mark == mutant.mark).then_some(outcome)
+        let entry = self.0.get(&mutant.key())?;
+        (entry.mark == mutant.mark).then_some(&entry.outcome)
     }
 
-    fn note(&mut self, mutant: &Mutant, outcome: Outcome) {
-        self.0.insert(mutant.key(), (mutant.mark, outcome));
+    fn note(&mut self, mutant: &Mutant, outcome: Outcome, built: u64) {
+        self.0.insert(mutant.key(), Entry { mark: mutant.mark, outcome, built });
+    }
+
+    /// Forgets the survivors of tests that have been rebuilt: newer tests may notice them.
+    fn forget_survivors_of_other_builds(&mut self, built: u64) {
+        self.0.retain(|_, entry| entry.built == built || !entry.outcome.is_survivor());
     }
 }
 
@@ -226,10 +266,10 @@ impl Known {
 mod tests {
     use super::*;
 
-    fn arguments(sample: usize, seed: u64) -> MutantsArguments {
+    fn arguments(sample: usize) -> MutantsArguments {
         MutantsArguments {
             sample,
-            seed,
+            seed: Vec::new(),
             minutes: None,
             only: String::new(),
             list: false,
@@ -244,7 +284,7 @@ mod tests {
         let all: Vec<Mutant> =
             (0..1000).map(|number| Mutant::named("file.rs", number, &number.to_string())).collect();
         let of = |all: &[Mutant], sample, seed| -> Vec<String> {
-            let chosen = super::sample(all.to_vec(), &arguments(sample, seed));
+            let chosen = super::sample(all.to_vec(), &arguments(sample), seed);
             chosen.into_iter().map(|mutant| mutant.name()).collect()
         };
         let names = |sample, seed| of(&all, sample, seed);
@@ -263,10 +303,30 @@ mod tests {
     fn what_is_known_of_a_function_that_has_changed_is_forgotten() {
         let mut known = Known::default();
         let mutant = Mutant::named("file.rs", 1, "a");
-        known.note(&mutant, Outcome::Survived);
+        known.note(&mutant, Outcome::Survived, 7);
         assert!(known.outcome(&mutant).is_some());
         let mut changed = mutant;
         changed.mark += 1;
         assert!(known.outcome(&changed).is_none());
+    }
+
+    #[test]
+    fn survivors_of_older_tests_are_tried_again() {
+        let [a, b] = ["a", "b"].map(|what| Mutant::named("file.rs", 1, what));
+        let mut known = Known::default();
+        known.note(&a, Outcome::Unreached, 7);
+        known.note(&b, Outcome::Hung, 7);
+        known.forget_survivors_of_other_builds(7);
+        assert!(known.outcome(&a).is_some());
+        known.forget_survivors_of_other_builds(8);
+        assert!(known.outcome(&a).is_none() && known.outcome(&b).is_some());
+    }
+
+    #[test]
+    fn samples_are_united_without_repetition() {
+        let sample = |names: &[&str]| names.iter().map(|what| Mutant::named("file.rs", 1, what)).collect();
+        let all = union(&[sample(&["a", "b", "c"]), sample(&["b", "d"])]);
+        let names: Vec<&str> = all.iter().map(|mutant| mutant.what.as_str()).collect();
+        assert_eq!(names, ["a", "b", "d", "c"]);
     }
 }

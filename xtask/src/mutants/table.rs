@@ -1,6 +1,6 @@
-//! What came of the mutants, in the book: figures, and the survivors with the reasons that were written beside them.
+//! The tables of docs/mutants.md: figures of fresh seeds, and their survivors with remarks. The figures of a seed whose sample was
+//! tried completely do not change any more, because tests may be written for its survivors.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
@@ -8,20 +8,19 @@ use super::MutantsError;
 use super::place::Mutant;
 use super::trial::Outcome;
 
-/// Where the part that is written begins.
-const HEAD: &str = "## Survivors\n";
-/// Where a reason stands that nobody has written.
-const NO_REASON: &str = "";
+/// Heading of the section that the command writes.
+const HEAD: &str = "## Fresh seeds\n";
+const FIGURES: &str = "| seed | mutants | compiled | survived | share |\n|---|---|---|---|---|\n";
+const SURVIVORS: &str = "| seed | file | line | mutant | remark |\n|---|---|---|---|---|\n";
 
-/// Counts.
+/// Counts of a sample.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Figures {
     seed: u64,
     sample: usize,
     tried: usize,
-    /// Those that are no program.
-    not_built: usize,
-    pub(super) survived: usize,
+    compiled: usize,
+    survived: usize,
 }
 
 impl Figures {
@@ -31,58 +30,111 @@ impl Figures {
             seed,
             sample,
             tried: tried.len(),
-            not_built: count(&|outcome| *outcome == Outcome::NotBuilt),
+            compiled: count(&|outcome| *outcome != Outcome::NotBuilt),
             survived: count(&Outcome::is_survivor),
         }
     }
 
+    /// Survivors relative to the mutants that compile.
+    pub(super) fn share(&self) -> f64 {
+        self.survived as f64 / self.compiled.max(1) as f64
+    }
+
     pub(super) fn words(&self) -> String {
-        let Self { seed, sample, tried, not_built, survived } = *self;
-        let built = tried - not_built;
-        let share = 100.0 * survived as f64 / built.max(1) as f64;
-        let tried =
-            format!("Seed {seed}: {tried} of {sample} mutants tried so far; {not_built} do not compile");
-        if built == 0 {
-            return format!("{tried}, and nothing can be said of the others.");
+        let Self { seed, sample, tried, compiled, survived } = *self;
+        let share = 100.0 * self.share();
+        format!(
+            "Seed {seed}: {tried} of {sample} mutants tried, {compiled} compile, {survived} survive ({share:.1} %)."
+        )
+    }
+
+    fn row(&self) -> Row {
+        let Self { seed, sample, tried, compiled, survived } = *self;
+        let mutants = if tried == sample { tried.to_string() } else { format!("{tried} of {sample}") };
+        let share = format!("{:.1} %", 100.0 * self.share());
+        [seed.to_string(), mutants, compiled.to_string(), survived.to_string(), share]
+    }
+}
+
+type Row = [String; 5];
+
+/// The two tables.
+#[derive(Debug, Default)]
+struct Tables {
+    figures: Vec<Row>,
+    survivors: Vec<Row>,
+}
+
+impl Tables {
+    fn read(text: &str) -> Self {
+        let rows = |text: &str| -> Vec<Row> {
+            let inner = text.lines().filter_map(|line| line.strip_prefix('|')?.strip_suffix('|'));
+            let cells = |row: &str| -> Option<Row> {
+                let cells: Vec<String> = row.splitn(5, " | ").map(|cell| cell.trim().to_owned()).collect();
+                cells.try_into().ok()
+            };
+            inner.filter_map(cells).filter(|row| row[0].parse::<u64>().is_ok()).collect()
+        };
+        let (figures, survivors) = text.split_once(SURVIVORS).unwrap_or((text, ""));
+        Self { figures: rows(figures), survivors: rows(survivors) }
+    }
+
+    fn text(&self) -> String {
+        let rows = |rows: &[Row]| -> String {
+            rows.iter().map(|row| format!("| {} |\n", row.join(" | "))).collect()
+        };
+        let mut text = format!("\n{FIGURES}{}", rows(&self.figures));
+        if !self.survivors.is_empty() {
+            text += &format!("\n{SURVIVORS}{}", rows(&self.survivors));
         }
-        format!("{tried}; of the {built} that do, {survived} survive all tests ({share:.0} %).")
+        text
+    }
+
+    /// Enters the outcomes of a sample.
+    fn enter(&mut self, figures: &Figures, tried: &[(&Mutant, &Outcome)]) {
+        let row = figures.row();
+        let earlier = self.figures.iter().position(|other| other[0] == row[0]);
+        let is_complete = |row: &Row| row[1].parse::<usize>().is_ok();
+        match earlier {
+            Some(index) if is_complete(&self.figures[index]) => {
+                self.remark(&row[0], tried);
+                return;
+            }
+            Some(index) => self.figures[index].clone_from(&row),
+            None => self.figures.push(row.clone()),
+        }
+        let (earlier, others): (Vec<Row>, Vec<Row>) =
+            std::mem::take(&mut self.survivors).into_iter().partition(|other| other[0] == row[0]);
+        self.survivors = others;
+        let mut survivors: Vec<&Mutant> =
+            tried.iter().filter(|(_, outcome)| outcome.is_survivor()).map(|(mutant, _)| *mutant).collect();
+        survivors.sort_by(|a, b| (&a.file, a.line).cmp(&(&b.file, b.line)));
+        for mutant in survivors {
+            let [file, what] = cells(mutant);
+            let remark = earlier.iter().find(|other| other[1] == file && other[3] == what);
+            let remark = remark.map_or(String::new(), |other| other[4].clone());
+            self.survivors.push([row[0].clone(), file, mutant.line.to_string(), what, remark]);
+        }
+    }
+
+    /// Fills empty remarks on survivors of a seed that tests notice now.
+    fn remark(&mut self, seed: &str, tried: &[(&Mutant, &Outcome)]) {
+        for row in self.survivors.iter_mut().filter(|row| row[0] == seed && row[4].is_empty()) {
+            let outcome = tried.iter().find(|(mutant, _)| cells(mutant) == [row[1].clone(), row[3].clone()]);
+            if let Some((_, outcome)) = outcome.filter(|(_, outcome)| !outcome.is_survivor()) {
+                row[4] = format!("Now {}.", outcome.words());
+            }
+        }
     }
 }
 
-/// Reasons by file and what was done, as they stand in the table.
-fn reasons(text: &str) -> BTreeMap<(String, String), String> {
-    let rows = text.lines().filter_map(|line| line.strip_prefix('|')?.strip_suffix('|'));
-    let rows = rows.filter_map(|row| {
-        let [file, _, what, reason] = row.splitn(4, " | ").collect::<Vec<_>>().try_into().ok()?;
-        let what = what.trim().trim_matches('`');
-        Some(((file.trim().to_owned(), what.to_owned()), reason.trim().to_owned()))
-    });
-    rows.collect()
+/// File and change of a mutant, as cells of a table.
+fn cells(mutant: &Mutant) -> [String; 2] {
+    // `|` separates cells.
+    [mutant.file.clone(), format!("`{}`", mutant.what.replace('|', "\\|"))]
 }
 
-/// What follows the head.
-fn written(before: &str, figures: &Figures, tried: &[(&Mutant, &Outcome)]) -> String {
-    let reasons = reasons(before);
-    let mut survivors: Vec<&Mutant> =
-        tried.iter().filter(|(_, outcome)| outcome.is_survivor()).map(|(mutant, _)| *mutant).collect();
-    survivors.sort_by(|a, b| (&a.file, a.line).cmp(&(&b.file, b.line)));
-    let mut text = format!("\n{}\n", figures.words());
-    if survivors.is_empty() {
-        return text;
-    }
-    text += "\n| file | line | what | reason |\n|---|---|---|---|\n";
-    for mutant in survivors {
-        // A sign of a table within a table.
-        let what = mutant.what.replace('|', "\\|");
-        let key = (mutant.file.clone(), what.clone());
-        let reason = reasons.get(&key).map_or(NO_REASON, String::as_str);
-        let (line, what) = (mutant.line.to_string(), format!("`{what}`"));
-        text += &["| ", &[mutant.file.as_str(), &line, &what, reason].join(" | "), " |\n"].concat();
-    }
-    text
-}
-
-/// Writes figures and survivors into the book.
+/// Writes the outcomes of a sample into the chapter.
 ///
 /// # Errors
 /// If the chapter cannot be read or written.
@@ -93,28 +145,66 @@ pub(super) fn write(
 ) -> Result<(), MutantsError> {
     let text = fs::read_to_string(chapter).map_err(MutantsError::about(chapter.display()))?;
     let (before, after) = text.split_once(HEAD).unwrap_or((&text, ""));
-    let text = format!("{before}{HEAD}{}", written(after, figures, tried));
-    fs::write(chapter, text).map_err(MutantsError::about(chapter.display()))
+    let mut tables = Tables::read(after);
+    tables.enter(figures, tried);
+    fs::write(chapter, format!("{before}{HEAD}{}", tables.text()))
+        .map_err(MutantsError::about(chapter.display()))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn mutants() -> [Mutant; 2] {
+        ["replace | with & in f", "replace + with - in g"].map(|what| Mutant::named("file.rs", 1, what))
+    }
+
+    fn entered(before: &str, sample: usize, tried: &[(&Mutant, &Outcome)]) -> String {
+        let mut tables = Tables::read(before);
+        tables.enter(&Figures::of(tried, sample, 31), tried);
+        tables.text()
+    }
+
     #[test]
-    fn reasons_stay_with_their_mutants_and_those_that_are_noticed_go() {
-        let a = Mutant::named("file.rs", 1, "replace | with & in f");
-        let b = Mutant::named("file.rs", 1, "replace + with - in g");
-        let figures = Figures::of(&[(&a, &Outcome::Survived), (&b, &Outcome::NotBuilt)], 10, 1);
-        assert!(figures.words().contains("2 of 10 mutants tried so far; 1 do not compile; of the 1"));
-        assert!(!Figures::of(&[(&b, &Outcome::NotBuilt)], 10, 1).words().contains('%'));
-        let both = [(&a, &Outcome::Survived), (&b, &Outcome::Survived)];
-        let first = written("", &figures, &both);
-        assert!(first.contains("| file.rs | 1 | `replace \\| with & in f` |  |"), "{first}");
-        let explained = first.replace("with - in g` |  |", "with - in g` | it is only a guess |");
-        let again = written(&explained, &figures, &both);
-        assert_eq!(again, explained);
-        let caught = written(&explained, &figures, &[(&a, &Outcome::Survived), (&b, &Outcome::Hung)]);
-        assert!(!caught.contains("guess") && caught.contains("in f`"));
+    fn mutants_that_do_not_compile_are_not_counted() {
+        let [a, b] = mutants();
+        let figures = Figures::of(&[(&a, &Outcome::Survived), (&b, &Outcome::NotBuilt)], 10, 31);
+        assert_eq!(figures.words(), "Seed 31: 2 of 10 mutants tried, 1 compile, 1 survive (100.0 %).");
+        assert_eq!(Figures::of(&[(&b, &Outcome::NotBuilt)], 10, 31).share(), 0.0);
+    }
+
+    #[test]
+    fn an_incomplete_sample_is_updated_and_remarks_are_kept() {
+        let [a, b] = mutants();
+        let first = entered("", 10, &[(&a, &Outcome::Survived), (&b, &Outcome::Unreached)]);
+        assert!(first.contains("| 31 | 2 of 10 | 2 | 2 | 100.0 % |"), "{first}");
+        assert!(first.contains("| 31 | file.rs | 1 | `replace \\| with & in f` |  |"), "{first}");
+        let remarked = first.replace("with & in f` |  |", "with & in f` | equivalent | really |");
+        assert_eq!(entered(&remarked, 10, &[(&a, &Outcome::Survived), (&b, &Outcome::Unreached)]), remarked);
+        let later = entered(&remarked, 10, &[(&a, &Outcome::Survived), (&b, &Outcome::Hung)]);
+        assert!(later.contains("equivalent | really") && !later.contains("in g"), "{later}");
+    }
+
+    #[test]
+    fn figures_of_a_complete_sample_are_kept_and_survivors_noticed_later_are_remarked() {
+        let [a, b] = mutants();
+        let first = entered("", 2, &[(&a, &Outcome::Survived), (&b, &Outcome::Hung)]);
+        assert!(first.contains("| 31 | 2 | 2 | 1 | 50.0 % |"), "{first}");
+        let caught = Outcome::Caught("`t`".to_owned());
+        let later = entered(&first, 2, &[(&a, &caught), (&b, &Outcome::Survived)]);
+        assert_eq!(later, first.replace("with & in f` |  |", "with & in f` | Now noticed by `t`. |"));
+    }
+
+    #[test]
+    fn seeds_are_listed_in_the_order_of_their_trials() {
+        let [a, _] = mutants();
+        let mut tables = Tables::default();
+        for seed in [33, 7] {
+            tables.enter(&Figures::of(&[(&a, &Outcome::Survived)], 1, seed), &[(&a, &Outcome::Survived)]);
+        }
+        let read = Tables::read(&tables.text());
+        assert_eq!((&read.figures, &read.survivors), (&tables.figures, &tables.survivors));
+        assert_eq!([&read.figures[0][0], &read.figures[1][0]], ["33", "7"]);
+        assert_eq!(read.survivors.len(), 2);
     }
 }

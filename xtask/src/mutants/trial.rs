@@ -124,6 +124,11 @@ impl Trials {
         Ok(trials)
     }
 
+    /// When the newest program was built [ns since 1970].
+    pub(super) fn built(&self) -> u64 {
+        self.programs.tests.iter().map(|program| self.programs.built(program)).max().unwrap_or(0)
+    }
+
     fn unbroken(&self, program: &TestProgram, built: u64, file: &Path) -> Result<Unbroken, MutantsError> {
         std::fs::write(file, "").map_err(MutantsError::about(file.display()))?;
         let variables = [(VARIABLE, RECORD.to_owned()), (REACHED, file.display().to_string())];
