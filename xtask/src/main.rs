@@ -76,7 +76,7 @@ enum Chore {
     Random(random::RandomArguments),
     /// Read model files and expressions that are damaged by chance: each is read or refused with its place
     Fuzz(fuzz::FuzzArguments),
-    /// Break the code on purpose, one place at a time, and tell what no test notices
+    /// Mutation tests: change the code in one position at a time and report the changes that no test notices
     Mutants(mutants::MutantsArguments),
     /// Make the tables and figures of the book in docs/ anew
     Figures(FiguresArguments),

@@ -14,6 +14,9 @@ use super::switch::Switched;
 const OF_THE_TEXT: &str = "house_rules";
 /// All tests but those of the chores.
 const ALL: [&str; 3] = ["--lib", "--test", "*"];
+/// Settings of cargo.
+const INCREMENTAL: [&str; 2] =
+    ["profile.release.incremental=true", "profile.release.package.lissom-core.codegen-units=64"];
 /// Lines of the compiler that are shown.
 const SHOWN: usize = 40;
 
@@ -71,7 +74,11 @@ pub(super) fn build(
         command.args(ALL);
     }
     command.current_dir(tree).env("CARGO_TARGET_DIR", folder);
-    // The tests run some hundred times: optimised they take a third of the time. What `cargo test` checks stays on.
+    // The tests run some hundred times: optimised they take a third of the time. The checks of `cargo test` stay on. The next
+    // sample changes a few functions of each crate, which an incremental build in several units compiles alone.
+    for setting in INCREMENTAL {
+        command.args(["--config", setting]);
+    }
     command.env("CARGO_PROFILE_RELEASE_DEBUG_ASSERTIONS", "true");
     command.env("CARGO_PROFILE_RELEASE_OVERFLOW_CHECKS", "true");
     let output = command.output().map_err(MutantsError::about("cargo test"))?;

@@ -9,7 +9,7 @@ use super::place::Mutant;
 use super::trial::Outcome;
 
 /// Heading of the section that the command writes.
-const HEAD: &str = "## Fresh seeds\n";
+const HEAD: &str = "## Results\n";
 const FIGURES: &str = "| seed | mutants | compiled | survived | share |\n|---|---|---|---|---|\n";
 const SURVIVORS: &str = "| seed | file | line | mutant | remark |\n|---|---|---|---|---|\n";
 
@@ -80,12 +80,10 @@ impl Tables {
     }
 
     fn text(&self) -> String {
-        let rows = |rows: &[Row]| -> String {
-            rows.iter().map(|row| format!("| {} |\n", row.join(" | "))).collect()
-        };
-        let mut text = format!("\n{FIGURES}{}", rows(&self.figures));
+        let rows = |rows: &[Row]| rows.iter().map(line).collect::<Vec<_>>().concat();
+        let mut text = ["\n", FIGURES, &rows(&self.figures)].concat();
         if !self.survivors.is_empty() {
-            text += &format!("\n{SURVIVORS}{}", rows(&self.survivors));
+            text += &["\n", SURVIVORS, &rows(&self.survivors)].concat();
         }
         text
     }
@@ -126,6 +124,11 @@ impl Tables {
             }
         }
     }
+}
+
+/// A line of a table.
+fn line(row: &Row) -> String {
+    format!("| {} |\n", row.join(" | "))
 }
 
 /// File and change of a mutant, as cells of a table.
