@@ -412,4 +412,91 @@ mod tests {
         let attraction = Value::Force(Arc::new(Attraction));
         assert!(law(&Parameters::new().with("force", attraction)).is_active());
     }
+
+    /// A force of any formula.
+    #[derive(Debug)]
+    struct Formula(fn(f64, f64) -> f64, bool);
+
+    impl ForceFunction for Formula {
+        fn evaluate(&self, first: f64, second: f64) -> [f64; 3] {
+            [(self.0)(first, second), 0.0, 0.0]
+        }
+        fn depends_on_second(&self) -> bool {
+            self.1
+        }
+    }
+
+    fn formula(force: fn(f64, f64) -> f64, depends_on_second: bool) -> Value {
+        Value::Force(Arc::new(Formula(force, depends_on_second)))
+    }
+
+    /// The energy of every combination of side, play, limits and force, against a sum over many small steps.
+    #[test]
+    fn energies_are_integrals_with_all_settings() {
+        let laws = [
+            ("stiffness", Value::Number(100.0)),
+            ("force", cubic(0.0)),
+            // Steep on one side and flat on the other, so that pieces differ in length.
+            (
+                "force",
+                formula(|x, _| (6.0 * x).exp() - 1.0 + 2.0 / (1.0 + 900.0 * (x - 0.4) * (x - 0.4)), false),
+            ),
+        ];
+        for (name, value) in laws {
+            for side in [None, Some("tension"), Some("compression")] {
+                for play in [0.0, 0.3] {
+                    for limits in
+                        [None, Some([-6.0, 9.0]), Some([-6.0, f64::INFINITY]), Some([f64::NEG_INFINITY, 9.0])]
+                    {
+                        let mut given =
+                            Parameters::new().with(name, value.clone()).with("backlash", Value::Number(play));
+                        if let Some(side) = side {
+                            given = given.with("side", Value::Text(side.to_owned()));
+                        }
+                        if let Some(limits) = limits {
+                            given = given.with("limits", Value::Range(limits));
+                        }
+                        let law = law(&given);
+                        for end in [0.05, 0.7, 1.2, -0.05, -0.7, -1.2] {
+                            let steps = 20_000;
+                            let width = end / f64::from(steps);
+                            let force = |k: u32| law.evaluate(width * (f64::from(k) + 0.5), 0.0, &[]).force;
+                            let wanted: f64 = width * (0..steps as u32).map(force).sum::<f64>();
+                            let found = law.energy(end);
+                            assert!(
+                                (found - wanted).abs() < 1e-5 * (0.01 + wanted.abs()),
+                                "{name} {side:?} {play} {limits:?} up to {end}: {found}, {wanted}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Forces that drive at some rates or deformations only, as far out as they are looked for.
+    #[test]
+    fn forces_that_drive_anywhere_are_active() {
+        type Case = (&'static str, fn(f64, f64) -> f64, bool, bool);
+        let cases: [Case; 12] = [
+            ("damper_force", |v, _| v, false, false),
+            ("damper_force", |v, _| v * v * v, false, false),
+            ("damper_force", |v, _| -1e-9 * v, false, true),
+            ("damper_force", |v, _| v.max(0.0), false, false),
+            // Drives beyond a rate, or below one, in one direction.
+            ("damper_force", |v, _| if v > 5e5 { -v } else { v }, false, true),
+            ("damper_force", |v, _| if v < -5e5 { -v } else { v }, false, true),
+            ("damper_force", |v, _| if v.abs() < 2e-6 { -v } else { v }, false, true),
+            // Drives at large or small deformations.
+            ("damper_force", |v, x| v * x * x, true, false),
+            ("damper_force", |v, x| if x > 5e5 { -v } else { v }, true, true),
+            ("damper_force", |v, x| if x.abs() < 2e-6 { -v } else { v }, true, true),
+            ("force", |x, v| x + v * x * x, true, false),
+            ("force", |x, v| if x < -5e5 { x - v } else { x + v }, true, true),
+        ];
+        for (index, (name, force, depends_on_second, is_active)) in cases.into_iter().enumerate() {
+            let law = law(&Parameters::new().with(name, formula(force, depends_on_second)));
+            assert_eq!(law.is_active(), is_active, "case {index}");
+        }
+    }
 }

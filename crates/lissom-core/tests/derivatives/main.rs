@@ -5,7 +5,9 @@ mod departures;
 mod energies;
 mod feedback;
 mod joint_lanes;
+mod kinks;
 mod locks;
+mod neighbours;
 mod rolling;
 mod superelement;
 

@@ -195,6 +195,30 @@ mod tests {
         assert!(record.row_of_wrong_length());
     }
 
+    /// Stretches have 1, 2, 4, … rows, as few as leave less than twice [`STRETCHES`].
+    #[test]
+    fn points_are_the_extremes_of_stretches_of_equal_length() {
+        let value = |row: u32| f64::from((row * 7919) % 65_537);
+        for rows in [8191, 8192, 8193, 16_384, 20_001, 50_000] {
+            let mut length = 1;
+            while rows >= 2 * STRETCHES as u32 * length {
+                length *= 2;
+            }
+            let all: Vec<Point> = (0..rows).map(|row| (f64::from(row), value(row))).collect();
+            let mut wanted = vec![all[0]];
+            for stretch in all.chunks(length as usize) {
+                let by_value = |a: &&Point, b: &&Point| a.1.total_cmp(&b.1);
+                let mut extremes =
+                    [*stretch.iter().min_by(by_value).unwrap(), *stretch.iter().max_by(by_value).unwrap()];
+                extremes.sort_by(|a, b| a.0.total_cmp(&b.0));
+                wanted.extend(extremes);
+            }
+            wanted.push(all[all.len() - 1]);
+            wanted.dedup();
+            assert_eq!(curves(rows, value).points(0), wanted, "{rows} rows");
+        }
+    }
+
     #[test]
     fn gaps_do_not_hide_what_is_beside_them() {
         let record = curves(100_000, |row| if row % 7 == 0 { f64::NAN } else { f64::from(row) });

@@ -48,7 +48,7 @@ impl Spectrum {
         let whole: f64 = weights.iter().sum();
         let mean = weights.iter().zip(values).map(|(weight, value)| weight * value).sum::<f64>() / whole;
         let nyquist = 0.5 * (rows - 1) as f64 / duration;
-        let count = ((nyquist * duration) as usize).min(MOST_LINES).min((MOST_WORK / rows).max(1));
+        let count = ((rows - 1) / 2).min(MOST_LINES).min((MOST_WORK / rows).max(1));
         let amplitude = |line: usize| {
             let (mut cosines, mut sines) = (0.0, 0.0);
             for ((time, value), weight) in times.iter().zip(values).zip(&weights) {

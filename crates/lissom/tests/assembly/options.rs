@@ -112,7 +112,7 @@ at_tip = [1, 0, 0]
                 "{part} with {fixed:?} fixed: {distance} {turn}"
             );
         }
-        let at = |node: lissom_core::system::NodeId| found.state.kinematics.nodes[node].frame.position;
+        let at = |node: lissom_core::kinematics::NodeId| found.state.kinematics.nodes[node].frame.position;
         let start = at(found.names.lines["bar"].nodes[0]);
         for part in ["point", "body"] {
             assert!((at(found.names.nodes[part]) - start).norm() < 1e-9, "{part} with {fixed:?} fixed");

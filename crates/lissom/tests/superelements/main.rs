@@ -1,6 +1,7 @@
 //! Superelements: reduced beams against beams, rigid motion, prestress, files, and all schemes.
 
 mod against_beams;
+mod deformed;
 mod free_blades;
 mod load_stiffness;
 mod moments;

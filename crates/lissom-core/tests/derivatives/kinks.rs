@@ -1,0 +1,117 @@
+//! Every kind that takes a function of time reports the instants at which it is not smooth.
+
+use std::sync::Arc;
+
+use lissom_core::elements::{Attached, Attachment, LOADS, SPRINGS};
+use lissom_core::joints::{self, Build};
+use lissom_core::registry::{Parameter, ParameterType, Parameters, TimeFunction, Value};
+use lissom_core::system::{Builder, Placement};
+use lissom_motion::Vector3;
+
+use crate::configuration::{Random, sample_parameters};
+use crate::{joint_with, two_bodies, two_coordinates};
+
+/// Smooth except at given instants.
+#[derive(Debug)]
+struct Broken(Vec<f64>);
+
+impl TimeFunction for Broken {
+    fn value(&self, _: f64) -> f64 {
+        0.5
+    }
+    fn first_derivative(&self, _: f64) -> f64 {
+        0.0
+    }
+    fn second_derivative(&self, _: f64) -> f64 {
+        0.0
+    }
+    fn kinks(&self) -> Vec<f64> {
+        self.0.clone()
+    }
+}
+
+/// Parameters of a kind in which one function of time after the other is broken, with its name.
+fn each_broken(parameters: &[Parameter], random: &mut Random) -> Vec<(&'static str, Parameters)> {
+    let is_function =
+        |parameter: &&Parameter| matches!(parameter.holds, ParameterType::Function | ParameterType::Size);
+    let broken = |parameter: &Parameter| {
+        let mut own = sample_parameters(parameters, false, random);
+        own.insert(parameter.name, Value::Function(Arc::new(Broken(vec![0.37, 0.61]))));
+        (parameter.name, own)
+    };
+    parameters.iter().filter(is_function).map(broken).collect()
+}
+
+fn assert_kinks(builder: Builder, kind: &str, parameter: &str) {
+    let (system, _) = builder.build(0.0).expect("valid");
+    assert_eq!(system.kinks(), [0.37, 0.61], "`{parameter}` of {kind}");
+}
+
+#[test]
+fn loads_and_springs_report_the_kinks_of_their_functions() {
+    let mut count = 0;
+    for kind in SPRINGS.iter().chain(LOADS) {
+        let mut random = Random::new(5);
+        for (parameter, parameters) in each_broken(kind.parameters, &mut random) {
+            let (mut builder, nodes) = two_bodies(&mut random);
+            let attached = match kind.attachment {
+                Attachment::OneNode => Attached::OneNode(nodes[0], random.vector()),
+                Attachment::TwoNodes => Attached::TwoNodes(nodes, [random.vector(), random.vector()]),
+                Attachment::Places => {
+                    let drums = two_coordinates(&mut builder);
+                    Attached::Places(nodes.map(|node| (node, random.vector())).to_vec(), drums)
+                }
+                Attachment::Coordinates => Attached::Coordinates(two_coordinates(&mut builder)),
+                Attachment::Coordinate(wanted) => {
+                    let joint = builder.add_joint(
+                        "joint",
+                        joint_with(wanted),
+                        &placement(nodes, &mut random),
+                        &Parameters::new(),
+                    );
+                    Attached::Coordinate(joint.expect("valid")[0])
+                }
+            };
+            (kind.build)(&mut builder, attached, &parameters).expect("valid");
+            assert_kinks(builder, kind.name, parameter);
+            count += 1;
+        }
+    }
+    assert!(count >= 5, "{count} functions of time");
+}
+
+#[test]
+fn drives_report_the_kinks_of_their_functions() {
+    let mut count = 0;
+    for kind in joints::KINDS {
+        let mut random = Random::new(6);
+        for (parameter, parameters) in each_broken(kind.parameters, &mut random) {
+            let (mut builder, nodes) = two_bodies(&mut random);
+            let placement = placement(nodes, &mut random);
+            match kind.build {
+                Build::Coordinate(wanted, _) => {
+                    let joint =
+                        builder.add_joint("joint", joint_with(wanted), &placement, &Parameters::new());
+                    builder.add_drive("drive", kind, joint.expect("valid")[0], &parameters).expect("valid");
+                }
+                Build::Motion => {
+                    builder.add_motion("motion", &placement, &parameters).expect("valid");
+                }
+                _ => continue,
+            }
+            assert_kinks(builder, kind.name, parameter);
+            count += 1;
+        }
+    }
+    assert!(count >= 8, "{count} functions of time");
+}
+
+fn placement(nodes: [usize; 2], random: &mut Random) -> Placement {
+    Placement {
+        nodes,
+        at: random.vector(),
+        at_tip: None,
+        axis: Some(Vector3::new(0.2, 0.3, 1.0)),
+        second_axis: Some(random.vector()),
+    }
+}
