@@ -99,6 +99,83 @@ fn energy_never_increases_with_any_joint_spring_or_beam() {
     }
 }
 
+/// Two bodies that tumble, each spring that is integrated over a step alone between them, and beams of each order.
+const TUMBLING: &str = r#"
+lissom = 1
+[bodies.a]
+mass = 1
+inertia = [0.02, 0.05, 0.04]
+position = [0, 0, 0]
+velocity = [0.1, -0.4, 0.2]
+angular_velocity = [3, -2, 4]
+[bodies.b]
+mass = 0.6
+inertia = [0.03, 0.02, 0.04]
+position = [1, 0.2, -0.1]
+velocity = [-0.3, 0.5, 0.1]
+angular_velocity = [-2, 3, 1]
+"#;
+const SECTION: &str = r#"
+[sections.bar]
+shape = "general"
+stiffness = [2e3, 2e3, 2e3, 8, 6, 9]
+mass = { per_length = 0.3, inertia = [4e-4, 2e-4, 2e-4] }
+"#;
+
+/// What holds the two bodies together, by kind.
+fn holds() -> Vec<(String, String)> {
+    let joint = "[joints.j]\nkind = \"cylindrical\"\nbase = \"a\"\ntip = \"b\"\nat = [0.5, 0, 0]\naxis = [0.2, 1, 0.3]\n";
+    let mut all: Vec<(String, String)> = [
+        ("point", "base = \"a\"\ntip = \"b\"\nat_base = [0.1, 0.3, 0]\nat_tip = [0.9, 0, 0.2]\nstiffness = 300\nlength = 0.6"),
+        (
+            "rope",
+            "along = [{ on = \"a\", at = [0.1, 0.2, 0] }, { on = \"ground\", at = [0.4, 0.6, 0.5] }, \
+             { on = \"b\", at = [0.9, -0.1, 0] }, { on = \"a\", at = [0, -0.2, 0.1] }]\nstiffness = 10\nlength = 0.1",
+        ),
+    ]
+    .map(|(kind, rest)| (kind.to_owned(), format!("[springs.s]\nkind = \"{kind}\"\n{rest}\n")))
+    .into();
+    for (kind, stiffness) in [("axial", 300), ("torsional", 8)] {
+        let spring = format!("[springs.s]\nkind = \"{kind}\"\njoint = \"j\"\nstiffness = {stiffness}\n");
+        all.push((kind.to_owned(), format!("{joint}{spring}")));
+    }
+    for order in 1..=3 {
+        let beam = format!(
+            "{SECTION}[beams.s]\nsection = \"bar\"\nfrom = [0.1, 0, 0.1]\nto = [0.9, 0.2, 0]\nelements = 2\norder = {order}\n\
+             [joints.first]\nkind = \"clamp\"\nbase = \"a\"\ntip = \"s.start\"\n\
+             [joints.last]\nkind = \"clamp\"\nbase = \"b\"\ntip = \"s.end\"\n"
+        );
+        all.push((format!("beam of order {order}"), beam));
+    }
+    all
+}
+
+/// Steps over which springs turn and stretch by much: the forces of each alone do exactly the work that its energy changes by.
+#[test]
+fn each_spring_and_beam_alone_preserves_energy_over_long_steps() {
+    for (kind, hold) in holds() {
+        for step in ["2e-3", "1e-2"] {
+            let text = format!(
+                "{TUMBLING}{hold}[analysis]\nkind = \"dynamics\"\nscheme = \"energy-decaying\"\nspectral_radius = 1.0\n\
+                 end = 0.3\nstep = {step}\n"
+            );
+            let (mut simulation, steps) = start_of(&text, &[]);
+            let first = total(&simulation);
+            let stored =
+                |simulation: &Simulation| simulation.system().energy(&simulation.state().kinematics).strain;
+            let mut most = [0.0_f64; 2];
+            for _ in 0..steps {
+                simulation.step().unwrap_or_else(|error| panic!("{error}"));
+                most[0] = most[0].max((total(&simulation) - first).abs());
+                most[1] = most[1].max(stored(&simulation));
+            }
+            println!("{kind}, {step}: {most:?}");
+            assert!(most[1] > 0.02, "{kind}: it is strained: {most:?}");
+            assert!(most[0] < 1e-10, "{kind}, step {step}: {most:?}");
+        }
+    }
+}
+
 /// Place and velocity of the second body at 4 ms.
 fn bob(step: &str) -> [lissom_motion::Vector3; 2] {
     const BOB: usize = 2;

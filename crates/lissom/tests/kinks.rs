@@ -319,3 +319,54 @@ fn prescribed_motions_that_jump_are_told_at_once() {
         assert_eq!(told, is_told, "{motion}: {:?}", lowered.warnings);
     }
 }
+
+/// The warning names the first jump and how many follow. Speeds are compared with the largest one, wherever that is.
+#[test]
+fn warnings_of_drives_count_their_jumps() {
+    for (motion, from, until, wanted) in [
+        ("max(t - 0.25, 0)", "0", "1", Some("at t = 0.25 s:")),
+        ("max(t - 0.25, 0) + max(t - 0.5, 0)", "0", "1", Some("at t = 0.25 s and 1 more times")),
+        (
+            "max(t - 0.25, 0) - max(t - 0.5, 0) + max(t - 0.75, 0)",
+            "0",
+            "1",
+            Some("at t = 0.25 s and 2 more times"),
+        ),
+        // Beyond the run.
+        ("max(t - 0.25, 0) + max(t - 1.5, 0)", "0", "1", Some("at t = 0.25 s:")),
+        ("max(t - 1.5, 0)", "0", "1", None),
+        ("t - 0.35 + max(t - 0.25, 0)", "0.3", "1", None),
+        // A small jump beside a speed that is large there alone, right before a kink of another kind, or right after it.
+        (
+            "1e4*max(t - 0.5, 0)^4 - 1e4*max(t - 0.5, 0)^4*step(t - 0.505) + 6.25e-6*step(t - 0.505) + 1e-6*max(t - 0.25, 0)",
+            "0",
+            "1",
+            Some("at t = 0.505 s:"),
+        ),
+        // A small jump beside a slow motion.
+        ("1e-6*t + 1e-6*max(t - 0.25, 0)", "0", "1", Some("at t = 0.25 s:")),
+        ("t + 1e-4*max(t - 0.25, 0)", "0", "1", None),
+        ("t + 1e-2*max(t - 0.25, 0)", "0", "1", Some("at t = 0.25 s:")),
+        // Large values without a jump, and a place that jumps while the speed does not.
+        ("1e3*t + 50*max(t - 0.25, 0)^2", "0", "1", None),
+        ("t - 1e-2*step(t - 0.25)", "0", "1", Some("at t = 0.25 s:")),
+    ] {
+        let drive = format!(
+            "[joints.drive]\nkind = \"prescribed_displacement\"\njoint = \"rail\"\ndisplacement = \"{motion}\"\n"
+        );
+        let times = [("analysis.start", from), ("analysis.end", until)]
+            .map(|(key, value)| (key.to_owned(), value.to_owned()));
+        let document =
+            Model::from_text("model.toml", &rail::rail(0.0, &drive, "step = 1e-2")).document(&times);
+        let lowered = document
+            .and_then(|document| lower(&document))
+            .unwrap_or_else(|report| panic!("{motion}: {}", report.render(false)));
+        let warnings: Vec<String> = lowered.warnings.iter().map(ToString::to_string).collect();
+        let found = warnings.iter().find(|warning| warning.contains("jumps in place or speed"));
+        assert_eq!(found.is_some(), wanted.is_some(), "{motion}: {warnings:?}");
+        assert!(
+            found.is_none_or(|found| wanted.is_some_and(|wanted| found.contains(wanted))),
+            "{motion}: {warnings:?}"
+        );
+    }
+}

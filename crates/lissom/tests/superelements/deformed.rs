@@ -10,10 +10,12 @@ const INTERFACES: [(&str, f64); 3] = [("bar_start", 0.0), ("bar_0_5", 0.5), ("ba
 
 /// A soft bar with three interfaces and two modes that flies, turns and bends. The recovery matrix is the identity.
 fn flying(floating: &str, scheme: &str, step: f64, end: f64) -> Model {
-    let soft = beam(MODES).replace("[1e6, 4e5, 4e5, 100, 200, 300]", "[3e3, 4e3, 4e3, 2, 3, 4]");
+    let soft = beam(MODES).replace("[1e6, 4e5, 4e5, 100, 200, 300]", "[3e4, 4e4, 4e4, 20, 30, 40]");
     let request = ReduceRequest { corrections: false, ..request(&["bar.start", "bar@0.5", "bar.end"], 2) };
     let report = reduce(&Model::from_text("model.toml", &soft), &[], &request)
         .unwrap_or_else(|error| panic!("{error}"));
+    // Matrices of second order belong to the interface that was held.
+    let report = if floating == INTERFACES[0].0 { report } else { bare(&report) };
     let (_, table) = report.files.last().expect("the table");
     let mut texts: BTreeMap<String, String> = report.files.iter().cloned().collect();
     let size = 6 * INTERFACES.len() + 2;
@@ -35,7 +37,7 @@ fn flying(floating: &str, scheme: &str, step: f64, end: f64) -> Model {
          [joints.end]\nkind = \"clamp\"\nbase = \"part.bar_end\"\ntip = \"end\"\n\
          [outputs.modes]\nkind = \"modal\"\nof = \"part\"\n[outputs.seen]\nkind = \"recovered\"\nof = \"part\"\n\
          [outputs.energy]\nkind = \"energy\"\n[outputs.momentum]\nkind = \"momentum\"\n\
-         [initial]\nvelocity = [0.2, 0, 0.1]\nangular_velocity = [4, 3, 2]\nabout = [0.5, 0, 0]\n\
+         [initial]\nvelocity = [0.2, 0, 0.1]\nangular_velocity = [3, 2, 2]\nabout = [0.5, 0, 0]\n\
          [analysis]\nkind = \"dynamics\"\nend = {end}\nstep = {step}\nscheme = \"{scheme}\"\n"
     );
     Model::from_text("model.toml", &format!("{table}{rest}")).with_known(texts)
@@ -72,10 +74,11 @@ fn deformations_are_seen_from_the_floating_interface() {
                 let place = base.apply_inverse(&(position(name) - position(floating)));
                 let moved = place - Vector3::new(along - at, 0.0, 0.0);
                 let turned = (base.inverse() * axes(&record, name, row)).logarithm();
-                for (first, wanted, most) in [(1, moved, &mut most[0]), (4, turned, &mut most[1])] {
-                    let found = Vector3::from([0, 1, 2].map(|axis| seen(6 * index + first + axis, row)));
+                for (kind, wanted) in [moved, turned].into_iter().enumerate() {
+                    let found =
+                        Vector3::from([0, 1, 2].map(|axis| seen(6 * index + 3 * kind + 1 + axis, row)));
                     assert!((found - wanted).norm() < 1e-10, "{floating}, {name}: {found} {wanted}");
-                    *most = most.max(wanted.norm());
+                    most[kind] = most[kind].max(wanted.norm());
                 }
             }
             for mode in 1..=2 {
@@ -86,33 +89,22 @@ fn deformations_are_seen_from_the_floating_interface() {
                 );
             }
         }
-        assert!(most[0] > 1e-3 && most[1] > 1e-2, "it bends: {most:?}");
+        assert!(most[0] > 1e-4 && most[1] > 1e-3, "it bends: {most:?}");
     }
 }
 
-/// Steps over which the deformation turns by a few hundredths of a radian: the energy never increases, its loss is that of the third order,
-/// and the motion does not depend on the floating interface more than on the step.
+/// Steps over which the part turns by up to 0.04 rad: the scheme without dissipation preserves the energy except for the inertia of the
+/// deformed part, which is that of the stages; whatever interface floats.
 #[test]
-fn energy_decays_over_long_steps_whatever_interface_floats() {
+fn energy_is_preserved_over_long_steps_whatever_interface_floats() {
     for (floating, _) in INTERFACES {
-        let losses: Vec<f64> = [2e-3, 4e-3, 8e-3]
-            .into_iter()
-            .map(|step| {
-                let record = ran(&flying(floating, "energy-decaying", step, 0.2), &[]);
-                let energy = column(&record, "energy", "total");
-                for pair in energy.windows(2) {
-                    assert!(pair[1] <= pair[0] + 1e-9 * energy[0], "{floating}, {step}: {pair:?}");
-                }
-                for component in ["p1", "p2", "p3", "l1", "l2", "l3"] {
-                    let values = column(&record, "momentum", component);
-                    let change = values.iter().map(|value| (value - values[0]).abs()).fold(0.0, f64::max);
-                    println!("{floating} {step} {component} {change:e}");
-                }
-                println!("{floating} {step} {energy:?}");
-                1.0 - energy[energy.len() - 1] / energy[0]
-            })
-            .collect();
-        println!("{floating} {losses:?}");
+        for (step, allowed) in [(2e-3, 2e-8), (8e-3, 3e-7)] {
+            let model = flying(floating, "energy-decaying", step, 0.2);
+            let record = ran(&model, &[set("analysis.spectral_radius", "1.0")]);
+            let energy = column(&record, "energy", "total");
+            let change = energy.iter().map(|value| (value - energy[0]).abs()).fold(0.0, f64::max);
+            assert!(change < allowed, "{floating}, {step}: {change:e}");
+            assert!(column(&record, "energy", "strain").iter().any(|strain| *strain > 1e-4), "it bends");
+        }
     }
-    panic!();
 }
