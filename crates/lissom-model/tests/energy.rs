@@ -100,7 +100,7 @@ fn energy_never_increases_with_any_joint_spring_or_beam() {
 }
 
 /// Two bodies that tumble, each spring that is integrated over a step alone between them, and beams of each order.
-const TUMBLING: &str = r#"
+const TUMBLING: &str = r"
 lissom = 1
 [bodies.a]
 mass = 1
@@ -114,7 +114,7 @@ inertia = [0.03, 0.02, 0.04]
 position = [1, 0.2, -0.1]
 velocity = [-0.3, 0.5, 0.1]
 angular_velocity = [-2, 3, 1]
-"#;
+";
 const SECTION: &str = r#"
 [sections.bar]
 shape = "general"

@@ -227,4 +227,95 @@ mod tests {
         let wanted = 0.75 * of(0.01).stiffness[(3, 3)] + 0.25 * of(0.03).stiffness[(3, 3)];
         assert!((middle.stiffness[(3, 3)] / wanted - 1.0).abs() < 1e-15);
     }
+
+    /// Area and second moments of each shape, summed over small cells of the square around it.
+    #[test]
+    fn integrals_are_sums_over_the_section() {
+        let shapes = [
+            (Shape::Rectangle { width: 1.2, height: 0.7 }, 0.6, 0.35),
+            (Shape::Circle { radius: 0.8 }, 0.8, 0.8),
+            (Shape::Tube { outer_radius: 0.9, thickness: 0.3 }, 0.9, 0.9),
+        ];
+        for (shape, half_width, half_height) in shapes {
+            let is_inside = |y: f64, z: f64| match shape {
+                Shape::Rectangle { .. } => true,
+                Shape::Circle { radius } => y.hypot(z) <= radius,
+                Shape::Tube { outer_radius, thickness } => {
+                    (outer_radius - thickness..=outer_radius).contains(&y.hypot(z))
+                }
+            };
+            let cells = 2000;
+            let place = |half: f64, k: i32| half * ((2.0 * f64::from(k) + 1.0) / f64::from(cells) - 1.0);
+            let cell = 4.0 * half_width * half_height / f64::from(cells).powi(2);
+            let (mut area, mut second) = (0.0, [0.0; 2]);
+            for i in 0..cells {
+                for j in 0..cells {
+                    let (y, z) = (place(half_width, i), place(half_height, j));
+                    if is_inside(y, z) {
+                        area += cell;
+                        second[0] += cell * z * z;
+                        second[1] += cell * y * y;
+                    }
+                }
+            }
+            let found = shape.integrals();
+            let close = |found: f64, wanted: f64| {
+                assert!((found / wanted - 1.0).abs() < 1e-3, "{shape:?}: {found} {wanted}");
+            };
+            close(found.area, area);
+            close(found.second[0], second[0]);
+            close(found.second[1], second[1]);
+            if !matches!(shape, Shape::Rectangle { .. }) {
+                close(found.torsion, second[0] + second[1]);
+            }
+            // Coefficients of shear along the sides, and what follows for stiffness and mass.
+            for theory in [ShearTheory::Cowper, ShearTheory::Renton] {
+                let [k2, k3] = shape.shear_coefficients(theory, ALUMINIUM.poisson());
+                let wanted = match shape {
+                    Shape::Rectangle { .. } => {
+                        [theory.rectangle(1.2, 0.7, 0.3), theory.rectangle(0.7, 1.2, 0.3)]
+                    }
+                    Shape::Circle { .. } => [theory.ring(0.0, 0.3); 2],
+                    Shape::Tube { .. } => [theory.ring(2.0 / 3.0, 0.3); 2],
+                };
+                assert!(
+                    (k2 - wanted[0]).abs() < 1e-12 && (k3 - wanted[1]).abs() < 1e-12,
+                    "{shape:?}: {k2} {k3}"
+                );
+                let section = SectionProperties::homogeneous(&shape, &ALUMINIUM, Shear::Theory(theory));
+                let stiffness = [
+                    73e9 * found.area,
+                    k2 * ALUMINIUM.shear * found.area,
+                    k3 * ALUMINIUM.shear * found.area,
+                    ALUMINIUM.shear * found.torsion,
+                    73e9 * found.second[0],
+                    73e9 * found.second[1],
+                ];
+                let inertia = [found.second[0] + found.second[1], found.second[0], found.second[1]];
+                let mass = [[found.area; 3], inertia].concat();
+                for k in 0..6 {
+                    assert!((section.stiffness[(k, k)] / stiffness[k] - 1.0).abs() < 1e-13, "{shape:?} {k}");
+                    assert!((section.mass[(k, k)] / (2680.0 * mass[k]) - 1.0).abs() < 1e-13, "{shape:?} {k}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn mass_and_damping_between_stations_are_linear_as_well() {
+        let of = |radius: f64, damping: f64| {
+            let shape = Shape::Circle { radius };
+            let own = SectionProperties::homogeneous(&shape, &ALUMINIUM, Shear::Given(0.7, 0.8));
+            SectionProperties { damping, ..own }
+        };
+        let (a, b) = (of(0.01, 0.2), of(0.03, 0.6));
+        let between = a.towards(&b, 0.25);
+        assert!((between.mass - (a.mass * 0.75 + b.mass * 0.25)).norm() < 1e-15 * b.mass.norm());
+        assert!(
+            (between.stiffness - (a.stiffness * 0.75 + b.stiffness * 0.25)).norm()
+                < 1e-15 * b.stiffness.norm()
+        );
+        assert!((between.damping - 0.3).abs() < 1e-15);
+        assert_eq!((a.towards(&b, 0.0), a.towards(&b, 1.0)), (a, b));
+    }
 }
