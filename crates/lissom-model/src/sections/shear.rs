@@ -111,49 +111,4 @@ mod tests {
             assert!((found / wanted - 1.0).abs() < 3e-3, "{b}: {found} {wanted}");
         }
     }
-
-    /// Love's flexure function of the hollow circle [A Treatise on the Mathematical Theory of Elasticity, articles 229 and 230],
-    /// for a load along x: force and energy of its stresses, integrated over the ring.
-    #[test]
-    fn rings_have_the_energy_of_loves_stresses() {
-        for (inner, poisson) in [(0.3, 0.0), (0.3, 0.3), (0.6, 0.25), (0.8, 0.45)] {
-            let (a2, b2) = (1.0, inner * inner);
-            let second = PI * (1.0 - b2 * b2) / 4.0;
-            let flexure = |x: f64, y: f64| {
-                let square = x * x + y * y;
-                -((0.75 + 0.5 * poisson) * ((a2 + b2) + a2 * b2 / square) - 0.25 * square) * x
-            };
-            let (mut force, mut energy) = (0.0, 0.0);
-            let (rings, sectors) = (400, 64);
-            for ring in 0..rings {
-                let width = (1.0 - inner) / f64::from(rings);
-                let radius = inner + width * (f64::from(ring) + 0.5);
-                for sector in 0..sectors {
-                    let (sine, cosine) =
-                        (2.0 * PI * (f64::from(sector) + 0.5) / f64::from(sectors)).sin_cos();
-                    let (x, y, h) = (radius * cosine, radius * sine, 1e-5);
-                    let by_x = (flexure(x + h, y) - flexure(x - h, y)) / (2.0 * h);
-                    let by_y = (flexure(x, y + h) - flexure(x, y - h)) / (2.0 * h);
-                    let factor = -1.0 / (2.0 * (1.0 + poisson) * second);
-                    let along = factor * (by_x + 0.5 * poisson * x * x + (1.0 - 0.5 * poisson) * y * y);
-                    let across = factor * (by_y + (2.0 + poisson) * x * y);
-                    let area = width * radius * 2.0 * PI / f64::from(sectors);
-                    force += along * area;
-                    energy += (along * along + across * across) * area;
-                }
-            }
-            assert!((force - 1.0).abs() < 1e-4, "{inner} {poisson}: force {force}");
-            let wanted = 1.0 / (PI * (1.0 - b2) * energy);
-            let found = ShearTheory::Renton.ring(inner, poisson);
-            assert!((found / wanted - 1.0).abs() < 1e-4, "{inner} {poisson}: {found} {wanted}");
-        }
-    }
-
-    /// Cowper's formula with the ratio m of the radii: 6(1+ν)(1+m²)²/[(7+6ν)(1+m²)² + (20+12ν)m²].
-    #[test]
-    fn cowpers_ring_between_solid_and_thin() {
-        // m = 1/2, ν = 1/4: 7.5·1.5625/(8.5·1.5625 + 23/4).
-        let wanted = 7.5 * 1.5625 / (8.5 * 1.5625 + 5.75);
-        assert!((ShearTheory::Cowper.ring(0.5, 0.25) - wanted).abs() < 1e-14);
-    }
 }
