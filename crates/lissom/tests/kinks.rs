@@ -357,7 +357,7 @@ fn warnings_of_drives_count_their_jumps() {
         let times = [("analysis.start", from), ("analysis.end", until)]
             .map(|(key, value)| (key.to_owned(), value.to_owned()));
         let document =
-            Model::from_text("model.toml", &rail::rail(0.0, &drive, "step = 1e-2")).document(&times);
+            Model::from_text("model.toml", &rail::rail(1.0, 0.0, &drive, "step = 1e-2")).document(&times);
         let lowered = document
             .and_then(|document| lower(&document))
             .unwrap_or_else(|report| panic!("{motion}: {}", report.render(false)));

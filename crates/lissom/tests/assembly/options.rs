@@ -8,15 +8,16 @@ use super::{ANALYSIS, END, assembly, lowered, moved, refused};
 
 /// Parts of several kinds, the k-th pinned to the ground at 0.1 k m from its reference point.
 fn pinned(count: usize) -> String {
-    (1..=count)
-        .map(|k| {
-            let gap = 0.1 * k as f64;
-            format!(
-                "[bodies.p{k}]\nmass = 1\ninertia = [1, 1, 1]\nposition = [{k}, 0, 0]\n[joints.j{k}]\nkind = \"spherical\"\n\
-                 base = \"ground\"\ntip = \"p{k}\"\nat = [{k}, {gap}, 0]\nat_tip = [{k}, 0, 0]\n"
-            )
-        })
-        .collect()
+    let mut text = String::new();
+    for k in 1..=count {
+        let gap = 0.1 * k as f64;
+        let _ = writeln!(
+            text,
+            "[bodies.p{k}]\nmass = 1\ninertia = [1, 1, 1]\nposition = [{k}, 0, 0]\n[joints.j{k}]\nkind = \"spherical\"\n\
+             base = \"ground\"\ntip = \"p{k}\"\nat = [{k}, {gap}, 0]\nat_tip = [{k}, 0, 0]"
+        );
+    }
+    text
 }
 
 const COORDINATES: &str = r#"
