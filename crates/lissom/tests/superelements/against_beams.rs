@@ -189,6 +189,24 @@ fn a_swinging_blade_never_pushes_on_its_hinge() {
     }
 }
 
+/// A blade that is stopped so hard that it bends beyond the range of its second-order matrices does not go on with a kinetic energy that is
+/// not positive.
+#[test]
+fn a_blade_bent_beyond_its_matrices_is_rejected() {
+    let text = blade('x', false, false);
+    let report = reduced_blade(&text, 10, true);
+    let s = "((t - 0.2)/0.5)";
+    let rotation = format!("if(t < 0.2, 2.5*t, if(t < 0.7, 0.5 + 1.25*({s} - {s}^3 + 0.5*{s}^4), 1.125))");
+    let rest = on_a_hub('x', &rotation, 2.5, "steady_rotation = true\n", 0.7);
+    let [_, own] = models(&text, &report, "", &rest);
+    let mut session = own.session(&[]).unwrap_or_else(|error| panic!("{error}"));
+    let (found, ended) = session.record();
+    let message = ended.error().map(ToString::to_string).unwrap_or_default();
+    assert!(message.contains("kinetic energy is no longer positive"), "{message}");
+    assert!(message.contains("--modes-alone"), "{message}");
+    assert!(found.times.last().is_some_and(|time| *time > 0.3 && *time < 0.5), "{:?}", found.times.last());
+}
+
 /// Free blades along every axis can be reduced: residuals of rigid motions are compared with the norm of the stiffness.
 #[test]
 fn free_blades_are_reduced_along_every_axis() {

@@ -217,7 +217,8 @@ fn corrections_make_up_for_modes_left_out() {
         assert!(slow < 1e-4 && fast < 3e-4 && fastest < 1.5e-3, "{modes}: {slow:e} {fast:e} {fastest:e}");
         assert!((1..20).contains(&report.corrections), "{modes}: {}", report.corrections);
     }
-    // Six modes alone, none of which stretches the beam, err by 2.4 %.
-    let [.., fastest] = errors(&reduced_to_modes(&damped, &["bar.start", "bar.end"], 6));
-    assert!(fastest > 0.02, "{fastest:e}");
+    // The static response of modes that are left out stiffens six modes alone, none of which stretches the beam.
+    let [slow, fast, fastest] = errors(&reduced_to_modes(&damped, &["bar.start", "bar.end"], 6));
+    println!("6 none {slow:e} {fast:e} {fastest:e}");
+    assert!(fastest < 1.5e-3, "{fastest:e}");
 }

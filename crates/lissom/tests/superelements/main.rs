@@ -536,7 +536,7 @@ fn turning_fast_is_a_warning() {
     for (speed, expected) in [(10.0, vec![]), (20.0, vec!["turns-fast"])] {
         let rest = format!(
             "[joints.hinge]\nkind = \"revolute\"\nbase = \"ground\"\ntip = \"part.bar_start\"\naxis = [0, 0, 1]\n\
-             [initial]\nangular_velocity = [0, 0, {speed}]\n\
+             [initial]\nangular_velocity = [0, 0, {speed}]\nsteady_rotation = true\n\
              [analysis]\nkind = \"dynamics\"\nend = 0.05\nstep = 1e-3\n"
         );
         let mut session = using(&bare(&report), &rest).session(&[]).expect("a good model");
