@@ -49,8 +49,8 @@ pub(crate) fn may_help(error: &StepError) -> bool {
     )
 }
 
-/// The equilibrium downhill from the positions of `state`, under loads and drives as they are at `time` [s], and what is to be
-/// told of it; none if it is not found. Adds Newton's iterations to `iterations`.
+/// The equilibrium downhill from the positions of `state`, under loads and drives as they are at `time` [s], and its
+/// warnings; none if it is not found. Adds Newton's iterations to `iterations`.
 pub(crate) fn relax(
     system: &Arc<System>,
     state: &State,

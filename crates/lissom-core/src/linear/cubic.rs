@@ -10,8 +10,8 @@
 //!
 //! The energy has the third derivatives T, for the three weights of a term have the sum 1, and is not negative. A term should fall to
 //! the mode that is stretched by the other two, which bend: with a weight on a mode that bends, terms of
-//! fourth order would be as large as the bending itself. What is stretched changes the stiffness of all others, so that r tells
-//! it: a mode that bends a straight part has r = 0, for it cannot matter to which side it bends. Among modes alike the stiffest one counts.
+//! fourth order would be as large as the bending itself. What is stretched changes the stiffness of all others, so that r gives
+//! it: a mode that bends a straight part has r = 0, since both sides are equal. Among equal modes the stiffest one counts.
 //!
 //! A steady rotation loads the part between the interfaces, and moves the modes that are left out, too. In statics they are displaced by w_d,
 //! and K_g = Σ w_d T_d with the same weights acts on those that are kept, as part of the inertia about the frame. Modes that are kept move by

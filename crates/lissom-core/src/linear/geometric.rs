@@ -11,7 +11,7 @@
 //! ```
 //!
 //! Shapes of first order stretch what they bend. What shortens instead does work against a load -r by -½ y·K_g[w] y, with K w = -r and
-//! the interfaces held: A - K_g for rotation, B + K_g for ω̇, S + K_g for a. `cubic` tells what of it belongs to the shapes themselves.
+//! the interfaces held: A - K_g for rotation, B + K_g for ω̇, S + K_g for a. `cubic` computes what of it belongs to the shapes themselves.
 
 use lissom_motion::{Matrix3, Rotation, Vector3, Vector6, rotation_tangent, screw};
 use nalgebra::{DMatrix, DVector};

@@ -220,7 +220,7 @@ fn free_blades_are_reduced_along_every_axis() {
     }
 }
 
-/// Matrices of the earlier form, whose loads count twice, are left out and this is told.
+/// Matrices of the earlier form, whose loads count twice, are left out with a warning.
 #[test]
 fn geometric_matrices_of_the_earlier_form_are_left_out() {
     let text = blade('x', false, false);
@@ -234,6 +234,6 @@ fn geometric_matrices_of_the_earlier_form_are_left_out() {
     }
     let document = using(&report, MODES).document(&[]).expect("a good model");
     assert!(document.superelements[0].matrices.geometric.is_none());
-    let told: Vec<String> = document.warnings.problems().map(|problem| problem.message.clone()).collect();
-    assert!(told.iter().any(|words| words.contains("counts loads twice")), "{told:?}");
+    let messages: Vec<String> = document.warnings.problems().map(|problem| problem.message.clone()).collect();
+    assert!(messages.iter().any(|words| words.contains("counts loads twice")), "{messages:?}");
 }

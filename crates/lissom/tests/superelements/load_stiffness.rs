@@ -2,20 +2,20 @@
 
 use super::*;
 
-/// A beam that spins about its end under its weight, damped so that it comes to rest: what it bends at the end, and what is told.
+/// A beam that spins about its end under its weight, damped until it is at rest: the deflection of the end, and the warnings.
 fn spinning(model: &Model, speed: f64) -> (f64, Vec<(String, f64)>) {
     let overrides = [set("parameters.speed", &speed.to_string())];
     let mut session = model.session(&overrides).unwrap_or_else(|error| panic!("{error}"));
     let (record, report) = session.record();
     assert!(report.is_complete(), "{:?}", report.error());
-    let told = session.warnings().filter_map(|warning| match warning {
+    let warnings = session.warnings().filter_map(|warning| match warning {
         lissom_core::judge::Warning::LoadStiffness { largest, .. } => {
             Some((warning.code().to_owned(), 0.5 * largest))
         }
         lissom_core::judge::Warning::TurnsFast { .. } => None,
         other => Some((other.code().to_owned(), 0.0)),
     });
-    (last(&record, "end", "u3"), told.collect())
+    (last(&record, "end", "u3"), warnings.collect())
 }
 
 const SPIN: &str = "[joints.hinge]\nkind = \"prescribed_motion\"\nbase = \"ground\"\ntip = \"START\"\nrz = \"speed*t\"\n\
@@ -38,7 +38,7 @@ fn spinning_models(damped: &str, report: &ReduceReport) -> (Model, Model) {
     (weighed(damped, "bar.start", "bar.end"), own)
 }
 
-/// Spinning beam of a hub and a tip, over speeds: an error of 1 % of what it bends is told, and one of 0.1 % is not.
+/// Spinning beam of a hub and a tip, over speeds: an error of 1 % of the deflection causes a warning, and one of 0.1 % does not.
 #[test]
 fn stiffness_that_rotation_changes_is_told() {
     let damped = beam(MODES).replace("[beams.bar]", "damping = 0.01\n[beams.bar]");
@@ -48,10 +48,10 @@ fn stiffness_that_rotation_changes_is_told() {
     for speed in [0.5, 1.0, 2.0, 4.0, 7.0, 10.0, 15.0] {
         let (bent, none) = spinning(&exact, speed);
         assert!(none.is_empty(), "{none:?}");
-        let (found, told) = spinning(&own, speed);
+        let (found, warnings) = spinning(&own, speed);
         let error = (found / bent - 1.0).abs();
-        match told.as_slice() {
-            [] => assert!(error < 0.005, "{speed} rad/s: {error} and nothing is told"),
+        match warnings.as_slice() {
+            [] => assert!(error < 0.005, "{speed} rad/s: {error} without a warning"),
             [(code, share)] => {
                 assert_eq!(code, "load-stiffness");
                 assert!(
@@ -78,7 +78,7 @@ fn stiffness_that_axial_forces_change_is_told() {
         assert!(session.record().1.is_complete());
         let codes: Vec<&str> = session.warnings().map(lissom_core::judge::Warning::code).collect();
         match codes.as_slice() {
-            [] => assert!(error < 0.005, "{speed} 1/min: {error} and nothing is told"),
+            [] => assert!(error < 0.005, "{speed} 1/min: {error} without a warning"),
             ["load-stiffness"] => assert!(error > 0.001, "{speed} 1/min: {error}"),
             more => panic!("{more:?}"),
         }
@@ -86,7 +86,7 @@ fn stiffness_that_axial_forces_change_is_told() {
     }
 }
 
-/// With what `lissom reduce` tells of second order the spinning beam bends as the beam does, and nothing is told.
+/// With the second order that `lissom reduce` writes, the spinning superelement bends as the beam does, without a warning.
 #[test]
 fn geometric_stiffness_is_that_of_the_beam() {
     let damped = beam(MODES).replace("[beams.bar]", "damping = 0.01\n[beams.bar]");
@@ -95,9 +95,9 @@ fn geometric_stiffness_is_that_of_the_beam() {
     let (exact, own) = spinning_models(&damped, &report);
     for speed in [5.0, 15.0, 30.0, 49.0] {
         let (bent, _) = spinning(&exact, speed);
-        let (found, told) = spinning(&own, speed);
+        let (found, warnings) = spinning(&own, speed);
         let error = (found / bent - 1.0).abs();
-        assert!(error < 0.005 && told.is_empty(), "{speed} rad/s: {error:e}, {told:?}");
+        assert!(error < 0.005 && warnings.is_empty(), "{speed} rad/s: {error:e}, {warnings:?}");
     }
 }
 
@@ -179,7 +179,7 @@ fn geometric_matrices_that_do_not_fit_are_refused() {
         2,
     );
     let more = reduced_to_modes(&beam(MODES), &["bar.start", "bar.end"], 3);
-    let told = |taken: &ReduceReport, change: (&str, &str)| {
+    let message = |taken: &ReduceReport, change: (&str, &str)| {
         let mut mixed = report.clone();
         for ((name, text), (_, taken)) in mixed.files.iter_mut().zip(&taken.files) {
             if name.contains("geometric") {
@@ -187,14 +187,14 @@ fn geometric_matrices_that_do_not_fit_are_refused() {
             }
             *text = text.replace(change.0, change.1);
         }
-        let told = using(&mixed, MODES).document(&[]).expect_err("does not fit").render(false);
-        told.replace('│', " ").split_whitespace().collect::<Vec<_>>().join(" ")
+        let text = using(&mixed, MODES).document(&[]).expect_err("does not fit").render(false);
+        text.replace('│', " ").split_whitespace().collect::<Vec<_>>().join(" ")
     };
     let none = ("no such words", "");
-    assert!(told(&other, none).contains("does not fit the mass"), "{}", told(&other, none));
-    assert!(told(&more, none).contains("needs 14 columns and 174 rows"), "{}", told(&more, none));
+    assert!(message(&other, none).contains("does not fit the mass"), "{}", message(&other, none));
+    assert!(message(&more, none).contains("needs 14 columns and 174 rows"), "{}", message(&more, none));
     let floating = ("geometric =", "floating = \"bar_end\"\ngeometric =");
-    assert!(told(&report, floating).contains("hold for the first interface"), "{}", told(&report, floating));
+    assert!(message(&report, floating).contains("hold for the first interface"), "{}", message(&report, floating));
 }
 
 /// The beam that spins at up to its first frequency: what modes that are left out would do is made up for.
@@ -204,8 +204,8 @@ fn corrections_make_up_for_modes_left_out() {
     let errors = |report: &ReduceReport| {
         let (exact, own) = spinning_models(&damped, report);
         [15.0, 30.0, 49.0].map(|speed| {
-            let ((bent, _), (found, told)) = (spinning(&exact, speed), spinning(&own, speed));
-            assert!(told.is_empty(), "{speed} rad/s: {told:?}");
+            let ((bent, _), (found, warnings)) = (spinning(&exact, speed), spinning(&own, speed));
+            assert!(warnings.is_empty(), "{speed} rad/s: {warnings:?}");
             (found / bent - 1.0).abs()
         })
     };

@@ -361,7 +361,7 @@ fn a_reduced_part_can_be_reduced_again() {
 
 #[test]
 fn what_is_no_elastic_assembly_is_refused() {
-    let told =
+    let message =
         |text: &str, interfaces: &[&str]| try_reduce(text, interfaces, 0).expect_err("wrong").to_string();
     let held = beam(&format!("{}{MODES}", clamp("bar@0.5")));
     for (text, interfaces, words) in [
@@ -386,7 +386,7 @@ fn what_is_no_elastic_assembly_is_refused() {
             "with its interfaces held",
         ),
     ] {
-        let error = told(&text, &interfaces);
+        let error = message(&text, &interfaces);
         assert!(error.contains(words), "{interfaces:?}, {words}: {error}");
     }
 }
@@ -433,9 +433,9 @@ fn files_are_read_as_they_were_written() {
         let text = format!("{archived}{rest}").replace(from, to);
         let path = folder.join("wrong.toml");
         std::fs::write(&path, text).expect("a file");
-        let told = Model::read(&path).expect("a text").document(&[]);
-        let told = told.expect_err(words).render(false).replace('│', " ");
-        assert!(told.split_whitespace().collect::<Vec<_>>().join(" ").contains(words), "{words}: {told}");
+        let message = Model::read(&path).expect("a text").document(&[]);
+        let message = message.expect_err(words).render(false).replace('│', " ");
+        assert!(message.split_whitespace().collect::<Vec<_>>().join(" ").contains(words), "{words}: {message}");
     }
     std::fs::remove_dir_all(&folder).expect("a folder");
 }
@@ -447,8 +447,8 @@ fn no_description_of_rigid_bodies_leaves_it_out_unseen() {
         .expect("a text")
         .document(&[])
         .expect("a good model");
-    let told = lissom::import::from_model(&document).expect_err("flexible").to_string();
-    assert!(told.contains("superelement `rod` is flexible"), "{told}");
+    let message = lissom::import::from_model(&document).expect_err("flexible").to_string();
+    assert!(message.contains("superelement `rod` is flexible"), "{message}");
 }
 
 fn example(name: &str) -> String {
@@ -512,7 +512,7 @@ fn the_rod_of_the_slider_crank_bends_as_the_beam() {
     assert!(most > 4e-6 && wrong < 0.04, "{wrong:e} of {most:e}");
 }
 
-/// Large deformations are told of.
+/// Large deformations cause a warning.
 #[test]
 fn leaving_the_linear_range_is_a_warning() {
     let report = reduced(&beam(MODES), &["bar.start", "bar.end"], 2);
@@ -528,7 +528,7 @@ fn leaving_the_linear_range_is_a_warning() {
     assert_eq!(codes, ["beyond-linear"]);
 }
 
-/// What turns nearly as fast as it swings is stiffened by that, which its matrices do not know: this is told. The first
+/// What turns nearly as fast as it swings is stiffened by that, which its matrices do not contain: a warning reports it. The first
 /// frequency with the floating interface held is 7.9 Hz.
 #[test]
 fn turning_fast_is_a_warning() {
@@ -547,7 +547,7 @@ fn turning_fast_is_a_warning() {
     }
 }
 
-/// The files of a reduction without what it tells of geometric stiffness, as another program would give them.
+/// The files of a reduction without its geometric stiffness, as another program would give them.
 fn bare(report: &ReduceReport) -> ReduceReport {
     let mut report = report.clone();
     for (_, text) in &mut report.files {

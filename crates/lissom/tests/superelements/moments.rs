@@ -2,7 +2,7 @@
 
 use super::*;
 
-/// Displacement and rotation of the end of a cantilever under loads there, and what is told with its code.
+/// Displacement and rotation of the end of a cantilever under loads there, and the warnings with their codes.
 fn bent(model: &Model, [y, z, torque]: [f64; 3]) -> ([f64; 6], Vec<(String, f64)>) {
     let set = |name: &str, value: f64| set(&format!("parameters.{name}"), &format!("{value:?}"));
     let overrides = [set("y", y), set("z", z), set("torque", torque)];
@@ -12,14 +12,14 @@ fn bent(model: &Model, [y, z, torque]: [f64; 3]) -> ([f64; 6], Vec<(String, f64)
     let of = |output: &str, component: &str| last(&record, output, component);
     let found = ["u1", "u2", "u3"].map(|component| of("end", component));
     let turned = ["r1", "r2", "r3"].map(|component| of("turn", component));
-    let told = session.warnings().map(|warning| match warning {
+    let warnings = session.warnings().map(|warning| match warning {
         lissom_core::judge::Warning::MomentStiffness { largest, .. } => {
             (warning.code().to_owned(), 0.005 * largest)
         }
         other => (other.code().to_owned(), 0.0),
     });
-    let told = told.collect();
-    ([found[0], found[1], found[2], turned[0], turned[1], turned[2]], told)
+    let warnings = warnings.collect();
+    ([found[0], found[1], found[2], turned[0], turned[1], turned[2]], warnings)
 }
 
 /// The beam and its superelement under forces across and a torque at the end.
@@ -36,7 +36,7 @@ fn loaded(interfaces: [&str; 2], text: &str) -> String {
         + &rest
 }
 
-/// Bending in two planes, and bending with torque, over loads: an error of 1 % is told, and one of 0.2 % is not. Of it up to 0.5 % is
+/// Bending in two planes, and bending with torque, over loads: an error of 1 % causes a warning, and one of 0.2 % does not. Of it up to 0.5 % is
 /// that of forces which move along with the end, and no moments.
 #[test]
 fn stiffness_that_moments_change_is_told() {
@@ -56,15 +56,15 @@ fn stiffness_that_moments_change_is_told() {
             let loads = direction.map(|part| size * part);
             let (exact, none) = bent(&exact, loads);
             assert!(none.is_empty(), "{none:?}");
-            let (found, told) = bent(&own, loads);
+            let (found, warnings) = bent(&own, loads);
             let largest = exact.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             let error_of = |found: &[f64; 6], first: usize| {
                 (first..6).map(|k| (found[k] - exact[k]).abs()).fold(0.0, f64::max) / largest
             };
             // Without matrices of second order the shortening is missed as well, which moments do not make.
             let error = error_of(&found, 1);
-            match told.as_slice() {
-                [] => assert!(error < 0.01, "{loads:?}: {error} and nothing is told"),
+            match warnings.as_slice() {
+                [] => assert!(error < 0.01, "{loads:?}: {error} without a warning"),
                 [(code, part)] => {
                     assert_eq!(code, "moment-stiffness", "{loads:?}");
                     assert!(

@@ -102,21 +102,21 @@ fn modal_coordinates_are_in_the_units_of_the_file() {
 
 #[test]
 fn recovery_that_does_not_fit_is_refused() {
-    let told = |recovery: Option<&str>, kind: &str| {
+    let message = |recovery: Option<&str>, kind: &str| {
         let rest = format!(
             "{}[outputs.seen]\nkind = \"{kind}\"\nof = \"part\"\n[analysis]\nkind = \"statics\"\nsteps = 1\n",
             clamp("part.bar_start")
         );
         let model = held(&rest, recovery);
-        let told = match model.session(&[]) {
+        let text = match model.session(&[]) {
             Err(lissom::SessionError::Model(report)) => report.render(false),
             Err(other) => other.to_string(),
             Ok(_) => String::new(),
         };
-        told.replace('│', " ").split_whitespace().collect::<Vec<_>>().join(" ")
+        text.replace('│', " ").split_whitespace().collect::<Vec<_>>().join(" ")
     };
     let few = file(&[vec![1.0; 13]]);
-    assert!(told(Some(&few), "recovered").contains("has 13 columns"), "{}", told(Some(&few), "recovered"));
-    assert!(told(None, "recovered").contains("has no `recovery`"), "{}", told(None, "recovered"));
-    assert_eq!(told(None, "modal"), "");
+    assert!(message(Some(&few), "recovered").contains("has 13 columns"), "{}", message(Some(&few), "recovered"));
+    assert!(message(None, "recovered").contains("has no `recovery`"), "{}", message(None, "recovered"));
+    assert_eq!(message(None, "modal"), "");
 }

@@ -27,15 +27,15 @@ impl Live {
         command.args(["live", model]).current_dir(folder).stdout(Stdio::piped());
         let mut program = command.spawn().unwrap();
         let output = program.stdout.take().unwrap();
-        let (tell, told) = std::sync::mpsc::channel();
+        let (sender, receiver) = std::sync::mpsc::channel();
         std::thread::spawn(move || {
             let mut line = String::new();
             let read = BufReader::new(output).read_line(&mut line);
-            let _ = tell.send(read.map(|_| line));
+            let _ = sender.send(read.map(|_| line));
         });
-        let Ok(line) = told.recv_timeout(Duration::from_secs(60)) else {
+        let Ok(line) = receiver.recv_timeout(Duration::from_secs(60)) else {
             let _ = program.kill();
-            panic!("it tells no address within a minute");
+            panic!("no address was printed within a minute");
         };
         let line = line.unwrap();
         let address = line.trim().strip_prefix("http://127.0.0.1:").unwrap().to_owned();
@@ -87,11 +87,11 @@ fn whole(body: &str) -> String {
     text
 }
 
-/// Memory [kB], threads and open files of a process, where the system tells them.
+/// Memory [kB], threads and open files of a process, where the system reports them.
 pub(crate) fn held(process: u32) -> Option<[u64; 3]> {
-    let told = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
+    let status = fs::read_to_string(format!("/proc/{process}/status")).ok()?;
     let of = |name: &str| -> Option<u64> {
-        told.lines().find(|line| line.starts_with(name))?.split_whitespace().nth(1)?.parse().ok()
+        status.lines().find(|line| line.starts_with(name))?.split_whitespace().nth(1)?.parse().ok()
     };
     let files = fs::read_dir(format!("/proc/{process}/fd")).ok()?.count() as u64;
     Some([of("VmRSS:")?, of("Threads:")?, files])

@@ -51,7 +51,7 @@ impl Run {
         Self(command.spawn().unwrap())
     }
 
-    /// Waits for the end; a program that does not come to it is killed, and the test fails.
+    /// Waits for the end; a program that does not end in time is killed, and the test fails.
     pub(crate) fn finish(mut self) -> Ended {
         let output = read_aside(self.0.stdout.take());
         let errors = read_aside(self.0.stderr.take());

@@ -1,4 +1,4 @@
-//! What wrong models are told.
+//! Messages about wrong models.
 
 use lissom::{Model, SessionError};
 

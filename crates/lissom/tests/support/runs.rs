@@ -32,7 +32,7 @@ pub(crate) fn last(record: &Record, output: &str, component: &str) -> f64 {
     *column(record, output, component).last().expect("steps")
 }
 
-/// What a wrong model is told.
+/// The message about a wrong model.
 pub(crate) fn told(text: &str) -> String {
     match Model::from_text("wrong.toml", text).session(&[]) {
         Err(SessionError::Model(report)) => report.render(false),

@@ -33,7 +33,7 @@ pub struct Shortening {
 }
 
 /// Second-order matrices of a part over the rows of its mass matrix; rows and columns of the first interface are zero,
-/// but for those of α, where it is displaced against the frame.
+/// except those of α, where it is displaced against the frame.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GeometricMatrices {
     /// S along x, y, z.

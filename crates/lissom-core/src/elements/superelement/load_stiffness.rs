@@ -29,7 +29,7 @@ use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
 use super::{Superelement, three};
 
-/// Share of the stiffness from which on it is told.
+/// Share of the stiffness from which on a warning reports it.
 pub(super) const LARGEST_SHARE: f64 = 0.005;
 /// Bending below this part of the size of the element, and of its elongation, is nothing to be right about.
 const NO_BENDING: [f64; 2] = [1e-7, 1.0];

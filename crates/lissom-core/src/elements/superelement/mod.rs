@@ -165,7 +165,7 @@ impl Superelement {
         element
     }
 
-    /// With a rate of rotation from which on a warning is told [rad/s], and with one of loads that change the stiffness.
+    /// With a rate of rotation from which on a warning is reported [rad/s], and with one of loads that change the stiffness.
     #[must_use]
     pub fn believed_up_to(self, spin: Option<f64>) -> Self {
         let load_stiffness = Some(LoadStiffness::of(&self));

@@ -79,7 +79,7 @@ impl SecondOrder {
             })
             .collect();
         let along = |k: usize, l: usize| shortening[k].direction.dot(&shortening[l].pulled);
-        // Shortenings along natural modes are uncoupled but for round-off: products of all pairs would take most of the time.
+        // Shortenings along natural modes are uncoupled except for round-off: products of all pairs would take most of the time.
         let stiffness = DMatrix::from_fn(shortening.len(), shortening.len(), |k, l| {
             let own = along(k, l);
             if own.abs() > UNCOUPLED * (along(k, k) * along(l, l)).abs().sqrt() { own } else { 0.0 }
