@@ -150,6 +150,46 @@ fn quoted_paths_are_found() {
     assert_eq!(quoted_paths(text, &folders), expected);
 }
 
+/// Every file of tests is a module of the program of its crate, or a program of its own: nobody would miss a file that is not built.
+#[test]
+fn files_of_tests_are_built() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let (mut count, mut missing) = (0, Vec::new());
+    for entry in fs::read_dir(root).expect("readable") {
+        let folder = entry.expect("readable").path();
+        let (tests, manifest) =
+            (folder.join("tests"), fs::read_to_string(folder.join("Cargo.toml")).expect("readable"));
+        let mut files = Vec::new();
+        if tests.join("main.rs").exists() {
+            sources(&tests, &mut files);
+        }
+        for file in files {
+            let parent = file.parent().expect("below the folder");
+            let stem = |path: &Path| path.file_stem().expect("a name").to_string_lossy().into_owned();
+            let (own, above) = if file.ends_with("mod.rs") {
+                (stem(parent), parent.parent().expect("below"))
+            } else {
+                (stem(&file), parent)
+            };
+            if own == "main" || parent == tests && manifest.contains(&format!("[[test]]\nname = \"{own}\"")) {
+                continue;
+            }
+            let declares = [above.join("main.rs"), above.join("mod.rs"), above.with_extension("rs")]
+                .iter()
+                .filter_map(|path| fs::read_to_string(path).ok())
+                .any(|text| {
+                    text.lines().any(|line| line.trim_start_matches("pub(crate) ") == format!("mod {own};"))
+                });
+            count += 1;
+            if !declares {
+                missing.push(file.display().to_string());
+            }
+        }
+    }
+    assert!(count > 80, "the search must see the files: {count}");
+    assert!(missing.is_empty(), "files that are no module of the tests:\n{}", missing.join("\n"));
+}
+
 /// Folders and files of the lower floors, and what of this crate they may name.
 const FLOORS: [(&str, &[&str]); 8] = [
     ("kinematics/", &["kinematics"]),

@@ -1,5 +1,7 @@
 //! Good model files are read, bad ones are refused with the message their first line asks for.
 
+use crate::support;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -7,7 +9,6 @@ use lissom_model::document::{AnalysisKind, Attachment, Document, NodeReference, 
 use lissom_model::{Report, Severity};
 use lissom_motion::Vector3;
 
-mod support;
 use support::registry;
 
 fn files(folder: &str) -> Vec<(PathBuf, String)> {

@@ -1,19 +1,16 @@
 //! Whatever the text, the decoder answers: it reads the model or tells what is wrong, and never breaks down.
 
+use crate::support;
+use crate::support::answers;
+use crate::support::damage;
+use crate::support::damaged_expressions;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
 use lissom_model::Document;
 use proptest::prelude::*;
-
-#[path = "support/answers.rs"]
-mod answers;
-#[path = "support/damage.rs"]
-mod damage;
-#[path = "support/damaged_expressions.rs"]
-mod damaged_expressions;
-mod support;
 
 use answers::Answer;
 use damage::{Damage, STRANGERS, tokens};

@@ -1,12 +1,11 @@
 //! Whatever is damaged in a model, `check` answers: the model is wrong, or it has so many freedoms.
 
+use crate::support::damage;
+
 use lissom_core::analysis::mobility::mobility;
 use lissom_model::Document;
 use lissom_model::lower::{lower, registry::registry};
 use proptest::prelude::*;
-
-#[path = "support/damage.rs"]
-mod damage;
 
 use damage::{Damage, STRANGERS, tokens};
 

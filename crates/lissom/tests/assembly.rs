@@ -1,6 +1,5 @@
 //! Approximate positions are closed with the least change, or refused with the joints that stay open.
 
-#[path = "assembly/options.rs"]
 mod options;
 
 use std::fmt::Write;

@@ -1,57 +1,31 @@
 //! The program, as scripts see it: exit codes, files, columns and facts.
 
-#[path = "command_line/accumulated.rs"]
+use crate::support;
+use crate::support::truss;
+
 mod accumulated;
-#[path = "command_line/assembly.rs"]
 mod assembly;
-#[path = "command_line/changes.rs"]
 mod changes;
-#[path = "command_line/data_file.rs"]
 mod data_file;
-#[path = "command_line/determinism.rs"]
 mod determinism;
-#[path = "command_line/export.rs"]
 mod export;
-#[path = "command_line/failures.rs"]
 mod failures;
-#[path = "command_line/files.rs"]
 mod files;
-#[path = "command_line/fmu.rs"]
 mod fmu;
-#[path = "command_line/live.rs"]
 mod live;
-#[path = "command_line/modes.rs"]
 mod modes;
-#[path = "command_line/motion.rs"]
 mod motion;
-#[path = "command_line/new.rs"]
 mod new;
-#[path = "command_line/outputs.rs"]
 mod outputs;
-#[path = "command_line/parts.rs"]
 mod parts;
-#[path = "command_line/path.rs"]
 mod path;
-#[path = "command_line/plot.rs"]
 mod plot;
-#[path = "support/rail.rs"]
-mod rail;
-#[path = "command_line/redundancy.rs"]
 mod redundancy;
-#[path = "command_line/silent.rs"]
 mod silent;
-#[path = "command_line/snapshot.rs"]
 mod snapshot;
-#[path = "command_line/statics.rs"]
 mod statics;
-#[path = "command_line/study.rs"]
 mod study;
-mod support;
-#[path = "command_line/sweep.rs"]
 mod sweep;
-#[path = "support/truss.rs"]
-mod truss;
-#[path = "command_line/view.rs"]
 mod view;
 
 use std::path::Path;

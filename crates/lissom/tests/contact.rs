@@ -1,9 +1,7 @@
 //! Stops, friction in joints, bushings, rotors and solids, against closed forms.
 
-#[path = "support/refused.rs"]
-mod refused;
-#[path = "support/sessions.rs"]
-mod sessions;
+use crate::support::refused;
+use crate::support::sessions;
 
 use lissom::{Model, Session};
 use lissom_motion::{Rotation, Vector3};

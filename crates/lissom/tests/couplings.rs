@@ -1,7 +1,6 @@
 //! Relations between coordinates of joints against closed forms.
 
-#[path = "support/runs.rs"]
-mod runs;
+use crate::support::runs;
 
 use lissom::Record;
 use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, run, set, told};

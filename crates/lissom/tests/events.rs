@@ -1,11 +1,8 @@
 //! Events, and forces with kinks: instants against closed forms, what happens there, and what is refused.
 
-#[path = "support/rail.rs"]
-mod rail;
-#[path = "support/refused.rs"]
-mod refused;
-#[path = "support/sessions.rs"]
-mod sessions;
+use crate::support::rail;
+use crate::support::refused;
+use crate::support::sessions;
 
 use lissom::Session;
 use rail::force;

@@ -1,10 +1,8 @@
 //! Feedback: sizes of loads that depend on the motion, first-order states, samples, inputs. Solutions are compared
 //! with closed forms and with recursions.
 
-#[path = "support/refused.rs"]
-mod refused;
-#[path = "support/sessions.rs"]
-mod sessions;
+use crate::support::refused;
+use crate::support::sessions;
 
 use refused::refused;
 use sessions::{finished, session};

@@ -1,10 +1,8 @@
 //! Springs with laws: expressions, tables, data files, one side, limits, free play. Energy is conserved, counted as lost or
 //! as put in; all schemes, steps of chosen size and sessions restored in the middle agree.
 
-#[path = "support/refused.rs"]
-mod refused;
-#[path = "support/sessions.rs"]
-mod sessions;
+use crate::support::refused;
+use crate::support::sessions;
 
 use refused::refused;
 use sessions::{finished, session};

@@ -1,9 +1,7 @@
 //! Derivatives along the steps against central differences of whole runs.
 
-#[path = "support/cantilever.rs"]
-mod cantilever;
-#[path = "support/rail.rs"]
-mod rail;
+use crate::support::cantilever;
+use crate::support::rail;
 
 use cantilever::CANTILEVER;
 use lissom::gradient::{Confirmation, GradientError, Method, Target, gradient};

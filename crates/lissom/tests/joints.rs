@@ -1,9 +1,8 @@
 //! Kinds of joints against closed forms, and all of them with every scheme, with chosen steps and restarted.
 
-#[path = "joints/rates.rs"]
+use crate::support::runs;
+
 mod rates;
-#[path = "support/runs.rs"]
-mod runs;
 
 use lissom::{Model, Record};
 use runs::{SCHEMES, column, goes_on_from_a_snapshot, last, run, set, told};

@@ -1,9 +1,7 @@
 //! Kinks and jumps of loads over time, on steps and between them, with every scheme: against closed forms.
 
-#[path = "support/rail.rs"]
-mod rail;
-#[path = "support/sessions.rs"]
-mod sessions;
+use crate::support::rail;
+use crate::support::sessions;
 
 use lissom::{Model, Session};
 use lissom_model::lower::lower;

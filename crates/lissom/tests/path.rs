@@ -1,9 +1,7 @@
 //! Equilibrium paths against closed forms and independent solutions.
 
-#[path = "support/paths.rs"]
-mod paths;
-#[path = "support/truss.rs"]
-mod truss;
+use crate::support::paths;
+use crate::support::truss;
 
 use lissom::Model;
 use lissom::path::{PathEnd, PathSession};

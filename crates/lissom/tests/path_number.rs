@@ -1,9 +1,7 @@
 //! Equilibrium paths along a number of the model against closed forms.
 
-#[path = "support/paths.rs"]
-mod paths;
-#[path = "support/truss.rs"]
-mod truss;
+use crate::support::paths;
+use crate::support::truss;
 
 use lissom::path::PathEnd;
 use lissom_core::analysis::path::CriticalKind;

@@ -10,7 +10,7 @@ use serde_json::Value;
 use super::MutantsError;
 use super::switch::Switched;
 
-/// Tests of the text of the program, which has changed with all mutants.
+/// The module with tests of the source text, which has changed with all mutants.
 const OF_THE_TEXT: &str = "house_rules";
 /// All tests but those of the chores.
 const ALL: [&str; 3] = ["--lib", "--test", "*"];
@@ -20,14 +20,39 @@ const INCREMENTAL: [&str; 2] =
 /// Lines of the compiler that are shown.
 const SHOWN: usize = 40;
 
-/// A program with tests.
+/// A program with tests, or one module of it.
 #[derive(Clone, Debug)]
 pub(super) struct TestProgram {
-    /// Its crate and name.
+    /// Its crate and name, and the name of the module.
     pub(super) name: String,
     pub(super) executable: PathBuf,
-    /// Where it runs.
+    /// The folder in which it runs.
     pub(super) folder: PathBuf,
+    /// The tests of the module; empty for the whole program.
+    pub(super) tests: Vec<String>,
+}
+
+impl TestProgram {
+    /// The modules at the root of the program, each as a program of its own, without that of the source text. Threads that a test
+    /// starts, and programs that it runs, cannot be attributed to the test: a mutant that they execute is tried with all tests of
+    /// the module.
+    fn modules(self) -> Result<Vec<Self>, MutantsError> {
+        let mut command = Command::new(&self.executable);
+        command.args(["--list", "--format", "terse"]).current_dir(&self.folder);
+        let output = command.output().map_err(MutantsError::about(&self.name))?;
+        let mut modules: BTreeMap<String, Vec<String>> = BTreeMap::new();
+        for test in
+            String::from_utf8_lossy(&output.stdout).lines().filter_map(|line| line.strip_suffix(": test"))
+        {
+            let module = test.split_once("::").map_or("", |(module, _)| module);
+            if module != OF_THE_TEXT {
+                modules.entry(module.to_owned()).or_default().push(test.to_owned());
+            }
+        }
+        let program =
+            |(module, tests)| Self { name: format!("{} {module}", self.name), tests, ..self.clone() };
+        Ok(modules.into_iter().map(program).collect())
+    }
 }
 
 /// All tests.
@@ -88,7 +113,14 @@ pub(super) fn build(
         .filter_map(|line| serde_json::from_slice(line).ok())
         .collect();
     if output.status.success() {
-        return Ok(Built::Programs(programs(&messages)));
+        let mut built = programs(&messages);
+        let (whole, with_modules) =
+            built.tests.into_iter().partition(|program| !program.name.contains(": test "));
+        built.tests = whole;
+        for program in with_modules {
+            built.tests.extend(program.modules()?);
+        }
+        return Ok(Built::Programs(built));
     }
     let errors =
         messages.iter().map(|message| &message["message"]).filter(|message| message["level"] == "error");
@@ -126,12 +158,10 @@ fn programs(messages: &[Value]) -> TestPrograms {
         };
         let (executable, folder) = (PathBuf::from(executable), manifest.to_owned());
         if message["profile"]["test"] == true {
-            if target != OF_THE_TEXT {
-                let of = folder.file_name().unwrap_or_default().to_string_lossy();
-                let kind = message["target"]["kind"][0].as_str().unwrap_or_default();
-                let name = format!("{of}: {kind} {target}");
-                programs.tests.push(TestProgram { name, executable, folder });
-            }
+            let of = folder.file_name().unwrap_or_default().to_string_lossy();
+            let kind = message["target"]["kind"][0].as_str().unwrap_or_default();
+            let name = format!("{of}: {kind} {target}");
+            programs.tests.push(TestProgram { name, executable, folder, tests: Vec::new() });
         } else if message["target"]["kind"][0] == "bin" {
             programs.started.insert(target.to_owned(), executable);
         }
@@ -152,14 +182,26 @@ mod tests {
                 "target": {"name": name, "kind": [kind]}, "profile": {"test": is_test},
             })
         };
-        let built = programs(&[
-            artifact("lissom", "bin", false),
-            artifact("cable", "test", true),
-            artifact("house_rules", "test", true),
-        ]);
+        let built = programs(&[artifact("lissom", "bin", false), artifact("cable", "test", true)]);
         assert_eq!(built.tests.len(), 1);
         assert_eq!(built.tests[0].name, "lissom: test cable");
         assert_eq!(built.tests[0].folder, Path::new("/tree/crates/lissom"));
         assert!(built.started.contains_key("lissom"));
+    }
+
+    #[test]
+    fn modules_of_a_program_are_programs() {
+        let executable = std::env::current_exe().expect("a path");
+        let own = TestProgram {
+            name: "xtask: test own".to_owned(),
+            executable,
+            folder: ".".into(),
+            tests: Vec::new(),
+        };
+        let modules = own.modules().expect("a list");
+        let mutants =
+            modules.iter().find(|module| module.name == "xtask: test own mutants").expect("this module");
+        assert!(mutants.tests.iter().any(|test| test.ends_with("modules_of_a_program_are_programs")));
+        assert!(mutants.tests.iter().all(|test| test.starts_with("mutants::")));
     }
 }

@@ -173,7 +173,7 @@ impl Trials {
         Ok(if is_reached { Outcome::Survived } else { Outcome::Unreached })
     }
 
-    /// Runs tests of a program, all if none is named; with a limit [s] until one fails.
+    /// Runs tests of a program, all of its own if none is named; with a limit [s] until one fails.
     fn run(
         &self,
         program: &TestProgram,
@@ -184,6 +184,7 @@ impl Trials {
         // Programs that tests start end with it.
         let mut command = Command::new("prlimit");
         command.args([ADDRESSES, "timeout", "--kill-after=10", &limit.unwrap_or(0.0).to_string()]);
+        let tests = if tests.is_empty() { &program.tests } else { tests };
         command.arg(&program.executable).args(tests);
         if !tests.is_empty() {
             command.arg("--exact");
@@ -274,8 +275,12 @@ mod tests {
 
     #[test]
     fn failures_and_programs_that_hang_are_noticed() {
-        let program =
-            TestProgram { name: "it".to_owned(), executable: "sh".into(), folder: std::env::temp_dir() };
+        let program = TestProgram {
+            name: "it".to_owned(),
+            executable: "sh".into(),
+            folder: std::env::temp_dir(),
+            tests: Vec::new(),
+        };
         let programs = TestPrograms { tests: Vec::new(), started: BTreeMap::new() };
         let trials = Trials { programs, unbroken: BTreeMap::new() };
         let outcome = |script: &str, limit: f64| {

@@ -4,7 +4,7 @@ use lissom_core::joints::evaluation_point::Chart;
 use lissom_core::system::{Linearization, System};
 use lissom_motion::{Motion, Vector6, tangent};
 
-use crate::configuration::{Configuration, Unknown, difference, unknown};
+use crate::derivatives::configuration::{Configuration, Unknown, difference, unknown};
 
 const TOLERANCE: f64 = 2e-8;
 

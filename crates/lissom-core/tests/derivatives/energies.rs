@@ -7,8 +7,10 @@ use lissom_core::system::{ElementId, Placement, State, System};
 use lissom_motion::Motion;
 use nalgebra::DMatrix;
 
-use crate::configuration::{Configuration, Random, Unknown, difference, sample_parameters, unknown};
-use crate::{joint_with, two_bodies, two_coordinates};
+use crate::derivatives::configuration::{
+    Configuration, Random, Unknown, difference, sample_parameters, unknown,
+};
+use crate::derivatives::{joint_with, two_bodies, two_coordinates};
 
 /// It holds what moves, and stores nothing.
 const STORES_NOTHING: [&str; 2] = ["axial_latch", "torsional_latch"];

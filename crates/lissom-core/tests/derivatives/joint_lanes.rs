@@ -8,7 +8,7 @@ use lissom_core::kinematics::{Freedoms, LOCKED};
 use lissom_core::system::{Builder, Placement, State, System};
 use lissom_motion::{Motion, Vector3};
 
-use crate::configuration::{Configuration, Random, sample_parameters};
+use crate::derivatives::configuration::{Configuration, Random, sample_parameters};
 
 /// Two blocks of eight and a part of a third.
 const JOINTS: usize = 19;

@@ -8,8 +8,8 @@ use lissom_core::registry::{Parameter, ParameterType, Parameters, TimeFunction, 
 use lissom_core::system::{Builder, Placement};
 use lissom_motion::Vector3;
 
-use crate::configuration::{Random, sample_parameters};
-use crate::{joint_with, two_bodies, two_coordinates};
+use crate::derivatives::configuration::{Random, sample_parameters};
+use crate::derivatives::{joint_with, two_bodies, two_coordinates};
 
 /// Smooth except at given instants.
 #[derive(Debug)]

@@ -5,8 +5,8 @@ use lissom_core::registry::{Parameters, Value};
 use lissom_core::system::{Placement, State, System};
 use lissom_motion::Vector6;
 
-use crate::configuration::{Configuration, Random};
-use crate::{check, two_bodies};
+use crate::derivatives::configuration::{Configuration, Random};
+use crate::derivatives::{check, two_bodies};
 
 const WORDS: [&str; 6] = ["x", "y", "z", "rx", "ry", "rz"];
 

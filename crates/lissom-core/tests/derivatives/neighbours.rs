@@ -8,7 +8,7 @@ use lissom_core::kinematics::{Freedoms, Kinematics};
 use lissom_core::system::Builder;
 use lissom_motion::{Matrix6, Motion, Vector3};
 
-use crate::configuration::{Configuration, Random};
+use crate::derivatives::configuration::{Configuration, Random};
 
 /// Weights of a difference of the fourth order, and of something that is none.
 const WEIGHTS: [[f64; 4]; 2] = [[1.0, -8.0, 8.0, -1.0], [0.3, 0.2, 0.1, -2.0]];

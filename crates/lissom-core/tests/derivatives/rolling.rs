@@ -9,8 +9,8 @@ use lissom_core::registry::{Parameters, TimeFunction, Value};
 use lissom_core::system::{Builder, Placement};
 use lissom_motion::{Motion, Vector3};
 
-use crate::check;
-use crate::configuration::Random;
+use crate::derivatives::check;
+use crate::derivatives::configuration::Random;
 
 /// Wheels that are pressed into the plane and slide, by both laws of friction.
 #[test]

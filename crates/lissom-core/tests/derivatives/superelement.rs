@@ -11,8 +11,8 @@ use lissom_core::system::{Builder, State, System};
 use lissom_motion::{Motion, Vector3};
 use nalgebra::{DMatrix, DVector};
 
-use crate::check;
-use crate::configuration::{Configuration, Random};
+use crate::derivatives::check;
+use crate::derivatives::configuration::{Configuration, Random};
 
 /// A symmetric positive matrix.
 fn positive(size: usize, random: &mut Random) -> DMatrix<f64> {
@@ -100,7 +100,7 @@ fn is_the_gradient(system: &System, state: &State, random: &mut Random) {
     }
     let forces = here.residual(system, 0.0);
     for (row, force) in forces.iter().enumerate() {
-        let slope = crate::configuration::difference(|step| {
+        let slope = crate::derivatives::configuration::difference(|step| {
             vec![system.energy(&here.displaced(system, row, step, false).at).total()]
         })[0];
         assert!((force - slope).abs() < 1e-8 * (1.0 + force.abs()), "row {row}: {force}, slope {slope}");

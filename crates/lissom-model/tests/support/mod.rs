@@ -1,4 +1,8 @@
-//! A stand-in for the simulator's tables of kinds.
+//! A stand-in for the simulator's tables of kinds, and damaged texts.
+
+pub(crate) mod answers;
+pub(crate) mod damage;
+pub(crate) mod damaged_expressions;
 
 use lissom_core::kinematics::Quantity;
 use lissom_core::registry::{Parameter, ParameterType};

@@ -6,7 +6,7 @@ use lissom::gradient::gradient;
 use lissom::{Model, Record, Session, SessionSnapshot};
 use serde_json::Value;
 
-use crate::rail::force;
+use crate::support::rail::force;
 use crate::support::{Folder, lissom, summary};
 
 /// A cart on a rail with a spring, a damper and a force, beside a disc that a drive speeds up.

@@ -176,7 +176,7 @@ fn series_hold_sections_with_their_forces() {
     let content = |name: &str| -> Vec<u8> {
         let (_, rest) = grid.split_once(&format!("Name=\"{name}\"")).unwrap();
         let (_, rest) = rest.split_once('>').unwrap();
-        let bytes = crate::view::decoded(rest.split_once('<').unwrap().0);
+        let bytes = crate::command_line::view::decoded(rest.split_once('<').unwrap().0);
         assert_eq!(u64::from_le_bytes(number(&bytes, 0)) as usize, bytes.len() - 8, "{name}");
         bytes[8..].to_vec()
     };

@@ -6,7 +6,7 @@ use lissom::{Model, Record, SessionError};
 use lissom_motion::Vector3;
 use serde_json::Value;
 
-use crate::rail::rail;
+use crate::support::rail::rail;
 use crate::support::{CANTILEVER, Folder, lissom, summary};
 
 /// A disc that turns at 2 rad/s about z at [1, 0, 0], and a stone that flies straight on.

@@ -2,7 +2,7 @@
 
 use lissom::Model;
 
-use crate::sessions::session;
+use crate::support::sessions::session;
 
 fn controlled_arm(analysis: &str) -> String {
     let text = include_str!("../../../../examples/controlled-arm.toml");

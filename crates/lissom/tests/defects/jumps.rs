@@ -1,8 +1,8 @@
 //! Forces that jump or have kinks by the motion, at instants that coincide with records and samples, and anywhere else.
 
-use crate::rail::{force, rail};
-use crate::refused::refused;
-use crate::sessions::finished;
+use crate::support::rail::{force, rail};
+use crate::support::refused::refused;
+use crate::support::sessions::finished;
 
 const SCHEMES: [&str; 4] = ["radau-iia", "energy-decaying", "generalized-alpha", "hht"];
 

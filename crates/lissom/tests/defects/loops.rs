@@ -1,6 +1,6 @@
 //! Loops that a slider along a beam closes are loops like those of joints.
 
-use crate::sessions::finished;
+use crate::support::sessions::finished;
 
 const SLIDER: &str = include_str!("slider-loop.toml");
 const JOINT: &str = include_str!("point-on-line-loop.toml");

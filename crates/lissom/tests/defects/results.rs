@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use crate::program::{Ended, Folder, lissom};
+use crate::support::program::{Ended, Folder, lissom};
 
 /// Path of a file in `models/`.
 pub(crate) fn model(file: &str) -> String {

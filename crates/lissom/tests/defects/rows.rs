@@ -9,10 +9,10 @@ use std::time::Duration;
 
 use lissom::{Model, SessionSnapshot};
 
-use crate::live::{Live, held};
-use crate::program::{Folder, lissom};
-use crate::rail::rail;
-use crate::results::{Results, largest, model, model_files, near};
+use crate::defects::results::{Results, largest, model, model_files, near};
+use crate::support::live::{Live, held};
+use crate::support::program::{Folder, lissom};
+use crate::support::rail::rail;
 
 /// Models and examples whose results are still wrong, or without the warning that they need, and why.
 const NOT_YET: [(&str, &str); 11] = [

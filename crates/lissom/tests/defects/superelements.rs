@@ -2,8 +2,8 @@
 
 use std::fs;
 
-use crate::program::lissom;
-use crate::results::{Results, largest, model, near};
+use crate::defects::results::{Results, largest, model, near};
+use crate::support::program::lissom;
 
 /// Comparison of a column of a superelement with that of the beam, relative to the largest magnitude of the beam's.
 fn assert_like_beam(superelement: &Results, beam: &Results, name: &str, tolerance: f64) {
@@ -66,7 +66,7 @@ output_step = 0.01
         let (blade, _) = blade.split_once("[loads.thrust]").unwrap();
         let matrices = model("mtx/");
         let blade = blade.replace("mtx/", &matrices);
-        let folder = crate::program::Folder::new(&format!("swing-{start}"));
+        let folder = crate::support::program::Folder::new(&format!("swing-{start}"));
         folder.write("swing.toml", &format!("lissom = 1\n{}\n{part}{blade}", SWING.replace("START", start)));
         let ended = lissom(&["run", "swing.toml", "--out", "o", "--no-plots"], folder.path());
         Results { folder, ended }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use crate::runs::{column, last, run};
+use crate::support::runs::{column, last, run};
 
 macro_rules! model {
     ($name:literal) => {

@@ -6,7 +6,7 @@
 
 use std::fmt::Write;
 
-use crate::runs::{SCHEMES, column, last, run, set};
+use crate::support::runs::{SCHEMES, column, last, run, set};
 use lissom::import::{Options, Pose, Root, Unsupported, from_urdf, model_text};
 use lissom_motion::Vector6;
 use serde_json::Value;

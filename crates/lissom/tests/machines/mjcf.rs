@@ -3,7 +3,7 @@
 
 use std::f64::consts::PI;
 
-use crate::runs::{column, last, run, set};
+use crate::support::runs::{column, last, run, set};
 use lissom::import::{LinkInertia, Options, Pose, Robot, Root, Unsupported, from_description, model_text};
 use lissom_motion::{Matrix3, Motion, Rotation, Vector3};
 

@@ -1,6 +1,6 @@
 //! Motions prescribed in space: where the body is, and what it takes.
 
-use crate::runs::{SCHEMES, column, goes_on_from_a_snapshot, run, set, told};
+use crate::support::runs::{SCHEMES, column, goes_on_from_a_snapshot, run, set, told};
 use lissom_motion::{Rotation, Vector3};
 
 /// A body that is shaken and turned about its centre, and a pendulum on it that is not in the way.

@@ -1,6 +1,6 @@
 //! Wheels, discs and balls that roll, against closed forms.
 
-use crate::runs::{SCHEMES, column, goes_on_from_a_snapshot, last, run, set, told};
+use crate::support::runs::{SCHEMES, column, goes_on_from_a_snapshot, last, run, set, told};
 
 /// Lagrange's steady precession of a thin disc: its axis leans by α from the vertical and turns about it at Ω, and it spins
 /// by n about its axis, with 6 r Ω n sin α - r Ω² sin α cos α + 4 g cos α = 0. Its centre runs around a circle of radius

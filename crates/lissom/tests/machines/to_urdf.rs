@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::runs::{run, set};
+use crate::support::runs::{run, set};
 use lissom::Model;
 use lissom::import::{Options, Pose, Robot, Root, from_model, from_urdf, model_text, to_urdf};
 

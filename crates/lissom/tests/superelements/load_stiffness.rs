@@ -194,7 +194,11 @@ fn geometric_matrices_that_do_not_fit_are_refused() {
     assert!(message(&other, none).contains("does not fit the mass"), "{}", message(&other, none));
     assert!(message(&more, none).contains("needs 14 columns and 174 rows"), "{}", message(&more, none));
     let floating = ("geometric =", "floating = \"bar_end\"\ngeometric =");
-    assert!(message(&report, floating).contains("hold for the first interface"), "{}", message(&report, floating));
+    assert!(
+        message(&report, floating).contains("hold for the first interface"),
+        "{}",
+        message(&report, floating)
+    );
 }
 
 /// The beam that spins at up to its first frequency: what modes that are left out would do is made up for.

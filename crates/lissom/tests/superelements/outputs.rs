@@ -116,7 +116,11 @@ fn recovery_that_does_not_fit_is_refused() {
         text.replace('│', " ").split_whitespace().collect::<Vec<_>>().join(" ")
     };
     let few = file(&[vec![1.0; 13]]);
-    assert!(message(Some(&few), "recovered").contains("has 13 columns"), "{}", message(Some(&few), "recovered"));
+    assert!(
+        message(Some(&few), "recovered").contains("has 13 columns"),
+        "{}",
+        message(Some(&few), "recovered")
+    );
     assert!(message(None, "recovered").contains("has no `recovery`"), "{}", message(None, "recovered"));
     assert_eq!(message(None, "modal"), "");
 }

@@ -1,8 +1,16 @@
-//! Runs of the program, and what several of its tests share.
+//! Models, sessions and runs of the program that several tests share.
 
-mod cantilever;
-mod live;
-mod program;
+pub(crate) mod cantilever;
+#[cfg(feature = "command-line")]
+pub(crate) mod live;
+pub(crate) mod paths;
+#[cfg(feature = "command-line")]
+pub(crate) mod program;
+pub(crate) mod rail;
+pub(crate) mod refused;
+pub(crate) mod runs;
+pub(crate) mod sessions;
+pub(crate) mod truss;
 
 use std::path::Path;
 use std::process::Command;

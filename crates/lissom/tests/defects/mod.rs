@@ -2,17 +2,6 @@
 //! kinds: against closed forms, independent programs and refined runs. `rows` and `superelements` run the program on every model of
 //! `models/`; the other modules test variations.
 
-#[path = "../support/live.rs"]
-mod live;
-#[path = "../support/program.rs"]
-mod program;
-#[path = "../support/rail.rs"]
-mod rail;
-#[path = "../support/refused.rs"]
-mod refused;
-#[path = "../support/sessions.rs"]
-mod sessions;
-
 mod analyses;
 mod clocks;
 mod jumps;

@@ -6,6 +6,4 @@ mod import;
 mod mjcf;
 mod prescribed_motion;
 mod rolling;
-#[path = "../support/runs.rs"]
-mod runs;
 mod to_urdf;

@@ -435,7 +435,10 @@ fn files_are_read_as_they_were_written() {
         std::fs::write(&path, text).expect("a file");
         let message = Model::read(&path).expect("a text").document(&[]);
         let message = message.expect_err(words).render(false).replace('│', " ");
-        assert!(message.split_whitespace().collect::<Vec<_>>().join(" ").contains(words), "{words}: {message}");
+        assert!(
+            message.split_whitespace().collect::<Vec<_>>().join(" ").contains(words),
+            "{words}: {message}"
+        );
     }
     std::fs::remove_dir_all(&folder).expect("a folder");
 }

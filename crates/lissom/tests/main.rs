@@ -1,0 +1,51 @@
+//! All tests of the crate that need no process of their own, in one program: it is linked once.
+
+mod assembly;
+mod beam_outputs;
+mod branch;
+mod branches;
+mod buckling;
+mod built_in_code;
+mod cable;
+mod campbell;
+#[cfg(feature = "command-line")]
+mod command_line;
+mod contact;
+mod couplings;
+#[cfg(feature = "command-line")]
+mod defects;
+mod distributed;
+mod driven_records;
+mod events;
+mod feedback;
+mod force_laws;
+mod frames;
+mod generalized_coordinates;
+mod gradient;
+mod joints;
+mod kinks;
+mod latches;
+mod machines;
+mod mechanisms;
+mod modes;
+mod multiblade;
+mod path;
+mod path_number;
+mod published;
+mod redundant;
+mod response;
+#[cfg(feature = "command-line")]
+mod resume;
+mod rolling_contact;
+mod ropes;
+mod session;
+mod shaft;
+mod shared_system;
+mod slider;
+mod statics;
+mod study;
+mod superelements;
+mod support;
+mod threads;
+mod units;
+mod wheelset;
