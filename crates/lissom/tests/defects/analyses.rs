@@ -1,8 +1,5 @@
 //! Models on which an analysis once gave a wrong result without a warning, or was rejected without a reason.
 
-#[path = "../support/paths.rs"]
-mod paths;
-
 use std::f64::consts::TAU;
 
 use lissom::campbell::{CampbellRequest, campbell};
@@ -11,7 +8,8 @@ use lissom::modes::{About, ModeReport, ModeRequest, modes};
 use lissom::path::PathEnd;
 use lissom::{Model, Override, Session};
 use lissom_core::analysis::path::CriticalKind;
-use paths::{follow, near};
+
+use crate::support::paths::{follow, near};
 
 const NEAR_GROWTH: &str = include_str!("models/modes-missing.toml");
 const STIFF_BLADE: &str = include_str!("models/steady_rotation_false_refusal.toml");
