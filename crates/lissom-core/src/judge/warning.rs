@@ -2,6 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+/// Error of the largest interface force of a blade that bends as far as superelements may: errors grow with the square [%].
+const PERCENT_AT_LIMIT: f64 = 1.4;
+
 /// A reason to doubt a result. Each kind is told once, with where it first showed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
 #[non_exhaustive]
@@ -237,8 +240,9 @@ pub enum Warning {
     /// A superelement deforms by more than linear matrices can tell.
     #[error(
         "from t = {time:.6e} s on the superelement's interface `{interface}` is displaced or turned by more than its linear \
-         matrices are good for: by up to {largest:.2} times 0.3 rad, or 0.3 of the distance between interfaces, from the floating \
-         frame; cut the part into several superelements, or model it by beams"
+         matrices are good for: by up to {largest:.2} times 0.2 rad, or 0.15 of the distance between interfaces, from the floating \
+         frame; forces have an estimated error of {:.1} % or more; cut the part into several superelements, or model it by beams",
+        PERCENT_AT_LIMIT * .largest * .largest
     )]
     BeyondLinear {
         /// When it was first seen [s].

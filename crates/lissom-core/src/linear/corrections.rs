@@ -120,8 +120,9 @@ impl Reduction {
         let origin = self.places.first().copied().unwrap_or_default();
         let places: Vec<Vector3> = self.places.iter().map(|place| place - origin).collect();
         let carried = |k: usize| &self.matrices.mass * DVector::from_vec(rigid_column(&places, size, k));
-        let turning =
-            self.second_order.iter().flat_map(|own| own.direct.slope.row_iter().map(|row| row.transpose()));
+        let turning = self.second_order.iter().flat_map(|own| {
+            own.direct.turning().slope.row_iter().map(|row| row.transpose()).collect::<Vec<_>>()
+        });
         [(0..3).map(carried).collect(), (3..6).map(carried).collect(), turning.collect()]
     }
 

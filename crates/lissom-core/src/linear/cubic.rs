@@ -134,8 +134,8 @@ impl SecondOrder {
             }
             sum
         };
-        let turning =
-            self.direct.inertia.iter().zip(&self.turning).chain(self.direct.momentum.iter().zip(&self.spun));
+        let direct = self.direct.turning();
+        let turning = direct.inertia.iter().zip(&self.turning).chain(direct.momentum.iter().zip(&self.spun));
         let pushed = self.direct.moment.iter().zip(&self.pushed);
         [turning.map(whole).collect(), pushed.map(whole).collect()]
     }
@@ -199,7 +199,7 @@ impl SecondOrder {
             matrix += map.tr_mul(&(&state.remainder * map));
             matrix
         };
-        for (matrix, state) in own.inertia.iter_mut().zip(&self.turning) {
+        for (matrix, state) in own.sections.inertia.iter_mut().zip(&self.turning) {
             *matrix += of_load(state);
         }
         own
@@ -242,6 +242,7 @@ fn shortening(modes: &Modes, natural: &[DMatrix<f64>]) -> Vec<Shortening> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::elements::superelement::TurningMatrices;
 
     /// Four unknowns besides the first interface: two that bend, one that is stretched by both, and one that is twisted by both together.
     fn order() -> (SecondOrder, DMatrix<f64>, DMatrix<f64>) {
@@ -256,11 +257,15 @@ mod tests {
         add(2e3, [8, 7, 7]);
         add(5.0, [9, 6, 7]);
         let zeros = || DMatrix::zeros(size, size);
-        let direct = GeometricMatrices {
-            moment: [zeros(), zeros(), zeros()],
+        let turning = || TurningMatrices {
             slope: DMatrix::zeros(6, size),
             inertia: [zeros(), zeros(), zeros(), zeros(), zeros(), zeros()],
             momentum: [zeros(), zeros(), zeros()],
+        };
+        let direct = GeometricMatrices {
+            moment: [zeros(), zeros(), zeros()],
+            points: turning(),
+            sections: turning(),
             shortening: Vec::new(),
         };
         let order = SecondOrder { direct, cubic, turning: Vec::new(), spun: Vec::new(), pushed: Vec::new() };

@@ -16,11 +16,12 @@
 use lissom_motion::{Matrix3, Rotation, Vector3, Vector6, rotation_tangent, screw};
 use nalgebra::{DMatrix, DVector};
 
+use super::carried_points::CarriedPoints;
 use super::cubic::{LoadState, SecondOrder};
 use super::model::{LinearModel, nothing, point};
 use super::reduction::{Assembly, ReductionError};
 use super::shifted::RealShift;
-use crate::elements::superelement::{GeometricMatrices, PAIRS, ReducedMatrices};
+use crate::elements::superelement::{GeometricMatrices, PAIRS, ReducedMatrices, TurningMatrices};
 use crate::kinematics::{Kinematics, LOCKED};
 use crate::system::System;
 
@@ -246,15 +247,15 @@ impl Response<'_> {
 }
 
 impl Assembly<'_> {
-    /// What of second order there is over `shapes`, six of each interface and then modes of unit mass; none with joints within the
-    /// assembly.
+    /// What of second order there is over `shapes`, six of each interface and then modes of unit mass, with the values `mass` of the
+    /// assembly's matrix; none with joints within the assembly.
     ///
     /// # Errors
     /// If the assembly with its interfaces held cannot be solved for.
     pub(super) fn second_order(
         &self,
         shapes: &[Vec<f64>],
-        matrices: &ReducedMatrices,
+        (matrices, mass): (&ReducedMatrices, &[f64]),
         inner: Option<&LinearModel<'_>>,
     ) -> Result<Option<SecondOrder>, ReductionError> {
         let layout = self.free.layout();
@@ -343,13 +344,14 @@ impl Assembly<'_> {
             }
         });
         let cubic: Vec<DMatrix<f64>> = cubic.collect();
-        let direct = GeometricMatrices {
-            moment: [0, 1, 2].map(|k| symmetric(&pushed[k].direct)),
-            slope,
-            inertia: std::array::from_fn(|k| symmetric(&turning[k].direct)),
-            momentum: [0, 1, 2].map(|k| spun[k].direct.transpose()),
-            shortening: Vec::new(),
+        let points = CarriedPoints { system: self.free, at: &at, origin, mass }.turning(shapes, first);
+        let sections = TurningMatrices {
+            slope: slope - &points.slope,
+            inertia: std::array::from_fn(|k| symmetric(&turning[k].direct) - &points.inertia[k]),
+            momentum: [0, 1, 2].map(|k| spun[k].direct.transpose() - &points.momentum[k]),
         };
+        let moment = [0, 1, 2].map(|k| symmetric(&pushed[k].direct));
+        let direct = GeometricMatrices { moment, points, sections, shortening: Vec::new() };
         let states = |of: &[OfMotion]| of.iter().map(|own| own.state.clone()).collect::<Vec<_>>();
         Ok(Some(SecondOrder {
             direct,

@@ -11,6 +11,7 @@
 
 mod arnoldi;
 mod buckling;
+mod carried_points;
 mod completion;
 mod corrections;
 mod cubic;

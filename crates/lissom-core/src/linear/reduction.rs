@@ -160,7 +160,7 @@ impl Assembly<'_> {
         let matrices = self.projected(&whole, &columns, length);
         let mut second_order = None;
         if whole.residual.iter().all(|force| force.is_finite()) {
-            second_order = self.second_order(&columns, &matrices, model.as_ref())?;
+            second_order = self.second_order(&columns, (&matrices, &whole.parts.mass), model.as_ref())?;
         }
         let places = self.interfaces.iter().map(|&node| self.state.kinematics.nodes[node].frame.position);
         Ok(Reduction {

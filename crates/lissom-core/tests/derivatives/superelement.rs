@@ -3,7 +3,7 @@
 use lissom_core::elements::inertia::Gravity;
 use lissom_core::elements::superelement::{
     Damping, GeometricMatrices, InterfacePlace, ReducedMatrices, Shortening, Superelement,
-    SuperelementDescription, add_superelement,
+    SuperelementDescription, TurningMatrices, add_superelement,
 };
 use lissom_core::elements::{Element, LinearLimit};
 use lissom_core::kinematics::Freedoms;
@@ -29,15 +29,20 @@ fn second_order(interfaces: usize, size: usize, random: &mut Random) -> Geometri
         &own + own.transpose()
     };
     let moment = [0, 1, 2].map(|_| symmetric());
-    let inertia = [0, 1, 2, 3, 4, 5].map(|_| symmetric());
+    let inertia = [(); 2].map(|()| [0, 1, 2, 3, 4, 5].map(|_| symmetric()));
     let matrices: Vec<_> = (0..interfaces).map(|_| symmetric()).collect();
-    let momentum = [0, 1, 2].map(|_| any());
+    let momentum = [(); 2].map(|()| [0, 1, 2].map(|_| any()));
     let shortening = matrices
         .into_iter()
         .map(|matrix| Shortening { direction: DVector::from_fn(size, |_, _| 0.3 * random.number()), matrix });
     let shortening = shortening.collect();
-    let slope = DMatrix::from_fn(6, size, |_, _| random.number());
-    GeometricMatrices { moment, slope, inertia, momentum, shortening }
+    let slopes = [(); 2].map(|()| DMatrix::from_fn(6, size, |_, _| random.number()));
+    let [points, sections] = [0, 1].map(|k| TurningMatrices {
+        slope: slopes[k].clone(),
+        inertia: inertia[k].clone(),
+        momentum: momentum[k].clone(),
+    });
+    GeometricMatrices { moment, points, sections, shortening }
 }
 
 fn system_with(

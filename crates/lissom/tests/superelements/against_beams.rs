@@ -189,21 +189,65 @@ fn a_swinging_blade_never_pushes_on_its_hinge() {
     }
 }
 
-/// A blade that is stopped so hard that it bends beyond the range of its second-order matrices does not go on with a kinetic energy that is
-/// not positive.
+/// The motion of a motor that stops from `speed` [rad/s] within half a second.
+fn stopped_from(speed: f64) -> String {
+    let s = "((t - 0.2)/0.5)";
+    format!("{speed}*if(t < 0.2, t, if(t < 0.7, 0.2 + 0.5*({s} - {s}^3 + 0.5*{s}^4), 0.45))")
+}
+
+/// A blade that is stopped hard bends by a fifth of its length, with any number of modes. Errors of its reactions are those of second
+/// order: they grow with the square of the deflection.
+#[test]
+fn a_hard_stop_is_that_of_the_beam_to_second_order() {
+    let text = blade('x', false, false);
+    for modes in [0, 2, 4, 10, 20] {
+        let report = reduced_blade(&text, modes, true);
+        let speeds: &[(f64, f64, f64)] =
+            if modes == 10 { &[(1.25, 0.007, 0.04), (2.5, 0.025, 0.15)] } else { &[(2.5, 0.025, 0.15)] };
+        for &(speed, largest, difference_allowed) in speeds {
+            let rest = on_a_hub('x', &stopped_from(speed), speed, "steady_rotation = true\n", 1.5);
+            let [beam, own] = models(&text, &report, "", &rest);
+            let exact = ran(&beam, &[]);
+            let mut session = own.session(&[]).unwrap_or_else(|error| panic!("{error}"));
+            let (found, ended) = session.record();
+            assert!(ended.is_complete(), "{modes} modes, {speed} rad/s: {:?}", ended.error());
+            let codes: Vec<&str> = session.warnings().map(lissom_core::judge::Warning::code).collect();
+            assert_eq!(
+                codes.contains(&"beyond-linear"),
+                speed > 2.0,
+                "{modes} modes, {speed} rad/s: {codes:?}"
+            );
+            for component in ["f1", "f2", "m3"] {
+                let [exact, found] = [&exact, &found].map(|record| {
+                    column(record, "root", component)
+                        .into_iter()
+                        .fold(0.0_f64, |most, own| most.max(own.abs()))
+                });
+                let error = (found / exact - 1.0).abs();
+                assert!(error < largest, "{modes} modes, {speed} rad/s, {component}: {found}, beam {exact}");
+            }
+            for components in [&["f1", "f2", "f3"][..], &["m1", "m2", "m3"]] {
+                let error = difference(&exact, &found, components);
+                assert!(error < difference_allowed, "{modes} modes, {speed} rad/s, {components:?}: {error}");
+            }
+        }
+    }
+}
+
+/// A blade that is bent beyond the range of its second-order matrices does not go on with a kinetic energy that is not positive.
 #[test]
 fn a_blade_bent_beyond_its_matrices_is_rejected() {
     let text = blade('x', false, false);
     let report = reduced_blade(&text, 10, true);
-    let s = "((t - 0.2)/0.5)";
-    let rotation = format!("if(t < 0.2, 2.5*t, if(t < 0.7, 0.5 + 1.25*({s} - {s}^3 + 0.5*{s}^4), 1.125))");
-    let rest = on_a_hub('x', &rotation, 2.5, "steady_rotation = true\n", 0.7);
+    let rest = on_a_hub('x', &stopped_from(6.0), 6.0, "steady_rotation = true\n", 0.7);
     let [_, own] = models(&text, &report, "", &rest);
     let mut session = own.session(&[]).unwrap_or_else(|error| panic!("{error}"));
     let (found, ended) = session.record();
     let message = ended.error().map(ToString::to_string).unwrap_or_default();
     assert!(message.contains("kinetic energy is no longer positive"), "{message}");
     assert!(message.contains("--modes-alone"), "{message}");
+    let codes: Vec<&str> = session.warnings().map(lissom_core::judge::Warning::code).collect();
+    assert!(codes.contains(&"beyond-linear"), "{codes:?}");
     assert!(found.times.last().is_some_and(|time| *time > 0.3 && *time < 0.5), "{:?}", found.times.last());
 }
 

@@ -2,7 +2,6 @@
 
 mod against_beams;
 mod deformed;
-mod free_blades;
 mod load_stiffness;
 mod moments;
 mod outputs;

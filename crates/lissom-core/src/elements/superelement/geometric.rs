@@ -9,6 +9,8 @@
 //! ∫ρ x₂ = s,   s_k = ½ y·S_k y            J = J₀ + α·y + ½ y·A y                 (inertia about the floating frame)
 //! ∫ρ x × ẋ = (M-terms)·ẏ + c,   c_i = y·B_i ẏ                 h = Σ U_k ½ y·D_k y    (elastic energy ½ (y + h)·K (y + h))
 //! ```
+//!
+//! α, A and B are sums: of points that are displaced along straight lines, and of what the rotation of sections adds.
 
 use lissom_motion::{Matrix3, Vector3, skew};
 use nalgebra::{DMatrix, DVector};
@@ -18,8 +20,9 @@ use crate::registry::ParameterError;
 
 /// Entries of inertias in the order in which they are kept.
 pub(crate) const PAIRS: [[usize; 2]; 6] = [[0, 0], [1, 1], [2, 2], [0, 1], [0, 2], [1, 2]];
-/// Matrices before those of the interfaces.
-const BLOCKS: usize = 12;
+/// Square blocks of inertia, and those of them in the form with loads in D.
+const BLOCKS: usize = 21;
+const FORMER_BLOCKS: usize = 12;
 /// Part by which matrices may be asymmetric, and inertias may change otherwise in rigid turns.
 const UNEQUAL: f64 = 1e-3;
 
@@ -32,18 +35,37 @@ pub struct Shortening {
     pub matrix: DMatrix<f64>,
 }
 
-/// Second-order matrices of a part over the rows of its mass matrix; rows and columns of the first interface are zero,
-/// except those of α, where it is displaced against the frame.
+/// How inertia and angular momentum about the floating frame depend on the deformation.
 #[derive(Clone, Debug, PartialEq)]
-pub struct GeometricMatrices {
-    /// S along x, y, z.
-    pub moment: [DMatrix<f64>; 3],
+pub struct TurningMatrices {
     /// α, of all rows: a row each of xx, yy, zz, xy, xz, yz.
     pub slope: DMatrix<f64>,
     /// A, in the same order.
     pub inertia: [DMatrix<f64>; 6],
     /// B about x, y, z.
     pub momentum: [DMatrix<f64>; 3],
+}
+
+impl TurningMatrices {
+    fn blocks(&self) -> impl Iterator<Item = &DMatrix<f64>> {
+        self.inertia.iter().chain(&self.momentum)
+    }
+
+    fn blocks_mut(&mut self) -> impl Iterator<Item = &mut DMatrix<f64>> {
+        self.inertia.iter_mut().chain(&mut self.momentum)
+    }
+}
+
+/// Second-order matrices of a part over the rows of its mass matrix; rows and columns of the first interface are zero,
+/// except those of α, where it is displaced against the frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GeometricMatrices {
+    /// S along x, y, z.
+    pub moment: [DMatrix<f64>; 3],
+    /// Of points that are displaced along straight lines, with sections that do not turn.
+    pub points: TurningMatrices,
+    /// What the rotation of sections adds, and the static response of modes that are left out.
+    pub sections: TurningMatrices,
     /// U and D of all that is shortened.
     pub shortening: Vec<Shortening>,
 }
@@ -53,8 +75,8 @@ fn problem<T>(words: impl Into<String>) -> Result<T, ParameterError> {
 }
 
 impl GeometricMatrices {
-    /// From one matrix with all of them below each other: S, A, B, D, a row for each U, and α last. None for a file of the form in
-    /// which D were those of interfaces, without U: their matrices hold loads twice.
+    /// From one matrix with all of them below each other: S, A and B of points, A and B of sections, D, a row for each U, and α of points
+    /// and of sections last. None for a file of the form in which D were those of interfaces, without U: their matrices hold loads twice.
     ///
     /// # Errors
     /// If it has another size than `size` columns and as many rows as some number of D need.
@@ -63,12 +85,13 @@ impl GeometricMatrices {
         interfaces: usize,
         size: usize,
     ) -> Result<Option<Self>, ParameterError> {
-        let least = BLOCKS * size + PAIRS.len();
+        let least = BLOCKS * size + 2 * PAIRS.len();
         let (rows, columns) = stacked.shape();
-        let more = rows.checked_sub(least).filter(|_| columns == size);
-        if more == Some(interfaces.saturating_sub(1) * size) && interfaces > 1 {
+        let former = (FORMER_BLOCKS + interfaces.saturating_sub(1)) * size + PAIRS.len();
+        if interfaces > 1 && (rows, columns) == (former, size) {
             return Ok(None);
         }
+        let more = rows.checked_sub(least).filter(|_| columns == size);
         let Some(more) = more.filter(|more| more % (size + 1) == 0) else {
             return problem(format!(
                 "has {rows} rows and {columns} columns: a mass of {size} rows needs {size} columns and {least} rows, and {} more for each \
@@ -83,39 +106,56 @@ impl GeometricMatrices {
             direction: stacked.row(directions + k).transpose(),
             matrix: block(BLOCKS + k),
         };
+        let turning = |first: usize, slope: usize| TurningMatrices {
+            inertia: [0, 1, 2, 3, 4, 5].map(|k| block(first + k)),
+            momentum: [6, 7, 8].map(|k| block(first + k)),
+            slope: stacked.rows(directions + terms + slope, PAIRS.len()).into_owned(),
+        };
         Ok(Some(Self {
             moment: [0, 1, 2].map(block),
-            inertia: [3, 4, 5, 6, 7, 8].map(block),
-            momentum: [9, 10, 11].map(block),
+            points: turning(3, 0),
+            sections: turning(12, PAIRS.len()),
             shortening: (0..terms).map(term).collect(),
-            slope: stacked.rows(directions + terms, PAIRS.len()).into_owned(),
         }))
     }
 
     /// All of them below each other.
     pub fn stacked(&self) -> DMatrix<f64> {
-        let size = self.slope.ncols();
+        let size = self.points.slope.ncols();
         let blocks: Vec<&DMatrix<f64>> = self.blocks().collect();
         let (first, terms) = (blocks.len() * size, self.shortening.len());
-        let mut stacked = DMatrix::zeros(first + terms + PAIRS.len(), size);
+        let mut stacked = DMatrix::zeros(first + terms + 2 * PAIRS.len(), size);
         for (k, block) in blocks.iter().enumerate() {
             stacked.rows_mut(k * size, size).copy_from(block);
         }
         for (k, own) in self.shortening.iter().enumerate() {
             stacked.row_mut(first + k).tr_copy_from(&own.direction);
         }
-        stacked.rows_mut(first + terms, PAIRS.len()).copy_from(&self.slope);
+        for (k, own) in [&self.points, &self.sections].into_iter().enumerate() {
+            stacked.rows_mut(first + terms + k * PAIRS.len(), PAIRS.len()).copy_from(&own.slope);
+        }
         stacked
     }
 
     fn blocks(&self) -> impl Iterator<Item = &DMatrix<f64>> {
         let shortening = self.shortening.iter().map(|own| &own.matrix);
-        self.moment.iter().chain(&self.inertia).chain(&self.momentum).chain(shortening)
+        self.moment.iter().chain(self.points.blocks()).chain(self.sections.blocks()).chain(shortening)
     }
 
     fn blocks_mut(&mut self) -> impl Iterator<Item = &mut DMatrix<f64>> {
-        let first = self.moment.iter_mut().chain(&mut self.inertia);
-        first.chain(&mut self.momentum).chain(self.shortening.iter_mut().map(|own| &mut own.matrix))
+        let first = self.moment.iter_mut().chain(self.points.blocks_mut());
+        first.chain(self.sections.blocks_mut()).chain(self.shortening.iter_mut().map(|own| &mut own.matrix))
+    }
+
+    /// α, A and B as sums.
+    #[must_use]
+    pub(crate) fn turning(&self) -> TurningMatrices {
+        let mut sum = self.points.clone();
+        sum.slope += &self.sections.slope;
+        for (own, more) in sum.blocks_mut().zip(self.sections.blocks()) {
+            *own += more;
+        }
+        sum
     }
 
     /// Inertial terms over other unknowns, y = map z; without what is shortened.
@@ -125,7 +165,9 @@ impl GeometricMatrices {
         for matrix in own.blocks_mut() {
             *matrix = map.tr_mul(&(&*matrix * map));
         }
-        own.slope = &own.slope * map;
+        for turning in [&mut own.points, &mut own.sections] {
+            turning.slope = &turning.slope * map;
+        }
         own
     }
 
@@ -137,8 +179,10 @@ impl GeometricMatrices {
             let size = matrix.nrows();
             *matrix = DMatrix::from_fn(size, size, |i, j| factor(i) * factor(j) * matrix[(i, j)]);
         }
-        for (k, mut column) in own.slope.column_iter_mut().enumerate() {
-            column *= factor(k);
+        for turning in [&mut own.points, &mut own.sections] {
+            for (k, mut column) in turning.slope.column_iter_mut().enumerate() {
+                column *= factor(k);
+            }
         }
         for term in &mut own.shortening {
             for (k, value) in term.direction.iter_mut().enumerate() {
@@ -155,12 +199,15 @@ impl GeometricMatrices {
     pub fn check(mut self, mass: &DMatrix<f64>, places: &[Vector3]) -> Result<Self, ParameterError> {
         let size = mass.nrows();
         if self.blocks().any(|block| block.shape() != (size, size))
-            || self.slope.ncols() != size
+            || [&self.points, &self.sections].iter().any(|own| own.slope.ncols() != size)
             || self.shortening.iter().any(|own| own.direction.len() != size)
         {
             return problem(format!("is not over the {size} rows of the mass"));
         }
-        if self.blocks().chain([&self.slope]).any(|block| block.iter().any(|value| !value.is_finite()))
+        if self
+            .blocks()
+            .chain([&self.points.slope, &self.sections.slope])
+            .any(|block| block.iter().any(|value| !value.is_finite()))
             || self.shortening.iter().any(|own| own.direction.iter().any(|value| !value.is_finite()))
         {
             return problem("holds what is not a finite number");
@@ -173,7 +220,8 @@ impl GeometricMatrices {
             );
         }
         let shortening = self.shortening.iter_mut().map(|own| &mut own.matrix);
-        for matrix in self.moment.iter_mut().chain(&mut self.inertia).chain(shortening) {
+        let inertia = self.points.inertia.iter_mut().chain(&mut self.sections.inertia);
+        for matrix in self.moment.iter_mut().chain(inertia).chain(shortening) {
             let symmetric = 0.5 * (&*matrix + matrix.transpose());
             if (&symmetric - &*matrix).amax() > UNEQUAL * matrix.amax() {
                 return problem("has a block that is not symmetric");
@@ -194,11 +242,12 @@ impl GeometricMatrices {
         let turn = |k: usize| DVector::from_vec(rigid_column(&places, size, 3 + k));
         let turns = [0, 1, 2].map(turn);
         let whole = Matrix3::from_fn(|i, j| turns[i].dot(&(mass * &turns[j])));
+        let slope = &self.points.slope + &self.sections.slope;
         for (k, turned) in turns.iter().enumerate() {
             let about = skew(&Vector3::ith(k, 1.0));
             let expected = about * whole + whole * about.transpose();
             for (row, [i, j]) in PAIRS.into_iter().enumerate() {
-                let found = self.slope.row(row).transpose().dot(turned);
+                let found = slope.row(row).transpose().dot(turned);
                 if (found - expected[(i, j)]).abs() > UNEQUAL * whole.amax() {
                     return problem(format!(
                         "does not fit the mass: turned about its first interface the part would have another inertia ({found:.3e} \

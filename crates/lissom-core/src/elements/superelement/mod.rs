@@ -37,6 +37,7 @@ mod relative;
 mod room;
 mod second_order;
 mod step_stages;
+mod turning;
 
 use std::cell::RefCell;
 
@@ -47,7 +48,7 @@ pub use self::build::{InterfacePlace, SuperelementDescription, add_superelement}
 use self::centre::{Centre, Derivatives};
 pub use self::deformation::Deformation;
 pub(crate) use self::geometric::PAIRS;
-pub use self::geometric::{GeometricMatrices, Shortening};
+pub use self::geometric::{GeometricMatrices, Shortening, TurningMatrices};
 use self::left_out::{LARGEST_ERROR, LeftOut};
 use self::linearize::Maps;
 pub(crate) use self::load_stiffness::flexibility;
@@ -62,10 +63,11 @@ use super::{Element, Energy, LinearLimit, LinearRange, Tangents};
 use crate::kinematics::step_stages::{STAGES, StepStages};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, split};
 
-/// Elastic rotation of an interface against the floating frame from which on linear matrices are in doubt [rad].
-pub const LARGEST_ROTATION: f64 = 0.3;
-/// Elastic displacement of an interface from which on they are, as part of its distance from the floating frame.
-pub const LARGEST_DISPLACEMENT: f64 = 0.3;
+/// Elastic rotation of an interface against the floating frame from which on a warning reports it [rad]: forces that grow by the square
+/// of the rotation are a few hundredths of the others.
+pub const LARGEST_ROTATION: f64 = 0.2;
+/// Elastic displacement of an interface from which on it does, as part of its distance from the floating frame.
+pub const LARGEST_DISPLACEMENT: f64 = 0.15;
 
 /// Rate of rotation from which on the stiffness by centrifugal forces is missed, over the first natural frequency with the
 /// floating interface held: its square is the part of the stiffness.

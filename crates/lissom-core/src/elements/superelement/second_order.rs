@@ -2,29 +2,29 @@
 //! lines, and what bends is shortened without force.
 //!
 //! Legend: y = (r - X, κ, q) relative to the floating frame (see `relative`), v and ω its velocity and rate of rotation, γ = R_fᵀ g,
-//! U_k direction of a shortening. First moment s_k = s₀ + G_k y + ½ y·S_k y, inertia J_ij = J₀ + α_ij·y + ½ y·A_ij y, momentum of rates
-//! c_i = c₀ + B_iᵀ y, h_k = ½ y·D_k y (see [`GeometricMatrices`]), M mass of y.
+//! U_k direction of a shortening. First moment s_k = s₀ + G_k y + ½ y·S_k y, T_t energy of turning, of points and of what their sections
+//! add (see `turning`), h_k = ½ y·D_k y (see [`GeometricMatrices`]), M mass of y.
 //!
 //! ```text
-//! L = ½ m v² + v·(ω × s + ṡ) + γ·(m x + s) + ½ ω·J ω + ω·c ẏ + ½ ẏ·M ẏ - h·(K y + ½ K h),      h = Σ h_k U_k
+//! L = ½ m v² + v·(ω × s + ṡ) + γ·(m x + s) + T_t(y, ẏ, ω) + ½ ẏ·M ẏ - h·(K y + ½ K h),      h = Σ h_k U_k
 //!
 //! force on f      m a + s̈ + ω̇ × s + 2 ω × ṡ + ω × (ω × s),      a = v̇ + ω × v - γ
-//! moment on f     s × a + l̇ + ω × l,      l = J ω + c ẏ
-//! dual to y       M ÿ + Σ a_k (G_k + S_k y) + Σ ω̇_i c_i + ω_i (B_iᵀ - B_i) ẏ - ½ Σ ω_i ω_j (α_ij + A_ij y)
-//!                 + Σ g_k D_k y + K h,      g_k = U_k·(K y + K h)
+//! moment on f     s × a + that of T_t
+//! dual to y       M ÿ + Σ a_k (G_k + S_k y) + that of T_t + Σ g_k D_k y + K h,      g_k = U_k·(K y + K h)
 //! ```
 //!
-//! The equations are those of Poincaré for L. The kinetic energy is the integral ½∫ρ |v + ω × (X + Ψ y) + Ψ ẏ|² as a whole: terms of third
-//! order must not be left out, or it would not stay positive where the inertia of a motion changes by as much as it is, such as that about
-//! the axis of a slender part. The elastic energy is ½ (y + h)·K (y + h): the square keeps it positive.
+//! The equations are those of Poincaré for L. The kinetic energy of the points is the integral ½∫ρ |v + ω × (X + Ψ y) + Ψ ẏ|² as a whole: terms
+//! of third order must not be left out, or it would not stay positive where the inertia of a motion changes by as much as it is, such as that
+//! about the axis of a slender part. The elastic energy is ½ (y + h)·K (y + h): the square keeps it positive.
 
 use lissom_motion::{Matrix3, Matrix6, Vector3, rotation_part, screw, skew, translation_part};
-use nalgebra::{DMatrix, DVector, Matrix3xX};
+use nalgebra::{DMatrix, DVector, Matrix3xX, MatrixXx3};
 
-use super::geometric::{GeometricMatrices, PAIRS};
+use super::geometric::GeometricMatrices;
 use super::linearize::Map;
 use super::matrices::rigid_column;
 use super::relative::Relative;
+use super::turning::{MeanRotation, PartMotion, Turning, TurningLaw, TurningSlopes, resize, rows, times};
 use super::{Superelement, add};
 use crate::elements::{Energy, Tangents};
 use crate::kinematics::Kinematics;
@@ -50,13 +50,8 @@ pub(super) struct SecondOrder {
     first_moment: Vector3,
     moment_slope: [DVector<f64>; 3],
     moment: [DMatrix<f64>; 3],
-    /// J₀, and of each pair α and A.
-    inertia_at_rest: Matrix3,
-    slope: [DVector<f64>; 6],
-    inertia: [DMatrix<f64>; 6],
-    /// c₀ and B.
-    momentum_at_rest: [DVector<f64>; 3],
-    momentum: [DMatrix<f64>; 3],
+    /// Of points and of sections.
+    turning: [TurningLaw; 2],
     /// M.
     mass: DMatrix<f64>,
     shortening: Vec<Shortened>,
@@ -67,8 +62,11 @@ pub(super) struct SecondOrder {
 impl SecondOrder {
     /// Of an element with the mass matrix `mass`; `matrices` are scaled as that is.
     pub(super) fn of(element: &Superelement, mass: &DMatrix<f64>, matrices: &GeometricMatrices) -> Self {
-        let turns = [3, 4, 5].map(|k| DVector::from_vec(rigid_column(&element.places, element.size(), k)));
-        let momenta = turns.each_ref().map(|turn| mass * turn);
+        let rigid =
+            [0, 1, 2, 3, 4, 5].map(|k| DVector::from_vec(rigid_column(&element.places, element.size(), k)));
+        let turns = [&rigid[3], &rigid[4], &rigid[5]];
+        let momenta = turns.map(|turn| mass * turn);
+        let mean = MeanRotation::of(mass, &rigid);
         let shortening: Vec<Shortened> = matrices
             .shortening
             .iter()
@@ -88,11 +86,10 @@ impl SecondOrder {
             first_moment: element.moment,
             moment_slope: [0, 1, 2].map(|k| element.carried.row(k).transpose()),
             moment: matrices.moment.clone(),
-            inertia_at_rest: Matrix3::from_fn(|i, j| turns[i].dot(&momenta[j])),
-            slope: [0, 1, 2, 3, 4, 5].map(|k| matrices.slope.row(k).transpose()),
-            inertia: matrices.inertia.clone(),
-            momentum_at_rest: momenta,
-            momentum: matrices.momentum.clone(),
+            turning: [
+                TurningLaw::of_points(&matrices.points, turns, momenta),
+                TurningLaw::of_sections(&matrices.sections, mean),
+            ],
             mass: mass.clone(),
             shortening,
             stiffness,
@@ -111,12 +108,8 @@ pub(super) struct Deformed {
     /// G + S y, S ẏ.
     moment: [DVector<f64>; 3],
     moment_rate: [DVector<f64>; 3],
-    /// α + A y.
-    inertia: [DVector<f64>; 6],
-    /// c₀ + Bᵀ y, Bᵀ ẏ, B ẏ.
-    momentum: [DVector<f64>; 3],
-    momentum_rate: [DVector<f64>; 3],
-    conjugate: [DVector<f64>; 3],
+    /// Of points and of sections.
+    turning: [Turning; 2],
     /// D y.
     shortening: Vec<DVector<f64>>,
     /// h, g.
@@ -138,29 +131,6 @@ pub(super) struct Deformed {
     second_by_twist: Map,
     product: DMatrix<f64>,
     rows: DMatrix<f64>,
-}
-
-/// out = A x.
-fn times(matrix: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
-    resize(out, matrix.nrows());
-    out.gemv(1.0, matrix, x, 0.0);
-}
-
-/// out = Aᵀ x.
-fn transposed_times(matrix: &DMatrix<f64>, x: &DVector<f64>, out: &mut DVector<f64>) {
-    resize(out, matrix.ncols());
-    out.gemv_tr(1.0, matrix, x, 0.0);
-}
-
-fn resize(vector: &mut DVector<f64>, size: usize) {
-    if vector.len() != size {
-        *vector = DVector::zeros(size);
-    }
-}
-
-/// The pair of i and j.
-fn pair(i: usize, j: usize) -> usize {
-    PAIRS.iter().position(|own| *own == [i.min(j), i.max(j)]).unwrap_or_default()
 }
 
 impl Deformed {
@@ -209,14 +179,16 @@ impl Deformed {
             times(&law.moment[k], &self.place, &mut self.moment[k]);
             self.moment[k] += &law.moment_slope[k];
             times(&law.moment[k], &self.rate, &mut self.moment_rate[k]);
-            transposed_times(&law.momentum[k], &self.place, &mut self.momentum[k]);
-            self.momentum[k] += &law.momentum_at_rest[k];
-            transposed_times(&law.momentum[k], &self.rate, &mut self.momentum_rate[k]);
-            times(&law.momentum[k], &self.rate, &mut self.conjugate[k]);
         }
-        for k in 0..6 {
-            times(&law.inertia[k], &self.place, &mut self.inertia[k]);
-            self.inertia[k] += &law.slope[k];
+        let at = PartMotion {
+            displacement: &self.place,
+            rate: &self.rate,
+            second: &self.second,
+            spin: self.spin,
+            spin_rate: self.spin_rate,
+        };
+        for (own, law) in self.turning.iter_mut().zip(&law.turning) {
+            own.enter(law, &at);
         }
         self.shortening.resize_with(law.shortening.len(), DVector::default);
         self.shorter.clear();
@@ -242,35 +214,15 @@ impl Deformed {
         ]
     }
 
-    /// J, J̇.
-    fn inertia(&self, law: &SecondOrder) -> [Matrix3; 2] {
-        let of = |i: usize, j: usize| {
-            let k = pair(i, j);
-            law.inertia_at_rest[(i, j)]
-                + 0.5 * (self.inertia[k].dot(&self.place) + law.slope[k].dot(&self.place))
-        };
-        let rate = |i: usize, j: usize| self.inertia[pair(i, j)].dot(&self.rate);
-        [Matrix3::from_fn(of), Matrix3::from_fn(rate)]
-    }
-
-    /// l.
-    fn turning(&self, inertia: &Matrix3) -> Vector3 {
-        inertia * self.spin + Vector3::from_fn(|k, _| self.momentum[k].dot(&self.rate))
-    }
-
     /// Leaves the force dual to y in `force`.
     fn fill_force(&mut self, law: &SecondOrder) {
         let force = &mut self.force;
         force.gemv(1.0, &law.mass, &self.second, 0.0);
         for k in 0..3 {
             force.axpy(self.against[k], &self.moment[k], 1.0);
-            force.axpy(self.spin_rate[k], &self.momentum[k], 1.0);
-            force.axpy(self.spin[k], &self.momentum_rate[k], 1.0);
-            force.axpy(-self.spin[k], &self.conjugate[k], 1.0);
         }
-        for (k, [i, j]) in PAIRS.into_iter().enumerate() {
-            let both = if i == j { 0.5 } else { 1.0 };
-            force.axpy(-both * self.spin[i] * self.spin[j], &self.inertia[k], 1.0);
+        for (own, law) in self.turning.iter().zip(&law.turning) {
+            own.add_dual(law, force);
         }
         for (k, own) in law.shortening.iter().enumerate() {
             force.axpy(self.pull[k], &self.shortening[k], 1.0);
@@ -294,12 +246,7 @@ impl Deformed {
         let (w, dw) = (self.spin, self.spin_rate);
         let force =
             of.total * self.against + second + dw.cross(&s) + 2.0 * w.cross(&rate) + w.cross(&w.cross(&s));
-        let [inertia, inertia_rate] = self.inertia(law);
-        let turning = self.turning(&inertia);
-        let of_rates =
-            Vector3::from_fn(|k, _| self.conjugate[k].dot(&self.rate) + self.momentum[k].dot(&self.second));
-        let turning_rate = inertia_rate * w + inertia * dw + of_rates;
-        let moment = s.cross(&self.against) + turning_rate + w.cross(&turning);
+        let moment = s.cross(&self.against) + self.turning[0].moment() + self.turning[1].moment();
         add(out, 6 * of.frame, &force);
         add(out, 6 * of.frame + 3, &moment);
         self.add_dual(of, out);
@@ -326,13 +273,11 @@ impl Deformed {
     pub(super) fn energy(&mut self, of: &Superelement, law: &SecondOrder, at: &Kinematics) -> Energy {
         self.enter(of, law, at);
         let [s, rate] = self.first_moment(law);
-        let [inertia, _] = self.inertia(law);
-        let turning = self.turning(&inertia);
         self.room.gemv(1.0, &law.mass, &self.rate, 0.0);
         let kinetic = 0.5 * of.total * self.velocity.norm_squared()
             + self.velocity.dot(&(self.spin.cross(&s) + rate))
-            + self.spin.dot(&turning)
-            - 0.5 * self.spin.dot(&(inertia * self.spin))
+            + self.turning[0].kinetic()
+            + self.turning[1].kinetic()
             + 0.5 * self.room.dot(&self.rate);
         // h·(K y + ½ K h), of h·(K y + K h).
         let mut strain = 0.0;
@@ -390,13 +335,23 @@ impl Deformed {
     fn add_mass_entered(&mut self, of: &Superelement, law: &SecondOrder, out: &mut [f64]) {
         let (size, frame) = (of.size(), 6 * of.frame);
         let [s, _] = self.first_moment(law);
-        let [inertia, _] = self.inertia(law);
         let lever = skew(&s);
         // Force and moment on f by ÿ, through Y; the mirror image on y.
-        let rows = frame_rows(size, |row, own| {
-            own.copy_from(if row < 3 { &self.moment[row] } else { &self.momentum[row - 3] });
-        });
-        self.gradient.after(&law.mass, of.frame, &mut self.product);
+        let mut rows = DMatrix::zeros(6, size);
+        for k in 0..3 {
+            rows.row_mut(k).tr_copy_from(&self.moment[k]);
+        }
+        let (mut among, mut inertia) = (law.mass.clone(), Matrix3::zeros());
+        for (own, law) in self.turning.iter().zip(&law.turning) {
+            let part = own.mass(law);
+            inertia += part.inertia;
+            let mut below = rows.fixed_rows_mut::<3>(3);
+            below += part.coupling;
+            if let Some(part) = part.among {
+                among += part;
+            }
+        }
+        self.gradient.after(&among, of.frame, &mut self.product);
         self.gradient.add_before(&self.product, of.frame, out);
         self.gradient.after(&rows, of.frame, &mut self.product);
         for row in 0..6 {
@@ -427,8 +382,17 @@ impl Deformed {
         self.fill_maps(of.nodes.len());
         self.fill_force(law);
         self.add_mass_entered(of, law, &mut out.mass);
-        self.add_on_shape(of, law, out);
-        self.add_on_frame(of, law, out);
+        let at = PartMotion {
+            displacement: &self.place,
+            rate: &self.rate,
+            second: &self.second,
+            spin: self.spin,
+            spin_rate: self.spin_rate,
+        };
+        let mut turning = self.turning[0].slopes(&law.turning[0], &at);
+        turning += self.turning[1].slopes(&law.turning[1], &at);
+        self.add_on_shape(of, law, &turning, out);
+        self.add_on_frame(of, law, &turning, out);
         for (i, seen) in self.relatives.iter().enumerate() {
             let Some(seen) = seen else { continue };
             let part = |first: usize| Vector3::from_fn(|k, _| self.force[6 * i + first + k]);
@@ -437,30 +401,37 @@ impl Deformed {
     }
 
     /// Adds the derivatives of the force dual to y by places and twists.
-    fn add_on_shape(&mut self, of: &Superelement, law: &SecondOrder, out: &mut Tangents) {
-        let (size, frame) = (of.size(), of.frame);
-        let (mut by_place, by_rate) = (self.shape_by_place(of, law), self.shape_by_rate(law));
+    fn add_on_shape(
+        &mut self,
+        of: &Superelement,
+        law: &SecondOrder,
+        turning: &TurningSlopes,
+        out: &mut Tangents,
+    ) {
+        let frame = of.frame;
+        let (mut by_place, by_rate) = (self.shape_by_place(of, law), &turning.dual[1]);
+        by_place += &turning.dual[0];
         // By a, as it depends on the floating frame's place and twist; by ω.
-        let moment = DMatrix::from_fn(size, 3, |row, k| self.moment[k][row]);
-        let by_spin = DMatrix::from_fn(size, 3, |row, i| {
-            let centrifugal: f64 = (0..3).map(|j| self.spin[j] * self.inertia[pair(i, j)][row]).sum();
-            self.momentum_rate[i][row] - self.conjugate[i][row] - centrifugal
-        });
+        let moment = MatrixXx3::from_columns(&self.moment);
         let turned = -(&moment * skew(&self.gravity));
         let by_velocity = &moment * skew(&self.spin);
-        let by_spin = by_spin - &moment * skew(&self.velocity);
+        let by_spin = &turning.dual_by_spin - &moment * skew(&self.velocity);
         self.gradient.after(&by_place, frame, &mut self.product);
-        self.rate_by_place.after(&by_rate, frame, &mut self.rows);
+        self.rate_by_place.after(by_rate, frame, &mut self.rows);
         self.product += &self.rows;
-        self.second_by_place.after(&law.mass, frame, &mut self.rows);
+        let mut by_second = law.mass.clone();
+        if let Some(among) = &turning.among {
+            by_second += among;
+        }
+        self.second_by_place.after(&by_second, frame, &mut self.rows);
         self.product += &self.rows;
         {
             let mut view = self.product.columns_mut(6 * frame + 3, 3);
             view += &turned;
         }
         self.gradient.add_before(&self.product, frame, &mut out.stiffness);
-        self.gradient.after(&by_rate, frame, &mut by_place);
-        self.second_by_twist.after(&law.mass, frame, &mut self.rows);
+        self.gradient.after(by_rate, frame, &mut by_place);
+        self.second_by_twist.after(&by_second, frame, &mut self.rows);
         by_place += &self.rows;
         for (first, columns) in [(0, &by_velocity), (3, &by_spin)] {
             let mut view = by_place.columns_mut(6 * frame + first, 3);
@@ -469,7 +440,7 @@ impl Deformed {
         self.gradient.add_before(&by_place, frame, &mut out.damping);
     }
 
-    /// Derivative of the force dual to y by y.
+    /// Derivative of the force dual to y by y, without that of turning.
     fn shape_by_place(&self, of: &Superelement, law: &SecondOrder) -> DMatrix<f64> {
         let size = of.size();
         let mut matrix = DMatrix::zeros(size, size);
@@ -480,13 +451,6 @@ impl Deformed {
         };
         for k in 0..3 {
             add(self.against[k], &law.moment[k]);
-            if self.spin_rate[k] != 0.0 {
-                add(self.spin_rate[k], &law.momentum[k].transpose());
-            }
-        }
-        for (k, [i, j]) in PAIRS.into_iter().enumerate() {
-            let both = if i == j { 0.5 } else { 1.0 };
-            add(-both * self.spin[i] * self.spin[j], &law.inertia[k]);
         }
         for (k, own) in law.shortening.iter().enumerate() {
             add(self.pull[k], &own.matrix);
@@ -504,69 +468,27 @@ impl Deformed {
         matrix
     }
 
-    /// Derivative of the force dual to y by ẏ.
-    fn shape_by_rate(&self, law: &SecondOrder) -> DMatrix<f64> {
-        let size = self.place.len();
-        let mut matrix = DMatrix::zeros(size, size);
-        for (momentum, spin) in law.momentum.iter().zip(self.spin.iter()).filter(|(_, spin)| **spin != 0.0) {
-            for i in 0..size {
-                for j in 0..size {
-                    matrix[(i, j)] += spin * (momentum[(j, i)] - momentum[(i, j)]);
-                }
-            }
-        }
-        matrix
-    }
-
     /// Adds the derivatives of force and moment on the floating frame by places and twists.
-    fn add_on_frame(&mut self, of: &Superelement, law: &SecondOrder, out: &mut Tangents) {
+    fn add_on_frame(
+        &mut self,
+        of: &Superelement,
+        law: &SecondOrder,
+        turning: &TurningSlopes,
+        out: &mut Tangents,
+    ) {
         let (size, frame) = (of.size(), 6 * of.frame);
         let (w, dw) = (self.spin, self.spin_rate);
         let (turn, turn_rate) = (skew(&w), skew(&dw));
         let [s, rate] = self.first_moment(law);
-        let [inertia, inertia_rate] = self.inertia(law);
-        let turning = self.turning(&inertia);
-        let three = |of: &dyn Fn(usize, &mut DVector<f64>)| {
-            let mut matrix = Matrix3xX::zeros(size);
-            let mut own = DVector::zeros(size);
-            for k in 0..3 {
-                own.fill(0.0);
-                of(k, &mut own);
-                matrix.row_mut(k).tr_copy_from(&own);
-            }
-            matrix
-        };
-        let spun = |factors: &Vector3, i: usize, own: &mut DVector<f64>| {
-            for j in 0..3 {
-                own.axpy(factors[j], &self.inertia[pair(i, j)], 1.0);
-            }
-        };
-        let moment = three(&|k, own| own.copy_from(&self.moment[k]));
-        let moment_rate = three(&|k, own| own.copy_from(&self.moment_rate[k]));
-        let moment_second = three(&|k, own| own.gemv(1.0, &law.moment[k], &self.second, 0.0));
-        let turning_by_place = three(&|i, own| {
-            spun(&w, i, own);
-            *own += &self.conjugate[i];
-        });
-        let momentum = three(&|k, own| own.copy_from(&self.momentum[k]));
-        // l̇ by y and by ẏ.
-        let turning_rate_by_place = three(&|i, own| {
-            own.gemv(1.0, &law.momentum[i], &self.second, 0.0);
-            spun(&dw, i, own);
-            for j in 0..3 {
-                own.gemv(w[j], &law.inertia[pair(i, j)], &self.rate, 1.0);
-            }
-        });
-        let turning_rate_by_rate = three(&|i, own| {
-            spun(&w, i, own);
-            *own += &self.conjugate[i];
-            *own += &self.momentum_rate[i];
-        });
+        let lever = skew(&s);
+        let moment = rows(&self.moment);
+        let moment_rate = rows(&self.moment_rate);
+        let moment_second = rows(&law.moment.each_ref().map(|own| own * &self.second));
         let centrifugal = turn_rate + turn * turn;
         let force_by_place = moment_second + centrifugal * &moment + 2.0 * turn * &moment_rate;
         let force_by_rate = 2.0 * moment_rate + 2.0 * turn * &moment;
-        let moment_by_place = turning_rate_by_place + turn * turning_by_place - skew(&self.against) * &moment;
-        let moment_by_rate = turning_rate_by_rate + turn * &momentum;
+        let [moment_by_place, moment_by_rate, moment_by_second] = &turning.moment;
+        let moment_by_place = moment_by_place - skew(&self.against) * &moment;
         let stacked =
             |above: &Matrix3xX<f64>, below: &Matrix3xX<f64>| {
                 DMatrix::from_fn(6, size, |row, column| {
@@ -574,9 +496,8 @@ impl Deformed {
                 })
             };
         let by_place = stacked(&force_by_place, &moment_by_place);
-        let by_rate = stacked(&force_by_rate, &moment_by_rate);
-        let by_second = stacked(&moment, &momentum);
-        let lever = skew(&s);
+        let by_rate = stacked(&force_by_rate, moment_by_rate);
+        let by_second = stacked(&moment, moment_by_second);
         let mut sum = DMatrix::zeros(6, size);
         for (map, matrix) in [
             (&self.gradient, &by_place),
@@ -596,25 +517,13 @@ impl Deformed {
         }
         let force_by_spin =
             -of.total * skew(&self.velocity) - 2.0 * skew(&rate) - skew(&w.cross(&s)) - turn * lever;
-        let moment_by_spin = inertia_rate - skew(&turning) + turn * inertia - lever * skew(&self.velocity);
+        let moment_by_spin = turning.moment_by_spin - lever * skew(&self.velocity);
         add_three(&mut sum, (0, frame), &(of.total * turn));
         add_three(&mut sum, (0, frame + 3), &force_by_spin);
         add_three(&mut sum, (3, frame), &(lever * turn));
         add_three(&mut sum, (3, frame + 3), &moment_by_spin);
         add_to(&mut out.damping, (frame, size), &sum);
     }
-}
-
-/// Six rows over y.
-fn frame_rows(size: usize, fill: impl Fn(usize, &mut DVector<f64>)) -> DMatrix<f64> {
-    let mut rows = DMatrix::zeros(6, size);
-    let mut own = DVector::zeros(size);
-    for row in 0..6 {
-        own.fill(0.0);
-        fill(row, &mut own);
-        rows.row_mut(row).tr_copy_from(&own);
-    }
-    rows
 }
 
 fn add_three(matrix: &mut DMatrix<f64>, at: (usize, usize), block: &Matrix3) {
