@@ -192,7 +192,7 @@ fn geometric_matrices_that_do_not_fit_are_refused() {
     };
     let none = ("no such words", "");
     assert!(message(&other, none).contains("does not fit the mass"), "{}", message(&other, none));
-    assert!(message(&more, none).contains("needs 14 columns and 174 rows"), "{}", message(&more, none));
+    assert!(message(&more, none).contains("needs 14 columns and 306 rows"), "{}", message(&more, none));
     let floating = ("geometric =", "floating = \"bar_end\"\ngeometric =");
     assert!(
         message(&report, floating).contains("hold for the first interface"),

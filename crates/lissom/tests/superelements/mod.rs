@@ -486,6 +486,44 @@ fn rod_error(exact: &Model, model: &Model, overrides: &[(String, String)]) -> (f
     (wrong / most, most)
 }
 
+/// Forces of the rod of the slider crank on both of its pins are those of the beam, by every scheme and over speeds.
+#[test]
+fn pins_of_the_slider_crank_are_loaded_as_by_the_beam() {
+    let pins = ["crank_pin", "piston_pin"];
+    let outputs: String =
+        pins.iter().map(|pin| format!("[outputs.{pin}]\nkind = \"reaction\"\nof = \"{pin}\"\n")).collect();
+    let (exact, model) = slider_cranks();
+    let with_pins = |model: &Model| {
+        Model::from_text(
+            "model.toml",
+            &model.text().replace("[outputs.piston]", &format!("{outputs}[outputs.piston]")),
+        )
+    };
+    let path = std::path::PathBuf::from(example("slider-crank-elastic.toml"));
+    let texts: BTreeMap<String, String> = ["mass", "stiffness", "damping", "geometric"]
+        .map(|name| format!("parts/rod-{name}.mtx"))
+        .map(|name| (name.clone(), std::fs::read_to_string(path.with_file_name(&name)).expect("a matrix")))
+        .into();
+    let [exact, model] = [with_pins(&exact), with_pins(&model).with_known(texts)];
+    let cases =
+        SCHEMES.map(|scheme| (600, scheme)).into_iter().chain([(250, SCHEMES[0]), (1000, SCHEMES[0])]);
+    for (speed, scheme) in cases {
+        let overrides = [
+            set("parameters.speed", &format!("{speed}*2*pi/60")),
+            set("analysis.scheme", &format!("\"{scheme}\"")),
+        ];
+        let [exact, found] = [&exact, &model].map(|model| ran(model, &overrides));
+        for pin in pins {
+            for component in ["f1", "f2"] {
+                let [exact, found] = [&exact, &found].map(|record| column(record, pin, component));
+                let most = exact.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+                let wrong = exact.iter().zip(&found).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                assert!(wrong < 0.02 * most, "{speed} 1/min, {scheme}, {pin}.{component}: {wrong} of {most}");
+            }
+        }
+    }
+}
+
 /// The rod of the slider crank is that of `connecting-rod.toml`, and bends as the beam does. The differences of
 /// second order in its file are as exact as differences are.
 #[test]
