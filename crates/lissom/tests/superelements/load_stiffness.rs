@@ -68,7 +68,7 @@ fn stiffness_that_rotation_changes_is_told() {
 
 /// The rod of the slider crank, over speeds: the same.
 #[test]
-fn stiffness_that_axial_forces_change_is_told() {
+fn stiffness_that_axial_forces_change_is_reported() {
     let (exact, model) = slider_cranks();
     let model = model.without(vec!["superelements.rod.geometric".to_owned()]);
     for speed in [100, 250, 500, 1000] {

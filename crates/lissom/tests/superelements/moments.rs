@@ -12,7 +12,9 @@ fn bent(model: &Model, [y, z, torque]: [f64; 3]) -> ([f64; 6], Vec<(String, f64)
     let of = |output: &str, component: &str| last(&record, output, component);
     let found = ["u1", "u2", "u3"].map(|component| of("end", component));
     let turned = ["r1", "r2", "r3"].map(|component| of("turn", component));
-    let warnings = session.warnings().map(|warning| match warning {
+    // Large loads bend beyond the linear range as well.
+    let others = session.warnings().filter(|warning| warning.code() != "beyond-linear");
+    let warnings = others.map(|warning| match warning {
         lissom_core::judge::Warning::MomentStiffness { largest, .. } => {
             (warning.code().to_owned(), 0.005 * largest)
         }
@@ -39,7 +41,7 @@ fn loaded(interfaces: [&str; 2], text: &str) -> String {
 /// Bending in two planes, and bending with torque, over loads: an error of 1 % causes a warning, and one of 0.2 % does not. Of it up to 0.5 % is
 /// that of forces which move along with the end, and no moments.
 #[test]
-fn stiffness_that_moments_change_is_told() {
+fn stiffness_that_moments_change_is_reported() {
     let exact = Model::from_text("model.toml", &loaded(["bar.start", "bar.end"], &beam(MODES)));
     let report = reduced(&beam(MODES), &["bar.start", "bar.end"], 8);
     let own = {
