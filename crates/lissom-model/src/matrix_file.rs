@@ -48,7 +48,7 @@ pub(crate) enum MatrixError {
         columns: usize,
     },
     /// There are more or fewer entries than told.
-    #[error("there are {found} entries where {wanted} are told")]
+    #[error("there are {found} entries where {wanted} are announced")]
     Count {
         /// How many there are.
         found: usize,

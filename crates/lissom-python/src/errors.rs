@@ -13,7 +13,7 @@ create_exception!(
     lissom,
     LissomError,
     PyException,
-    "What all exceptions of this package are.\n\nThe text is that of the command line; `time` [s], `part` and `remedy` say parts of it, None where it does not tell."
+    "What all exceptions of this package are.\n\nThe text is that of the command line; `time` [s], `part` and `remedy` are parts of it, or None."
 );
 create_exception!(
     lissom,

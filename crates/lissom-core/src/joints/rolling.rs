@@ -52,7 +52,7 @@ pub const KIND: JointKind = JointKind {
             "friction_coefficient",
             ParameterType::Positive,
             "",
-            "Coefficient of friction: a warning tells when rolling takes more; default: there is no limit.",
+            "Coefficient of friction: a warning reports when rolling takes more; default: there is no limit.",
         ),
         Parameter::optional(
             "creep",

@@ -73,7 +73,7 @@ pub const KIND: JointKind = JointKind {
             "tread",
             ParameterType::Range,
             "m",
-            "Places `y` of the wheel at which it may touch: beyond them a warning tells; default half the radius to both sides.",
+            "Places `y` of the wheel at which it may touch: beyond them a warning is reported; default half the radius to both sides.",
         ),
         Parameter::optional(
             "head_radius",

@@ -163,7 +163,7 @@ pub enum Warning {
     },
     /// A function of time changes within a step of planned size in a way that its ends do not tell.
     #[error(
-        "around t = {time:.6e} s {function} does something within a step of {step:.3e} s that its values and slopes at the ends do not tell, \
+        "around t = {time:.6e} s {function} does something within a step of {step:.3e} s that its values and slopes at the ends do not show, \
          such as a pulse or an oscillation: the step sees little of it, or takes it for something else; take smaller steps, or set \
          `relative_tolerance` instead of `step`"
     )]
@@ -227,7 +227,7 @@ pub enum Warning {
     },
     /// Reactions of constraints that repeat each other.
     #[error(
-        "{columns} not unique: constraints repeat each other there ({repeated}), and what is told are the least forces that \
+        "{columns} not unique: constraints repeat each other there ({repeated}), and those reported are the least forces that \
          hold the motion; a real mechanism shares them out by its stiffness: replace rigid joints by bushings, or free the \
          directions that repeat"
     )]

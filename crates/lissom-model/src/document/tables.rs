@@ -516,7 +516,7 @@ fn outputs() -> Vec<Variant> {
             keys.push(optional("relative_to", Shape::Node, "", words));
         }
         if kind.takes_axes() {
-            let words = "body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`";
+            let words = "body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`";
             keys.push(optional("in", Shape::Node, "", words));
         }
         if kind.takes_point() {

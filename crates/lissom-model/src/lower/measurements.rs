@@ -89,7 +89,7 @@ fn of_output(
 ) -> Result<MeasurementId, Fault> {
     let owner = &output.name.value;
     if output.seen_in.is_some() || output.relative_to.is_some() {
-        let message = format!("`{owner}` is told in moving axes, which signals cannot depend on");
+        let message = format!("`{owner}` is expressed in moving axes, which signals cannot depend on");
         return fault(message, Some("name an output without `in` and `relative_to`".to_owned()));
     }
     let words: [String; 3] = match output.kind {

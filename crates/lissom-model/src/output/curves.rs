@@ -109,7 +109,7 @@ pub fn plots(
                         if found.end() < 0.99 * found.nyquist && !cut {
                             cut = true;
                             plots.left_out.push(format!(
-                                "the spectrum of `{name}` ends at {} Hz; the rows would tell more, up to {} Hz",
+                                "the spectrum of `{name}` ends at {} Hz; the rows contain more, up to {} Hz",
                                 found.end(),
                                 found.nyquist
                             ));

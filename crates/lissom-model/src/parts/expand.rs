@@ -446,7 +446,7 @@ impl Expansion<'_> {
             let help = suggest::help(name, own.iter().map(|(known, ..)| known.as_str()));
             let message = format!("what `{full}` is made of has no parameter `{name}`");
             let problem = Problem::error(entry.key, message).label("unknown");
-            let help_first = "its [parameters] tell which there are, with their defaults";
+            let help_first = "its [parameters] list them with their defaults";
             self.problems.push(problem.help(help_first).maybe_help(help));
             return None;
         }

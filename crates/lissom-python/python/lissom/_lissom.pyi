@@ -13,7 +13,7 @@ __version__: str
 class LissomError(Exception):
     """What all exceptions of this package are.
 
-    The text is that of the command line; `time`, `part` and `remedy` say parts of it, None where it does not tell.
+    The text is that of the command line; `time`, `part` and `remedy` are parts of it, or None.
     """
 
     time: Optional[float]

@@ -106,7 +106,7 @@ impl Explain {
             let codes: Vec<&str> = warnings.iter().map(|entry| entry.name).collect();
             let message =
                 format!("nothing is known of `{words}`; codes of warnings are {}", codes.join(", "));
-            return Err(Failure::new(Exit::BadModel, format!("{message}; `lissom explain` tells all")));
+            return Err(Failure::new(Exit::BadModel, format!("{message}; `lissom explain` prints all")));
         }
         terminal::print(&found.iter().map(Entry::told).collect::<String>());
         Ok(Exit::Done)
@@ -134,7 +134,7 @@ fn of_run(folder: &Path, warnings: &[Entry<'_>], failures: &[Entry<'_>]) -> Resu
         lines.extend(causes.map(|entry| format!("  likely cause: {}", entry.remedy)));
     }
     if lines.is_empty() {
-        lines.push("this run has told nothing that needs an explanation".to_owned());
+        lines.push("this run has no warnings".to_owned());
     }
     Ok(lines.join("\n") + "\n")
 }

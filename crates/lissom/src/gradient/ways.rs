@@ -74,7 +74,7 @@ impl Question<'_> {
             .map_err(GradientError::Number)?;
         if number == 0.0 {
             let words = format!(
-                "the number at `{path}` is zero, which tells no size: give it a small value, or a parameter beside it"
+                "the number at `{path}` is zero, which has no size: give it a small value, or a parameter beside it"
             );
             return Err(GradientError::Number(words));
         }

@@ -234,7 +234,7 @@ fn mistakes_in_outputs_and_starts_are_told() {
         (
             "inputs.gain = 2",
             "inputs.gain = 2\nsignals.fast = \"speed.v1\"",
-            "is told in moving axes, which signals cannot depend on",
+            "is expressed in moving axes, which signals cannot depend on",
         ),
     ] {
         assert!(MODEL.contains(from), "{from}");

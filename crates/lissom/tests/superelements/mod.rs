@@ -490,8 +490,7 @@ fn rod_error(exact: &Model, model: &Model, overrides: &[(String, String)]) -> (f
 #[test]
 fn pins_of_the_slider_crank_are_loaded_as_by_the_beam() {
     let pins = ["crank_pin", "piston_pin"];
-    let outputs: String =
-        pins.iter().map(|pin| format!("[outputs.{pin}]\nkind = \"reaction\"\nof = \"{pin}\"\n")).collect();
+    let outputs = pins.map(|pin| format!("[outputs.{pin}]\nkind = \"reaction\"\nof = \"{pin}\"\n")).concat();
     let (exact, model) = slider_cranks();
     let with_pins = |model: &Model| {
         Model::from_text(

@@ -661,7 +661,7 @@ class Rolling(Joint):
         wheel_axis: Axis of the wheel at the start, global axes; it goes through the tip's place, the wheel's centre; three numbers, not all zero.
         radius: Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 makes a ball of radius `rim` [m]; a number ≥ 0, or nothing.
         rim: Radius of the rounding of the rim; default 0, a sharp edge [m]; a number ≥ 0, or nothing.
-        friction_coefficient: Coefficient of friction: a warning tells when rolling takes more; default: there is no limit; a number > 0, or nothing.
+        friction_coefficient: Coefficient of friction: a warning reports when rolling takes more; default: there is no limit; a number > 0, or nothing.
         creep: Velocity of sliding per force, a linear law of creep; default 0: it does not slide. Wheels that hold each other on one axle need it [m/(N s)]; a number ≥ 0, or nothing.
         friction: friction on its only coordinate; `{ coulomb, static, stribeck, viscous, deflection, damping }`, or nothing.
         latch: a latch that engages where its only coordinate is first `at` a value, and holds it there; `{ at }`, or nothing.
@@ -862,7 +862,7 @@ class WheelOnRail(Joint):
         offset: Distance of the nominal circle from the tip's place along the wheel's axis, outwards positive; default: above the rail's point `at` at the start [m]; a number, or nothing.
         cone_angle: Angle of the wheel's cone: its radius falls outwards by the tangent; default 0 [rad]; a number, or nothing.
         wheel_profile: Instead of `cone_angle`: radius beyond the nominal one over the place `y` along the axis, outwards from the nominal circle; needs `tread` [m]; an expression of `y`, or a table of it written as a function of time, or nothing.
-        tread: Places `y` of the wheel at which it may touch: beyond them a warning tells; default half the radius to both sides [m]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
+        tread: Places `y` of the wheel at which it may touch: beyond them a warning is reported; default half the radius to both sides [m]; two ascending numbers, which may be `-inf` and `inf`, or nothing.
         head_radius: Radius of the rail's head, a circle through the point `at` [m]; a number > 0, or nothing.
         cant: Angle by which the head rises outwards at the point `at`; default `cone_angle` [rad]; a number, or nothing.
         rail_profile: Instead of `head_radius`: height of the rail over the lateral place `y`, outwards from the point `at`, where it is 0 [m]; an expression of `y`, or a table of it written as a function of time, or nothing.

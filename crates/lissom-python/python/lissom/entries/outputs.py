@@ -24,7 +24,7 @@ class Position(Output):
     Args:
         of: the node, as in "beam@0.5"; a node.
         relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
-        in_: body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`; a node, or nothing.
+        in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
         point: a place at the start, carried by the node [m]; a place, or nothing.
     """
 
@@ -43,7 +43,7 @@ class Displacement(Output):
     Args:
         of: the node, as in "beam@0.5"; a node.
         relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
-        in_: body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`; a node, or nothing.
+        in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
         point: a place at the start, carried by the node [m]; a place, or nothing.
     """
 
@@ -62,7 +62,7 @@ class Rotation(Output):
     Args:
         of: the node, as in "beam@0.5"; a node.
         relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
-        in_: body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`; a node, or nothing.
+        in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
     """
 
     _form: ClassVar[str] = "rotation"
@@ -122,7 +122,7 @@ class Velocity(Output):
     Args:
         of: the node, as in "beam@0.5"; a node.
         relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
-        in_: body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`; a node, or nothing.
+        in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
         point: a place at the start, carried by the node [m]; a place, or nothing.
     """
 
@@ -141,7 +141,7 @@ class AngularVelocity(Output):
     Args:
         of: the node, as in "beam@0.5"; a node.
         relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
-        in_: body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`; a node, or nothing.
+        in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
     """
 
     _form: ClassVar[str] = "angular_velocity"
@@ -158,7 +158,7 @@ class Acceleration(Output):
     Args:
         of: the node, as in "beam@0.5"; a node.
         relative_to: body, or place on a beam, from which the motion is seen, in its axes; default the ground; a node, or nothing.
-        in_: body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`; a node, or nothing.
+        in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
         point: a place at the start, carried by the node [m]; a place, or nothing.
     """
 
@@ -373,7 +373,7 @@ class Momentum(Output):
     """Momentum and angular momentum of the model about the origin, global axes.
 
     Args:
-        in_: body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`; a node, or nothing.
+        in_: body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`; a node, or nothing.
     """
 
     _form: ClassVar[str] = "momentum"

@@ -287,7 +287,7 @@ entry! {
     radius: f64 = "radius";
     /// Radius of the rounding of the rim; default 0, a sharp edge \[m\].
     rim: f64 = "rim";
-    /// Coefficient of friction: a warning tells when rolling takes more; default: there is no limit.
+    /// Coefficient of friction: a warning reports when rolling takes more; default: there is no limit.
     friction_coefficient: f64 = "friction_coefficient";
     /// Velocity of sliding per force, a linear law of creep; default 0: it does not slide. Wheels that hold each other on one axle need it \[m/(N s)\].
     creep: f64 = "creep";
@@ -380,7 +380,7 @@ entry! {
     cone_angle: f64 = "cone_angle";
     /// Instead of `cone_angle`: radius beyond the nominal one over the place `y` along the axis, outwards from the nominal circle; needs `tread` \[m\].
     wheel_profile: Function = "wheel_profile";
-    /// Places `y` of the wheel at which it may touch: beyond them a warning tells; default half the radius to both sides \[m\].
+    /// Places `y` of the wheel at which it may touch: beyond them a warning is reported; default half the radius to both sides \[m\].
     tread: [f64; 2] = "tread";
     /// Radius of the rail's head, a circle through the point `at` \[m\].
     head_radius: f64 = "head_radius";

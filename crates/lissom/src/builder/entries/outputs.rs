@@ -274,7 +274,7 @@ keys! {
 
 keys! {
     [Position, Displacement, Rotation, Velocity, AngularVelocity, Acceleration, Momentum]
-    /// Body, or place on a beam, in whose axes it is told; default global axes, or those of `relative_to`.
+    /// Body, or position on a beam, in whose axes it is expressed; default global axes, or those of `relative_to`.
     seen_in: Node = "in";
 }
 
