@@ -17,7 +17,7 @@ use lissom_motion::{
 };
 use nalgebra::{Matrix3x6, Matrix3xX};
 
-use super::Superelement;
+use super::part::Part;
 use crate::elements::{Tangents, add_block};
 use crate::kinematics::Kinematics;
 
@@ -81,7 +81,7 @@ fn turned_map(seen: &Seen, z: &Vector3) -> Matrix3 {
 
 impl Centre {
     /// Takes in the motion `at`.
-    pub(super) fn enter(&mut self, of: &Superelement, at: &Kinematics) {
+    pub(super) fn enter(&mut self, of: &Part, at: &Kinematics) {
         let base = &at.nodes[of.nodes[of.frame]];
         let inverse = of.total.recip();
         self.velocity = translation_part(&base.twist);
@@ -138,7 +138,7 @@ impl Centre {
         self.fill_gradient(of);
     }
 
-    fn fill_gradient(&mut self, of: &Superelement) {
+    fn fill_gradient(&mut self, of: &Part) {
         self.gradient.clear();
         self.gradient.resize(of.size(), Vector3::zeros());
         let frame = 6 * of.frame;
@@ -190,7 +190,7 @@ impl Centre {
     }
 
     /// Adds the derivatives of the forces.
-    pub(super) fn add_tangents(&self, of: &Superelement, room: &mut Derivatives, out: &mut Tangents) {
+    pub(super) fn add_tangents(&self, of: &Part, room: &mut Derivatives, out: &mut Tangents) {
         self.add_mass(of.total, &mut out.mass);
         self.differentiate(of, room);
         let size = self.gradient.len();
@@ -204,7 +204,7 @@ impl Centre {
     }
 
     /// ∂(a_c - R_fᵀ g) by places and twists.
-    fn differentiate(&self, of: &Superelement, room: &mut Derivatives) {
+    fn differentiate(&self, of: &Part, room: &mut Derivatives) {
         room.clear(of.size());
         let frame = 6 * of.frame;
         let spin = skew(&self.spin);
@@ -262,7 +262,7 @@ impl Centre {
     }
 
     /// Adds what the forces do while their directions turn: ∂(Wᵀ F)/∂ place at constant F.
-    fn add_geometric(&self, of: &Superelement, out: &mut Tangents) {
+    fn add_geometric(&self, of: &Part, out: &mut Tangents) {
         let (size, frame) = (of.size(), 6 * of.frame);
         let force = of.total * self.against;
         // ρ × F on the floating frame.

@@ -17,8 +17,9 @@
 use lissom_motion::{Vector3, rotation_part, translation_part};
 use nalgebra::{DMatrix, Matrix3xX, SymmetricEigen};
 
+use super::part::Part;
 use super::relative::Relative;
-use super::{Superelement, product, three};
+use super::vectors::three;
 use crate::kinematics::Kinematics;
 
 /// Error of forces, as a share of the largest inertial or elastic force of the element, from which on a warning is given.
@@ -34,7 +35,7 @@ pub(super) struct LeftOut {
 
 impl LeftOut {
     /// Of an element; none if nothing moves against the floating frame.
-    pub(super) fn of(element: &Superelement) -> Option<Self> {
+    pub(super) fn of(element: &Part) -> Option<Self> {
         let rows: Vec<usize> = (0..element.size()).filter(|row| row / 6 != element.frame).collect();
         if rows.is_empty() {
             return None;
@@ -67,7 +68,7 @@ impl LeftOut {
     }
 
     /// The error of forces as a share of the largest of inertial and elastic forces and weight; none without forces. `stress` is K u.
-    pub(super) fn share(&self, element: &Superelement, at: &Kinematics, stress: &[f64]) -> Option<f64> {
+    pub(super) fn share(&self, element: &Part, at: &Kinematics, stress: &[f64]) -> Option<f64> {
         let mut error = Vector3::zeros();
         let (mut largest, mut sum) = (0.0_f64, Vector3::zeros());
         for i in 0..element.nodes.len() {
@@ -92,19 +93,6 @@ impl LeftOut {
         let weight = element.total * gravity.norm();
         let largest = largest.max(sum.norm()).max(element.total * rigid.norm()).max(weight);
         (largest > 0.0).then(|| error.norm() / largest)
-    }
-}
-
-impl Superelement {
-    /// The estimate for a motion, where there is one.
-    pub(super) fn share_left_out(
-        &self,
-        at: &Kinematics,
-        (displacement, stress): (&[f64], &mut [f64]),
-    ) -> Option<f64> {
-        let estimate = self.left_out.as_ref()?;
-        product(&self.stiffness, displacement, stress);
-        estimate.share(self, at, stress)
     }
 }
 
@@ -136,7 +124,7 @@ mod tests {
             ReducedMatrices { mass, stiffness, damping: Damping::None, preload: Vec::new(), geometric: None };
         let places = [Vector3::zeros(), Vector3::new(length, 0.0, 0.0)];
         let gravity = Gravity::constant(Vector3::zeros());
-        let element = Superelement::new((vec![0, 1], Vec::new()), (0, &places), matrices, gravity);
+        let element = Part::new((vec![0, 1], Vec::new()), (0, &places), matrices, gravity);
         let estimate = LeftOut::of(&element).expect("it moves");
         let share = |own: f64, of_base: f64| {
             let mut at = Kinematics {

@@ -7,8 +7,9 @@ use lissom_motion::{
 };
 use nalgebra::{DMatrix, Matrix3x6};
 
+use super::part::Part;
 use super::room::Room;
-use super::{Superelement, three};
+use super::vectors::three;
 use crate::elements::{Tangents, add_block};
 
 /// A map of the unknowns, interface by interface.
@@ -134,7 +135,7 @@ fn rotations(of: impl Fn(&Vector6, &Vector6) -> Matrix6, angles: &Vector3, other
 }
 
 impl Maps {
-    fn fill(&mut self, of: &Superelement, room: &Room) {
+    fn fill(&mut self, of: &Part, room: &Room) {
         let zero = Matrix3::zeros();
         let spin = skew(&room.twist[1]);
         self.displacement.begin(true);
@@ -187,7 +188,7 @@ impl Maps {
     }
 
     /// The mass matrix, row after row.
-    pub(super) fn mass(&mut self, of: &Superelement, room: &Room, out: &mut Vec<f64>) {
+    pub(super) fn mass(&mut self, of: &Part, room: &Room, out: &mut Vec<f64>) {
         self.velocity.begin(true);
         let zero = Matrix3::zeros();
         for turn in &room.turns {
@@ -200,7 +201,7 @@ impl Maps {
     }
 
     /// Adds the derivatives of elastic and viscous forces; the room holds motion and stress.
-    pub(super) fn add_elastic_tangents(&mut self, of: &Superelement, room: &Room, out: &mut Tangents) {
+    pub(super) fn add_elastic_tangents(&mut self, of: &Part, room: &Room, out: &mut Tangents) {
         self.fill(of, room);
         let frame = of.frame;
         // Elastic and viscous.
@@ -216,7 +217,7 @@ impl Maps {
     }
 
     /// Adds the derivatives of inertial forces, after those of elastic ones; the room holds motion and momenta.
-    pub(super) fn add_inertial_tangents(&mut self, of: &Superelement, room: &Room, out: &mut Tangents) {
+    pub(super) fn add_inertial_tangents(&mut self, of: &Part, room: &Room, out: &mut Tangents) {
         let frame = of.frame;
         self.velocity.after(&of.mass, frame, &mut self.first);
         self.velocity.add_before(&self.first, frame, &mut out.mass);
@@ -228,7 +229,7 @@ impl Maps {
     }
 
     /// Adds the derivatives of the inertial forces: `first` holds those of p, `second` those of ṗ.
-    fn add_momenta(&mut self, of: &Superelement, room: &Room, by_place: bool, out: &mut [f64]) {
+    fn add_momenta(&mut self, of: &Part, room: &Room, by_place: bool, out: &mut [f64]) {
         let size = of.size();
         let frame = of.frame;
         let spin = skew(&room.twist[1]);
@@ -286,7 +287,7 @@ fn add_to<const R: usize, const C: usize>(
 }
 
 /// Adds what the forces conjugate to u do while their directions turn.
-fn geometric(of: &Superelement, room: &Room, out: &mut [f64]) {
+fn geometric(of: &Part, room: &Room, out: &mut [f64]) {
     let size = of.size();
     let rotation = 6 * of.frame + 3;
     for i in (0..of.nodes.len()).filter(|&i| i != of.frame) {

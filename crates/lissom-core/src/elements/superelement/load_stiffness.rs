@@ -27,7 +27,8 @@
 use lissom_motion::{Matrix3, Vector3};
 use nalgebra::{DMatrix, DVector, SymmetricEigen};
 
-use super::{Superelement, three};
+use super::part::Part;
+use super::vectors::three;
 
 /// Share of the stiffness from which on a warning reports it.
 pub(super) const LARGEST_SHARE: f64 = 0.005;
@@ -82,7 +83,7 @@ pub(crate) fn flexibility(stiffness: &DMatrix<f64>, frame: usize) -> DMatrix<f64
 
 impl LoadStiffness {
     /// Of an element.
-    pub(super) fn of(element: &Superelement) -> Self {
+    pub(super) fn of(element: &Part) -> Self {
         let size = element.size();
         let flexibility = flexibility(&element.stiffness, element.frame);
         let places = DVector::from_fn(size, |row, _| {
@@ -130,7 +131,7 @@ impl LoadStiffness {
     /// Rotation that moments make and linear matrices miss, times the size of the element over its largest displacement.
     pub(super) fn share_of_moments(
         &self,
-        element: &Superelement,
+        element: &Part,
         (displacement, force): (&[f64], &[f64]),
     ) -> Option<f64> {
         let reach = element.reach();
@@ -158,7 +159,7 @@ impl LoadStiffness {
     /// The share of the stiffness against what the part bends, where it bends; `displacement` is u, `force` K u.
     pub(super) fn share(
         &self,
-        element: &Superelement,
+        element: &Part,
         (displacement, force, spin): (&[f64], &[f64], &Vector3),
     ) -> Option<f64> {
         let mut bent = DVector::from_column_slice(displacement);
@@ -203,7 +204,7 @@ impl LoadStiffness {
     }
 }
 
-impl Superelement {
+impl Part {
     /// Centrifugal forces on the modal coordinates, of the places that the interfaces carry along with them.
     fn centrifugal(&self, spin: &Vector3) -> DVector<f64> {
         let first = 6 * self.nodes.len();
@@ -213,11 +214,6 @@ impl Superelement {
         }
         let carried = self.carried.tr_mul(&(&self.carried * &outward)) / self.total;
         (&self.mass * &outward + carried).rows(first, self.size() - first).into_owned()
-    }
-
-    /// The mass of a modal coordinate, that of the centre included.
-    fn whole_mass(&self, row: usize) -> f64 {
-        self.mass[(row, row)] + self.carried.column(row).norm_squared() / self.total
     }
 }
 
@@ -232,7 +228,7 @@ mod tests {
     const STIFFNESS: [f64; 2] = [3e6, 40.0];
 
     /// A bar along y from the floating frame on, as a beam of one cubic.
-    fn bar() -> Superelement {
+    fn bar() -> Part {
         let [axial, bending] = STIFFNESS.map(|own| own / LENGTH);
         let mut stiffness = DMatrix::zeros(12, 12);
         stiffness[(7, 7)] = axial;
@@ -249,7 +245,7 @@ mod tests {
             ReducedMatrices { mass, stiffness, damping: Damping::None, preload: Vec::new(), geometric: None };
         let places = [Vector3::zeros(), Vector3::new(0.0, LENGTH, 0.0)];
         let gravity = Gravity::constant(Vector3::zeros());
-        Superelement::new((vec![1, 2], Vec::new()), (0, &places), matrices, gravity)
+        Part::new((vec![1, 2], Vec::new()), (0, &places), matrices, gravity)
     }
 
     /// ∫ w'² dy of the cubic that begins at rest and ends with this displacement and slope, by Simpson's rule.

@@ -28,21 +28,23 @@
 mod build;
 mod centre;
 mod deformation;
+mod forces;
 mod geometric;
 mod left_out;
 mod linearize;
 mod load_stiffness;
 mod matrices;
+mod part;
 mod relative;
 mod room;
 mod second_order;
 mod step_stages;
 mod turning;
+mod vectors;
 
 use std::cell::RefCell;
 
 use lissom_motion::Vector3;
-use nalgebra::{DMatrix, DVector, Matrix3xX};
 
 pub use self::build::{InterfacePlace, SuperelementDescription, add_superelement};
 use self::centre::{Centre, Derivatives};
@@ -55,9 +57,10 @@ pub(crate) use self::load_stiffness::flexibility;
 use self::load_stiffness::{LARGEST_SHARE, LoadStiffness};
 pub(crate) use self::matrices::rigid_column;
 pub use self::matrices::{Damping, ReducedMatrices};
-use self::matrices::{RigidMotion, rigid_motion};
-use self::room::{Room, product};
+use self::part::Part;
+use self::room::Room;
 use self::second_order::{Deformed, SecondOrder};
+use self::vectors::{product, three};
 use super::inertia::Gravity;
 use super::{Element, Energy, LinearLimit, LinearRange, Tangents};
 use crate::kinematics::step_stages::{STAGES, StepStages};
@@ -78,24 +81,7 @@ pub const LARGEST_SPIN_KNOWN: f64 = 1.0;
 /// A reduced part.
 #[derive(Clone, Debug)]
 pub struct Superelement {
-    nodes: Vec<NodeId>,
-    coordinates: Vec<CoordinateId>,
-    /// The interface that carries the floating frame.
-    frame: usize,
-    /// X_i - X_f [m].
-    places: Vec<Vector3>,
-    /// M less GᵀG/m.
-    mass: DMatrix<f64>,
-    stiffness: DMatrix<f64>,
-    damping: Option<DMatrix<f64>>,
-    /// f₀.
-    preload: DVector<f64>,
-    /// m, and m c from the interface f.
-    total: f64,
-    moment: Vector3,
-    /// G.
-    carried: Matrix3xX<f64>,
-    gravity: Gravity,
+    part: Part,
     /// Rate of rotation up to which matrices are believed [rad/s]; none where nothing swings.
     largest_spin: Option<f64>,
     /// What estimates how loads change the stiffness; none where nobody asks.
@@ -131,118 +117,20 @@ impl Superelement {
         matrices: ReducedMatrices,
         gravity: Gravity,
     ) -> Self {
-        let places: Vec<Vector3> = places.iter().map(|place| place - places[frame]).collect();
-        let RigidMotion { total, moment, carried, .. } = rigid_motion(&matrices.mass, &places);
-        let ReducedMatrices { mass, stiffness, damping, preload, geometric } = matrices;
-        let damping = match damping {
-            Damping::None => None,
-            Damping::Matrix(matrix) => Some(matrix),
-            Damping::OfStiffness(time) => Some(&stiffness * time),
-        };
-        let size = mass.nrows();
-        let whole = geometric.is_some().then(|| mass.clone());
-        // What is left of the mass without that of the centre sees no translation.
-        let mass = mass - carried.tr_mul(&carried) / total;
-        let preload = if preload.is_empty() { DVector::zeros(size) } else { DVector::from_vec(preload) };
-        let mut element = Self {
-            nodes,
-            coordinates,
-            frame,
-            places,
-            mass,
-            stiffness,
-            damping,
-            preload,
-            total,
-            moment,
-            carried,
-            gravity,
-            largest_spin: None,
-            load_stiffness: None,
-            left_out: None,
-            second_order: None,
-        };
-        element.second_order =
-            geometric.zip(whole).map(|(own, mass)| Box::new(SecondOrder::of(&element, &mass, &own)));
-        element
+        let geometric = matrices.geometric.clone();
+        let mass = matrices.mass.clone();
+        let part = Part::new((nodes, coordinates), (frame, places), matrices, gravity);
+        let second_order = geometric.map(|own| Box::new(SecondOrder::of(&part, &mass, &own)));
+        Self { part, largest_spin: None, load_stiffness: None, left_out: None, second_order }
     }
 
     /// With a rate of rotation from which on a warning is reported [rad/s], and with one of loads that change the stiffness.
     #[must_use]
     pub fn believed_up_to(self, spin: Option<f64>) -> Self {
-        let load_stiffness = Some(LoadStiffness::of(&self));
-        let left_out = LeftOut::of(&self);
+        let load_stiffness = Some(LoadStiffness::of(&self.part));
+        let left_out = LeftOut::of(&self.part);
         Self { largest_spin: spin, load_stiffness, left_out, ..self }
     }
-
-    fn size(&self) -> usize {
-        6 * self.nodes.len() + self.coordinates.len()
-    }
-
-    /// K u + D u̇ + f₀.
-    fn stress(&self, room: &mut Room) {
-        room.stress.copy_from_slice(self.preload.as_slice());
-        product(&self.stiffness, &room.displacement, &mut room.stress);
-        if let Some(damping) = &self.damping {
-            product(damping, &room.rate, &mut room.stress);
-        }
-    }
-
-    /// Adds forces that are conjugate to u: by the transposed gradient of u.
-    fn add_conjugate(&self, room: &Room, stress: &[f64], out: &mut [f64]) {
-        let (mut force, mut moment) = (Vector3::zeros(), Vector3::zeros());
-        for i in (0..self.nodes.len()).filter(|&i| i != self.frame) {
-            let (f, m) = (three(stress, 6 * i), three(stress, 6 * i + 3));
-            let own = room.inverse_tangents[i].tr_mul(&m);
-            add(out, 6 * i, &room.turns[i].tr_mul(&f));
-            add(out, 6 * i + 3, &own);
-            force -= f;
-            moment -= room.arms[i].cross(&f) + room.turns[i] * own;
-        }
-        add(out, 6 * self.frame, &force);
-        add(out, 6 * self.frame + 3, &moment);
-        for k in 6 * self.nodes.len()..self.size() {
-            out[k] += stress[k];
-        }
-    }
-
-    /// Adds what inertia and weight need besides the forces conjugate to u.
-    fn add_inertia(&self, at: &Kinematics, room: &mut Room, centre: &mut Centre, out: &mut [f64]) {
-        centre.enter(self, at);
-        self.momenta(room);
-        let mut on_frame = Vector3::zeros();
-        for i in 0..self.nodes.len() {
-            let (p, l) = (three(&room.momentum, 6 * i), three(&room.momentum, 6 * i + 3));
-            let (v, w) = (three(&room.velocity, 6 * i), three(&room.velocity, 6 * i + 3));
-            let [force, moment] = room.inertial(i);
-            add(out, 6 * i, &room.turns[i].tr_mul(&force));
-            add(out, 6 * i + 3, &room.turns[i].tr_mul(&moment));
-            on_frame += v.cross(&p) + w.cross(&l);
-        }
-        add(out, 6 * self.frame + 3, &on_frame);
-        for k in 6 * self.nodes.len()..self.size() {
-            out[k] += room.inertia[k];
-        }
-        centre.add_forces(self.total, out);
-    }
-
-    /// Momentum, and the inertial forces before they are turned.
-    fn momenta(&self, room: &mut Room) {
-        room.momentum.fill(0.0);
-        room.inertia.fill(0.0);
-        product(&self.mass, &room.velocity, &mut room.momentum);
-        product(&self.mass, &room.acceleration, &mut room.inertia);
-    }
-
-    /// The largest distance of an interface from the floating frame [m].
-    fn reach(&self) -> f64 {
-        self.places.iter().map(Vector3::norm).fold(0.0, f64::max)
-    }
-}
-
-/// Three numbers of a vector.
-fn three(values: &[f64], first: usize) -> Vector3 {
-    Vector3::new(values[first], values[first + 1], values[first + 2])
 }
 
 /// Whether all pivots of a symmetric matrix are positive, by its Cholesky factorisation in place, of the lower triangle.
@@ -267,41 +155,35 @@ fn is_positive_definite(matrix: &mut [f64], size: usize) -> bool {
     true
 }
 
-/// Adds to three numbers of a vector.
-fn add(values: &mut [f64], first: usize, vector: &Vector3) {
-    for k in 0..3 {
-        values[first + k] += vector[k];
-    }
-}
-
 impl Element for Superelement {
     fn nodes(&self) -> &[NodeId] {
-        &self.nodes
+        &self.part.nodes
     }
 
     fn coordinates(&self) -> &[CoordinateId] {
-        &self.coordinates
+        &self.part.coordinates
     }
 
     fn forces(&self, at: &Kinematics, out: &mut [f64]) {
         ROOMS.with_borrow_mut(|Rooms { own: room, centre, second, .. }| {
-            room.enter(self, at);
-            self.stress(room);
-            self.add_conjugate(room, &room.stress, out);
+            room.enter(&self.part, at);
+            self.part.stress(room);
+            self.part.add_conjugate(room, &room.stress, out);
             if let Some(law) = &self.second_order {
-                second.add_forces(self, law, at, out);
+                second.add_forces(&self.part, law, at, out);
             } else {
-                self.add_inertia(at, room, centre, out);
+                self.part.add_inertia(at, room, centre, out);
             }
         });
     }
 
     fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
         ROOMS.with_borrow_mut(|Rooms { own, stages, centre, second, .. }| {
-            self.add_stage_forces(step, (own, stages, centre), out);
+            let has_inertia = self.second_order.is_none();
+            self.part.add_stage_forces(step, (own, stages, centre), has_inertia, out);
             if let Some(law) = &self.second_order {
                 for (at, out) in step.stages.iter().zip(out) {
-                    second.add_forces(self, law, at, out);
+                    second.add_forces(&self.part, law, at, out);
                 }
             }
         });
@@ -314,18 +196,18 @@ impl Element for Superelement {
     fn linearize_stressed(&self, at: &Kinematics, stressed: &Kinematics, out: &mut Tangents) {
         ROOMS.with_borrow_mut(
             |Rooms { own, stages: [other, _], centre, maps, derivatives, second, .. }| {
-                other.enter(self, stressed);
-                self.stress(other);
-                own.enter(self, at);
+                other.enter(&self.part, stressed);
+                self.part.stress(other);
+                own.enter(&self.part, at);
                 own.stress.copy_from_slice(&other.stress);
-                maps.add_elastic_tangents(self, own, out);
+                maps.add_elastic_tangents(&self.part, own, out);
                 if let Some(law) = &self.second_order {
-                    second.add_tangents(self, law, at, out);
+                    second.add_tangents(&self.part, law, at, out);
                 } else {
-                    self.momenta(own);
-                    maps.add_inertial_tangents(self, own, out);
-                    centre.enter(self, at);
-                    centre.add_tangents(self, derivatives, out);
+                    self.part.momenta(own);
+                    maps.add_inertial_tangents(&self.part, own, out);
+                    centre.enter(&self.part, at);
+                    centre.add_tangents(&self.part, derivatives, out);
                 }
             },
         );
@@ -335,14 +217,14 @@ impl Element for Superelement {
         ROOMS.with_borrow_mut(|Rooms { own, centre, maps, second, .. }| {
             if let Some(law) = &self.second_order {
                 out.clear();
-                out.resize(self.size() * self.size(), 0.0);
-                second.add_mass(self, law, at, out);
+                out.resize(self.part.size() * self.part.size(), 0.0);
+                second.add_mass(&self.part, law, at, out);
                 return;
             }
-            own.enter(self, at);
-            maps.mass(self, own, out);
-            centre.enter(self, at);
-            centre.add_mass(self.total, out);
+            own.enter(&self.part, at);
+            maps.mass(&self.part, own, out);
+            centre.enter(&self.part, at);
+            centre.add_mass(self.part.total, out);
         });
     }
 
@@ -353,51 +235,53 @@ impl Element for Superelement {
         }
         let mut matrix = ROOMS.with_borrow_mut(|rooms| std::mem::take(&mut rooms.mass));
         self.mass(at, &mut matrix);
-        let is_positive = is_positive_definite(&mut matrix, self.size());
+        let is_positive = is_positive_definite(&mut matrix, self.part.size());
         ROOMS.with_borrow_mut(|rooms| rooms.mass = matrix);
         is_positive
     }
 
     fn energy(&self, at: &Kinematics) -> Energy {
         ROOMS.with_borrow_mut(|Rooms { own: room, centre, second, .. }| {
-            room.enter(self, at);
+            room.enter(&self.part, at);
             let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-            product(&self.stiffness, &room.displacement, &mut room.stress);
+            product(&self.part.stiffness, &room.displacement, &mut room.stress);
             let strain = 0.5 * dot(&room.stress, &room.displacement)
-                + dot(self.preload.as_slice(), &room.displacement);
+                + dot(self.part.preload.as_slice(), &room.displacement);
             if let Some(law) = &self.second_order {
-                let own = second.energy(self, law, at);
+                let own = second.energy(&self.part, law, at);
                 return Energy { strain: strain + own.strain, ..own };
             }
-            centre.enter(self, at);
-            self.momenta(room);
-            let of_centre = self.total * centre.velocity().norm_squared();
+            centre.enter(&self.part, at);
+            self.part.momenta(room);
+            let of_centre = self.part.total * centre.velocity().norm_squared();
             let kinetic = 0.5 * (dot(&room.velocity, &room.momentum) + of_centre);
-            let node = &at.nodes[self.nodes[self.frame]].frame;
+            let node = &at.nodes[self.part.nodes[self.part.frame]].frame;
             let place = node.position + node.rotation.apply(&centre.place());
-            let potential = -self.total * self.gravity.acceleration.dot(&place);
+            let potential = -self.part.total * self.part.gravity.acceleration.dot(&place);
             Energy { kinetic, strain, potential }
         })
     }
 
     fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
-        let reach = self.reach();
+        let reach = self.part.reach();
         ROOMS.with_borrow_mut(|Rooms { own: room, .. }| {
-            room.enter(self, at);
+            room.enter(&self.part, at);
             let rate = |i: usize| {
                 let (linear, angular) = (three(&room.rate, 6 * i), three(&room.rate, 6 * i + 3));
                 let linear = if reach > 0.0 { linear.norm() / reach } else { 0.0 };
-                (linear + angular.norm(), self.nodes[i])
+                (linear + angular.norm(), self.part.nodes[i])
             };
-            (0..self.nodes.len()).map(rate).reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
+            (0..self.part.nodes.len())
+                .map(rate)
+                .reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
         })
     }
 
     fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
         let quaternion = |node: NodeId| at.nodes[node].frame.rotation.quaternion();
-        let frame = self.nodes[self.frame];
+        let frame = self.part.nodes[self.part.frame];
         let base = quaternion(frame);
-        let others = self.nodes.iter().filter(|&&node| node != frame);
+        let others = self.part.nodes.iter().filter(|&&node| node != frame);
         let pairs = others.map(|&node| {
             let cosine: f64 = quaternion(node).iter().zip(base).map(|(a, b)| a * b).sum();
             (cosine, [frame, node])
@@ -406,28 +290,30 @@ impl Element for Superelement {
     }
 
     fn linear_range(&self, limit: LinearLimit, at: &Kinematics) -> Option<LinearRange> {
-        let reach = self.reach();
-        let frame = self.nodes[self.frame];
+        let reach = self.part.reach();
+        let frame = self.part.nodes[self.part.frame];
         let spin = split(&at.nodes[frame].twist).1;
         if limit == LinearLimit::Spin {
             return self.largest_spin.map(|most| LinearRange { part: spin.norm() / most, node: frame });
         }
         ROOMS.with_borrow_mut(|Rooms { own: room, .. }| {
-            room.enter(self, at);
+            room.enter(&self.part, at);
             if limit == LinearLimit::LeftOut {
-                let share = self.share_left_out(at, (&room.displacement, &mut room.stress))?;
+                let estimate = self.left_out.as_ref()?;
+                product(&self.part.stiffness, &room.displacement, &mut room.stress);
+                let share = estimate.share(&self.part, at, &room.stress)?;
                 return Some(LinearRange { part: share / LARGEST_ERROR, node: frame });
             }
             if limit != LinearLimit::Deformation {
                 let estimate = self.load_stiffness.as_ref()?;
-                product(&self.stiffness, &room.displacement, &mut room.stress);
+                product(&self.part.stiffness, &room.displacement, &mut room.stress);
                 let share = match limit {
                     LinearLimit::Moment => {
-                        estimate.share_of_moments(self, (&room.displacement, &room.stress))?
+                        estimate.share_of_moments(&self.part, (&room.displacement, &room.stress))?
                     }
                     // Matrices of second order know it.
                     _ if self.second_order.is_some() => return None,
-                    _ => estimate.share(self, (&room.displacement, &room.stress, &spin))?,
+                    _ => estimate.share(&self.part, (&room.displacement, &room.stress, &spin))?,
                 };
                 return Some(LinearRange { part: share / LARGEST_SHARE, node: frame });
             }
@@ -436,9 +322,9 @@ impl Element for Superelement {
                     (three(&room.displacement, 6 * i).norm(), three(&room.displacement, 6 * i + 3).norm());
                 let by_length = if reach > 0.0 { linear / (LARGEST_DISPLACEMENT * reach) } else { 0.0 };
                 let part = by_length.max(angular / LARGEST_ROTATION);
-                LinearRange { part, node: self.nodes[i] }
+                LinearRange { part, node: self.part.nodes[i] }
             };
-            (0..self.nodes.len())
+            (0..self.part.nodes.len())
                 .map(deformed)
                 .reduce(|most, own| if own.part > most.part { own } else { most })
         })

@@ -12,7 +12,7 @@ use lissom_motion::{
     skew, translation_part,
 };
 
-use super::Superelement;
+use super::part::Part;
 use crate::elements::add_block;
 use crate::kinematics::Kinematics;
 
@@ -61,7 +61,7 @@ fn on_rotations(linear: &Matrix3, angular: &Matrix3) -> Matrix6 {
 
 impl Relative {
     /// Interface `i`; none for the floating one.
-    pub(super) fn of(element: &Superelement, i: usize, at: &Kinematics) -> Option<Self> {
+    pub(super) fn of(element: &Part, i: usize, at: &Kinematics) -> Option<Self> {
         if i == element.frame {
             return None;
         }
@@ -146,7 +146,7 @@ impl Relative {
     /// and the floating frame.
     pub(super) fn add_geometric(
         &self,
-        (element, i): (&Superelement, usize),
+        (element, i): (&Part, usize),
         (force, moment): (&Vector3, &Vector3),
         out: &mut [f64],
     ) {

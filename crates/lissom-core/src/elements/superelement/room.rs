@@ -1,9 +1,9 @@
 //! Where a superelement is and how it moves, in the axes of its floating frame.
 
 use lissom_motion::{Matrix3, Vector3, rotation_inverse_tangent};
-use nalgebra::DMatrix;
 
-use super::{Superelement, three};
+use super::part::Part;
+use super::vectors::{set, three};
 use crate::kinematics::{Kinematics, split};
 
 /// Motion and forces of one superelement at one instant. Vectors count as the unknowns do: six per interface, then the modal
@@ -40,7 +40,7 @@ pub(super) struct Room {
 
 impl Room {
     /// Takes in the motion `at`.
-    pub(super) fn enter(&mut self, of: &Superelement, at: &Kinematics) {
+    pub(super) fn enter(&mut self, of: &Part, at: &Kinematics) {
         let (nodes, size) = (of.nodes.len(), of.size());
         for vector in [
             &mut self.displacement,
@@ -111,18 +111,5 @@ impl Room {
             three(&self.inertia, 6 * i) + spin.cross(&p),
             three(&self.inertia, 6 * i + 3) + (spin - own).cross(&l),
         ]
-    }
-}
-
-fn set(values: &mut [f64], first: usize, vector: &Vector3) {
-    values[first..first + 3].copy_from_slice(vector.as_slice());
-}
-
-/// y += A x.
-pub(super) fn product(matrix: &DMatrix<f64>, x: &[f64], y: &mut [f64]) {
-    for (column, &value) in matrix.column_iter().zip(x).filter(|(_, value)| **value != 0.0) {
-        for (sum, entry) in y.iter_mut().zip(column.iter()) {
-            *sum += entry * value;
-        }
     }
 }

@@ -23,9 +23,10 @@ use nalgebra::{DMatrix, DVector, Matrix3xX, MatrixXx3};
 use super::geometric::GeometricMatrices;
 use super::linearize::Map;
 use super::matrices::rigid_column;
+use super::part::Part;
 use super::relative::Relative;
 use super::turning::{MeanRotation, PartMotion, Turning, TurningLaw, TurningSlopes, resize, rows, times};
-use super::{Superelement, add};
+use super::vectors::add;
 use crate::elements::{Energy, Tangents};
 use crate::kinematics::Kinematics;
 
@@ -61,7 +62,7 @@ pub(super) struct SecondOrder {
 
 impl SecondOrder {
     /// Of an element with the mass matrix `mass`; `matrices` are scaled as that is.
-    pub(super) fn of(element: &Superelement, mass: &DMatrix<f64>, matrices: &GeometricMatrices) -> Self {
+    pub(super) fn of(element: &Part, mass: &DMatrix<f64>, matrices: &GeometricMatrices) -> Self {
         let rigid =
             [0, 1, 2, 3, 4, 5].map(|k| DVector::from_vec(rigid_column(&element.places, element.size(), k)));
         let turns = [&rigid[3], &rigid[4], &rigid[5]];
@@ -135,7 +136,7 @@ pub(super) struct Deformed {
 
 impl Deformed {
     /// Takes in the motion `at`.
-    fn enter(&mut self, of: &Superelement, law: &SecondOrder, at: &Kinematics) {
+    fn enter(&mut self, of: &Part, law: &SecondOrder, at: &Kinematics) {
         let (size, nodes) = (of.size(), of.nodes.len());
         for vector in [&mut self.place, &mut self.rate, &mut self.second, &mut self.force, &mut self.room] {
             resize(vector, size);
@@ -174,7 +175,7 @@ impl Deformed {
         self.fill(of, law);
     }
 
-    fn fill(&mut self, of: &Superelement, law: &SecondOrder) {
+    fn fill(&mut self, of: &Part, law: &SecondOrder) {
         for k in 0..3 {
             times(&law.moment[k], &self.place, &mut self.moment[k]);
             self.moment[k] += &law.moment_slope[k];
@@ -231,13 +232,7 @@ impl Deformed {
     }
 
     /// Adds the forces at the motion `at`.
-    pub(super) fn add_forces(
-        &mut self,
-        of: &Superelement,
-        law: &SecondOrder,
-        at: &Kinematics,
-        out: &mut [f64],
-    ) {
+    pub(super) fn add_forces(&mut self, of: &Part, law: &SecondOrder, at: &Kinematics, out: &mut [f64]) {
         self.enter(of, law, at);
         self.fill_force(law);
         let [s, rate] = self.first_moment(law);
@@ -253,7 +248,7 @@ impl Deformed {
     }
 
     /// Adds Yᵀ times the force dual to y.
-    fn add_dual(&self, of: &Superelement, out: &mut [f64]) {
+    fn add_dual(&self, of: &Part, out: &mut [f64]) {
         for (i, seen) in self.relatives.iter().enumerate() {
             let Some(seen) = seen else { continue };
             let part = |first: usize| Vector3::from_fn(|k, _| self.force[6 * i + first + k]);
@@ -270,7 +265,7 @@ impl Deformed {
     }
 
     /// Energies at the motion `at`.
-    pub(super) fn energy(&mut self, of: &Superelement, law: &SecondOrder, at: &Kinematics) -> Energy {
+    pub(super) fn energy(&mut self, of: &Part, law: &SecondOrder, at: &Kinematics) -> Energy {
         self.enter(of, law, at);
         let [s, rate] = self.first_moment(law);
         self.room.gemv(1.0, &law.mass, &self.rate, 0.0);
@@ -320,19 +315,13 @@ impl Deformed {
     }
 
     /// Adds the mass matrix.
-    pub(super) fn add_mass(
-        &mut self,
-        of: &Superelement,
-        law: &SecondOrder,
-        at: &Kinematics,
-        out: &mut [f64],
-    ) {
+    pub(super) fn add_mass(&mut self, of: &Part, law: &SecondOrder, at: &Kinematics, out: &mut [f64]) {
         self.enter(of, law, at);
         self.fill_maps(of.nodes.len());
         self.add_mass_entered(of, law, out);
     }
 
-    fn add_mass_entered(&mut self, of: &Superelement, law: &SecondOrder, out: &mut [f64]) {
+    fn add_mass_entered(&mut self, of: &Part, law: &SecondOrder, out: &mut [f64]) {
         let (size, frame) = (of.size(), 6 * of.frame);
         let [s, _] = self.first_moment(law);
         let lever = skew(&s);
@@ -371,13 +360,7 @@ impl Deformed {
     }
 
     /// Adds the derivatives of the forces at the motion `at`.
-    pub(super) fn add_tangents(
-        &mut self,
-        of: &Superelement,
-        law: &SecondOrder,
-        at: &Kinematics,
-        out: &mut Tangents,
-    ) {
+    pub(super) fn add_tangents(&mut self, of: &Part, law: &SecondOrder, at: &Kinematics, out: &mut Tangents) {
         self.enter(of, law, at);
         self.fill_maps(of.nodes.len());
         self.fill_force(law);
@@ -401,13 +384,7 @@ impl Deformed {
     }
 
     /// Adds the derivatives of the force dual to y by places and twists.
-    fn add_on_shape(
-        &mut self,
-        of: &Superelement,
-        law: &SecondOrder,
-        turning: &TurningSlopes,
-        out: &mut Tangents,
-    ) {
+    fn add_on_shape(&mut self, of: &Part, law: &SecondOrder, turning: &TurningSlopes, out: &mut Tangents) {
         let frame = of.frame;
         let (mut by_place, by_rate) = (self.shape_by_place(of, law), &turning.dual[1]);
         by_place += &turning.dual[0];
@@ -441,7 +418,7 @@ impl Deformed {
     }
 
     /// Derivative of the force dual to y by y, without that of turning.
-    fn shape_by_place(&self, of: &Superelement, law: &SecondOrder) -> DMatrix<f64> {
+    fn shape_by_place(&self, of: &Part, law: &SecondOrder) -> DMatrix<f64> {
         let size = of.size();
         let mut matrix = DMatrix::zeros(size, size);
         let mut add = |factor: f64, own: &DMatrix<f64>| {
@@ -469,13 +446,7 @@ impl Deformed {
     }
 
     /// Adds the derivatives of force and moment on the floating frame by places and twists.
-    fn add_on_frame(
-        &mut self,
-        of: &Superelement,
-        law: &SecondOrder,
-        turning: &TurningSlopes,
-        out: &mut Tangents,
-    ) {
+    fn add_on_frame(&mut self, of: &Part, law: &SecondOrder, turning: &TurningSlopes, out: &mut Tangents) {
         let (size, frame) = (of.size(), 6 * of.frame);
         let (w, dw) = (self.spin, self.spin_rate);
         let (turn, turn_rate) = (skew(&w), skew(&dw));

@@ -4,8 +4,10 @@
 
 use lissom_motion::{Vector3, rotation_inverse_tangent, rotation_part};
 
-use super::room::{Room, product};
-use super::{Centre, Superelement, three};
+use super::centre::Centre;
+use super::part::Part;
+use super::room::Room;
+use super::vectors::{product, three};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 
 /// What rates miss of u is noise below this part of the way that the element comes.
@@ -13,12 +15,13 @@ const ROUND_OFF: f64 = 4096.0 * f64::EPSILON;
 /// Turns below this lose digits in a difference of two logarithms [rad].
 const SMALL: f64 = 1e-3;
 
-impl Superelement {
-    /// Adds the forces at the stages of `step`.
+impl Part {
+    /// Adds the forces at the stages of `step`, with those of inertia if `has_inertia`.
     pub(super) fn add_stage_forces(
         &self,
         step: &StepStages<'_>,
         (start, stages, centre): (&mut Room, &mut [Room; STAGES], &mut Centre),
+        has_inertia: bool,
         out: &mut [&mut [f64]; STAGES],
     ) {
         for (room, at) in stages.iter_mut().zip(step.stages) {
@@ -57,7 +60,7 @@ impl Superelement {
                 *stress += factor * weighted;
             }
             self.add_conjugate(room, &room.stress, out);
-            if self.second_order.is_none() {
+            if has_inertia {
                 self.add_inertia(at, room, centre, out);
             }
         }
@@ -141,7 +144,7 @@ mod tests {
             geometric: None,
         };
         let gravity = Gravity::constant(Vector3::zeros());
-        let element = Superelement::new((vec![0, 1, 2], Vec::new()), (1, &places), matrices, gravity);
+        let element = Part::new((vec![0, 1, 2], Vec::new()), (1, &places), matrices, gravity);
         let moving = |spatial: [Vector3; 2]| Kinematics {
             time: 0.0,
             elapsed: 0.0,
@@ -192,7 +195,7 @@ mod tests {
             geometric: None,
         };
         let gravity = Gravity::constant(Vector3::zeros());
-        let element = Superelement::new((vec![0, 1], vec![0]), (0, &places), matrices, gravity);
+        let element = Part::new((vec![0, 1], vec![0]), (0, &places), matrices, gravity);
         let twist = screw(&Vector3::new(0.3, -0.2, 0.5), &Vector3::new(0.4, 0.7, -0.1));
         for size in [1e-5, 2e-4, 0.02, 0.4] {
             let changed = [
