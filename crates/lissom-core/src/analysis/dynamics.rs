@@ -157,7 +157,7 @@ impl Simulation {
         let mut work =
             Workspace::new(&system, &state, &settings.scheme, &representative, settings.solver, equilibrated);
         (work.without, work.numbers) = (settings.limits.without, settings.limits.numbers);
-        work.threads = Threads::new(&system, settings.threads);
+        work.threads = Threads::new(system.starts_of_batches(), settings.threads);
         work.factorization.set_threads(settings.threads);
         let singular = SingularPositions::new(&system, &state.kinematics, representative.length);
         work.yielding = yielding(&system, &singular);

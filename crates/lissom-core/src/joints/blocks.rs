@@ -9,13 +9,14 @@ use std::any::Any;
 use std::cell::RefCell;
 use std::ops::Range;
 
-use lissom_motion::{Block, Lanes, Matrix3, Pose, Real, Screw, Triple, Vector3, WIDTH};
+use lissom_motion::{Block, Lanes, Pose, Real, Screw, Triple, WIDTH};
 use pulp::{Simd, WithSimd};
 
 use super::attached::AttachedJoint;
 use super::derivatives::{Derivatives, LOCAL, OWN, TIP};
 use super::moved::{Angle, Axes, FrameChange, Moved, OwnMoved};
 use super::singly::Singly;
+use super::starts::{JointStarts, StartBlock};
 use super::{Coordinate, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS};
 use crate::joints::evaluation_point::{Chart, Point};
 use crate::kinematics::lanes::{Frames, Part, gather, gather_frames, parts, processor_for};
@@ -86,35 +87,6 @@ impl Batches {
         for (batch, blocks) in self.0.iter().zip(&mut out.0) {
             batch.begin(start, blocks);
         }
-    }
-}
-
-/// What all joints see at the start of a step.
-#[derive(Clone, Debug, Default)]
-pub struct JointStarts(Vec<Vec<StartBlock>>);
-
-/// What eight joints see at the start of a step.
-#[derive(Clone, Debug)]
-pub(crate) struct StartBlock {
-    /// Relative rotation, column by column.
-    rotation: [Block; 9],
-    /// Relative position in the tip's axes [m].
-    place: [Block; 3],
-    /// Sine and cosine of coordinates that are angles.
-    angles: [[Block; 2]; MOST_COORDINATES],
-}
-
-impl StartBlock {
-    fn zeros() -> Self {
-        let zeros = [0.0; WIDTH];
-        Self { rotation: [zeros; 9], place: [zeros; 3], angles: [[zeros; 2]; MOST_COORDINATES] }
-    }
-
-    /// Relative rotation and position of one of the joints.
-    fn relative(&self, lane: usize) -> (Matrix3, Vector3) {
-        let rotation = Matrix3::from_fn(|i, j| self.rotation[3 * j + i][lane]);
-        let place = Vector3::from_fn(|i, _| self.place[i][lane]);
-        (rotation, rotation * place)
     }
 }
 

@@ -1,7 +1,7 @@
 //! The point at which constraints, residual and tangent are evaluated, and the unknowns of their derivatives.
 
-use super::blocks::JointStarts;
 use super::derivatives::IncrementTangent;
+use super::starts::JointStarts;
 use crate::kinematics::{Kinematics, MotionChange, NodeMotion, Quantity};
 
 /// What has changed since the start of the step.

@@ -5,6 +5,7 @@
 //! not even where it is. `attached` turns its answers into rows of the system.
 
 pub(crate) mod alignment;
+mod any_joint;
 pub mod attached;
 pub(crate) mod base_axes;
 pub mod blocks;
@@ -43,24 +44,22 @@ pub mod screw;
 pub(crate) mod singly;
 pub mod slider;
 pub mod spherical;
+pub mod starts;
 pub(crate) mod step_stages;
 pub mod swing_arm;
 pub mod universal;
 pub mod wheel_on_rail;
 
+pub use any_joint::AnyJoint;
 pub use kind::{Build, Coupled, Frames, Geometry, JointKind, MakeFree, MakeJoint, MakeRelation};
 pub use kinds::KINDS;
 
-use lissom_motion::{Matrix3, Motion, Real, Screw, Vector3, Vector6};
-use nalgebra::{SMatrix, SVector};
+use lissom_motion::{Matrix3, Motion, Real, Screw, Vector3};
+use nalgebra::SMatrix;
 
 use crate::contact::wheel_on_plane::Contact;
-use crate::contact::wheel_on_rail::RailContact;
-use attached::AttachedJoint;
-use blocks::Batches;
 use moved::{Moved, OwnMoved};
 
-use crate::contact::CreepLaw;
 use crate::kinematics::Quantity;
 
 /// Most equations a joint may have.
@@ -206,95 +205,4 @@ pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
 
     /// Derivative of the constraint forces at constant multipliers μ; `out` is zero on entry.
     fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature);
-}
-
-/// A joint of any kind.
-pub trait AnyJoint: Send + Sync + std::fmt::Debug {
-    /// See [`Joint::equations`].
-    fn equations(&self) -> &'static [&'static str];
-    /// What an equation is: see [`Joint::LENGTHS`].
-    fn equation_quantity(&self, equation: usize) -> Quantity;
-    /// See [`Joint::COORDINATES`].
-    fn coordinates(&self) -> &'static [Coordinate];
-    /// See [`Joint::initial`].
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion);
-    /// See [`Joint::contact`].
-    fn contact(&self) -> Option<Contact>;
-    /// The contact of a wheel with a rail, for joints that are one. Default: it is none.
-    fn rail_contact(&self) -> Option<&RailContact> {
-        None
-    }
-    /// The law of creep in that contact, if there is one.
-    fn creep(&self) -> Option<&CreepLaw> {
-        None
-    }
-    /// See [`Joint::violation`].
-    fn violation(&self, relative: &Relative, own: &Own) -> Equations;
-    /// See [`Joint::violation_change`].
-    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations;
-    /// See [`Joint::wrench`].
-    fn wrench(
-        &self,
-        relative: &Relative,
-        own: &Own,
-        mu: &Equations,
-    ) -> (Vector6, SVector<f64, MOST_COORDINATES>);
-    /// See [`Joint::gradient`].
-    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient);
-    /// See [`Joint::curvature`].
-    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature);
-    /// Adds the joint, the one of this index, to the batch of its kind.
-    fn enter(&self, index: usize, attached: &AttachedJoint, batches: &mut Batches);
-}
-
-impl<J: Joint> AnyJoint for J {
-    fn equations(&self) -> &'static [&'static str] {
-        Joint::equations(self)
-    }
-
-    fn equation_quantity(&self, equation: usize) -> Quantity {
-        if equation < J::LENGTHS { Quantity::Length } else { Quantity::Angle }
-    }
-
-    fn coordinates(&self) -> &'static [Coordinate] {
-        J::COORDINATES
-    }
-
-    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
-        Joint::initial(self)
-    }
-
-    fn contact(&self) -> Option<Contact> {
-        Joint::contact(self)
-    }
-
-    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
-        Joint::violation(self, relative, own)
-    }
-
-    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations {
-        J::violation_change(&relative.into(), &own.into(), &self.numbers())
-    }
-
-    fn wrench(
-        &self,
-        relative: &Relative,
-        own: &Own,
-        mu: &Equations,
-    ) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
-        let (wrench, forces) = J::wrench(&relative.into(), &own.into(), &self.numbers(), mu);
-        (wrench.into(), forces.into())
-    }
-
-    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
-        Joint::gradient(self, relative, own, out);
-    }
-
-    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
-        Joint::curvature(self, relative, own, mu, out);
-    }
-
-    fn enter(&self, index: usize, attached: &AttachedJoint, batches: &mut Batches) {
-        batches.enter(*self, index, attached);
-    }
 }

@@ -8,8 +8,9 @@ use lissom_motion::WIDTH;
 
 use super::Equations;
 use super::attached::AttachedJoint;
-use super::blocks::{JointBatch, Results, StartBlock, Wanted};
+use super::blocks::{JointBatch, Results, Wanted};
 use super::derivatives::{Derivatives, LOCAL};
+use super::starts::StartBlock;
 use crate::joints::evaluation_point::{Chart, Point};
 use crate::kinematics::Kinematics;
 

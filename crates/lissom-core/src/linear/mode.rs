@@ -1,10 +1,8 @@
-//! Natural modes: what is asked for, what a mode is, and which of the two searches finds them.
+//! Natural modes: options, results and errors.
 
 use num_complex::Complex64;
 
-use super::lanczos;
-use super::model::{LinearError, LinearModel};
-use super::{arnoldi, lanczos::Found};
+use super::model::LinearError;
 
 /// Growth is told from round-off by a damping ratio below this.
 const GROWING: f64 = -1e-7;
@@ -121,39 +119,6 @@ pub enum ModeError {
         "the search for modes did not converge; ask for fewer modes, or for those near another frequency by `shift`"
     )]
     NotConverged,
-}
-
-impl LinearModel<'_> {
-    /// Natural modes: real and counted where the model is conservative, else complex.
-    ///
-    /// # Errors
-    /// If the model has no mass or its matrices cannot be factored.
-    pub fn modes(&self, options: &ModeOptions) -> Result<Modes, ModeError> {
-        if options.count == 0 {
-            return Err(ModeError::NothingAsked);
-        }
-        if self.parts.mass.iter().all(|&value| value == 0.0) {
-            return Err(ModeError::NoMass);
-        }
-        if !self.is_conservative() {
-            return arnoldi::find(self, options);
-        }
-        let Found { pairs, completeness } = lanczos::find(self, options)?;
-        let modes = pairs
-            .into_iter()
-            .map(|pair| {
-                let root = pair.square.abs().sqrt();
-                let eigenvalue = match pair.square {
-                    square if square.abs() <= pair.round_off => Complex64::new(0.0, 0.0),
-                    square if square < 0.0 => Complex64::new(root, 0.0),
-                    _ => Complex64::new(0.0, root),
-                };
-                let shape = pair.shape.into_iter().map(Complex64::from).collect();
-                Mode::new(eigenvalue, shape, pair.residual)
-            })
-            .collect();
-        Ok(Modes { modes, completeness })
-    }
 }
 
 impl Mode {

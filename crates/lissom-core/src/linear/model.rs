@@ -6,7 +6,7 @@ use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
 use lissom_solver::{FactorError, Pattern, Scalar, SolverKind, Structure};
 use num_complex::Complex64;
 
-use super::multiblade::Generator;
+use super::generator::Generator;
 use super::shifted::{ComplexShift, GeneralShift, RealShift, small_square};
 use crate::analysis::InitialError;
 use crate::analysis::initial::Initial;

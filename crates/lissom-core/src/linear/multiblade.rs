@@ -24,6 +24,7 @@ use lissom_motion::{Motion, Rotation, Vector3};
 use lissom_solver::{Pattern, Structure};
 use num_complex::Complex64;
 
+use super::generator::Generator;
 use super::mode::Mode;
 use super::model::LinearModel;
 use crate::kinematics::{Kinematics, LOCKED, NodeId};
@@ -33,8 +34,6 @@ use crate::system::Linearization;
 const SAME: f64 = 1e-6;
 /// Blades are at most so many.
 const MOST_BLADES: usize = 12;
-/// Terms of the series of exp(-ψ G).
-const TERMS: u32 = 40;
 
 /// Why there are no multi-blade coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,88 +54,6 @@ impl NoMultiblade {
             Self::NotPeriodic => "the rotor does not look the same after a third of a turn or less",
             Self::TwoBlades => "a rotor of two blades has no constant coefficients in any coordinates",
         }
-    }
-}
-
-/// The generator of the change to axes at rest, by column: rows with values.
-#[derive(Clone, Debug)]
-pub(super) struct Generator {
-    columns: Vec<Vec<(usize, f64)>>,
-    /// Rate of rotation [rad/s].
-    pub(super) rate: f64,
-}
-
-impl Generator {
-    fn apply(&self, vector: &[Complex64]) -> Vec<Complex64> {
-        let mut product = vec![Complex64::default(); vector.len()];
-        for (column, value) in self.columns.iter().zip(vector) {
-            for &(row, entry) in column {
-                product[row] += entry * value;
-            }
-        }
-        product
-    }
-
-    /// exp(-ψ G) z.
-    fn turned(&self, angle: f64, vector: &[Complex64]) -> Vec<Complex64> {
-        let mut sum = vector.to_vec();
-        let mut term = vector.to_vec();
-        for k in 1..=TERMS {
-            term = self.apply(&term);
-            for (sum, term) in sum.iter_mut().zip(&mut term) {
-                *term *= -angle / f64::from(k);
-                *sum += *term;
-            }
-        }
-        sum
-    }
-
-    /// Displacements, velocities and accelerations in the axes of the nodes where the model has turned by `angle`, of a mode in
-    /// axes at rest.
-    pub(super) fn in_nodes(&self, mode: &Mode, angle: f64) -> [Vec<Complex64>; 3] {
-        let forward = |vector: &[Complex64]| {
-            let turned = self.apply(vector);
-            vector
-                .iter()
-                .zip(turned)
-                .map(|(value, turned)| mode.eigenvalue * value - self.rate * turned)
-                .collect()
-        };
-        let rates: Vec<Complex64> = forward(&mode.shape);
-        let accelerations: Vec<Complex64> = forward(&rates);
-        [mode.shape.clone(), rates, accelerations].map(|vector| self.turned(angle, &vector))
-    }
-
-    /// A times G for a matrix on `pattern`, added to `sum` with a factor.
-    fn multiply(
-        &self,
-        (pattern, values): (&Pattern, &[f64]),
-        factor: f64,
-        sum: &mut BTreeMap<(usize, usize), f64>,
-    ) {
-        for (column, own) in self.columns.iter().enumerate() {
-            for &(middle, entry) in own {
-                for at in pattern.column_starts()[middle]..pattern.column_starts()[middle + 1] {
-                    let value = factor * values[at] * entry;
-                    if value != 0.0 {
-                        *sum.entry((column, pattern.row_indices()[at])).or_default() += value;
-                    }
-                }
-            }
-        }
-    }
-
-    fn squared(&self) -> Self {
-        let columns = self.columns.iter().map(|column| {
-            let mut sum: BTreeMap<usize, f64> = BTreeMap::new();
-            for &(middle, value) in column {
-                for &(row, entry) in &self.columns[middle] {
-                    *sum.entry(row).or_default() += entry * value;
-                }
-            }
-            sum.into_iter().collect()
-        });
-        Self { columns: columns.collect(), rate: self.rate }
     }
 }
 

@@ -1,7 +1,6 @@
 //! Elements of one kind stored together: one virtual call per kind, a monomorphic loop inside.
 
 use std::any::Any;
-use std::cell::RefCell;
 use std::ops::Range;
 
 use lissom_motion::{Block, Matrix6, Vector3, WIDTH, lie_bracket_matrix};
@@ -9,11 +8,12 @@ use lissom_solver::Pattern;
 
 use super::places::{Places, free_rows};
 use super::receiver::{Place, Receiver};
+use super::scratch::with_scratch;
 use super::threads::Threads;
 use super::work::{power, work};
 use crate::elements::blocks::Blocks;
 use crate::elements::sides::Sides;
-use crate::elements::{Element, Energy, LinearLimit, LinearRange, Tangents, USUAL_UNKNOWNS, is_same};
+use crate::elements::{Element, Energy, LinearLimit, LinearRange, Tangents, is_same};
 use crate::joints::derivatives::IncrementTangent;
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::lanes::processor_for;
@@ -253,7 +253,7 @@ impl<E: Element> AnyBatch for Batch<E> {
         }
         for (index, item) in self.items.iter().enumerate() {
             let rows = self.item_rows(index);
-            with_room(rows.len(), |local| {
+            with_scratch(rows.len(), |local| {
                 item.forces(at, local);
                 scatter(rows, local, out);
             });
@@ -263,7 +263,7 @@ impl<E: Element> AnyBatch for Batch<E> {
     fn stage_forces(&self, step: &StepStages<'_>, out: &mut [Vec<f64>]) {
         for (index, item) in self.items.iter().enumerate() {
             let rows = self.item_rows(index);
-            with_room(STAGES * rows.len(), |locals| {
+            with_scratch(STAGES * rows.len(), |locals| {
                 let (first, second) = locals.split_at_mut(rows.len());
                 let mut local = [first, second];
                 item.stage_forces(step, &mut local);
@@ -436,7 +436,7 @@ impl<E: Element> AnyBatch for Batch<E> {
     fn forces_of(&self, items: &[usize], at: &Kinematics, out: &mut [f64]) {
         for &item in items {
             let rows = self.item_rows(item);
-            with_room(rows.len(), |local| {
+            with_scratch(rows.len(), |local| {
                 self.items[item].forces(at, local);
                 scatter(rows, local, out);
             });
@@ -473,24 +473,6 @@ pub(super) fn through(
             }
         }
     }
-}
-
-thread_local! {
-    /// Room for local forces that do not fit where those of most elements do.
-    static MORE_ROOM: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
-}
-
-/// Calls `work` with so many zeros. Nothing is allocated but for the first large element of a thread.
-pub(super) fn with_room<R>(size: usize, work: impl FnOnce(&mut [f64]) -> R) -> R {
-    if size <= STAGES * USUAL_UNKNOWNS {
-        return work(&mut [0.0; STAGES * USUAL_UNKNOWNS][..size]);
-    }
-    let mut room = MORE_ROOM.take();
-    room.clear();
-    room.resize(size, 0.0);
-    let result = work(&mut room);
-    MORE_ROOM.set(room);
-    result
 }
 
 /// Adds local values to the rows that are free.

@@ -5,9 +5,11 @@ mod batch;
 mod builder;
 mod couplings;
 mod feedback;
+mod linearization;
 pub(crate) mod places;
 mod reach;
 mod receiver;
+mod scratch;
 mod sliders;
 mod state;
 mod step_stages;
@@ -16,9 +18,9 @@ mod work;
 
 use std::sync::Arc;
 
-pub use assembly::{Linearization, Scratch};
 pub(crate) use batch::Owner;
 pub use builder::{BuildError, Builder, PlaceOnTip, Placement};
+pub use linearization::{Linearization, Scratch};
 pub(crate) use reach::Reach;
 pub use receiver::{Blend, Receiver, Sum};
 pub use state::State;
@@ -33,10 +35,11 @@ use nalgebra::DMatrix;
 use crate::elements::inertia::{Gravity, Inertia};
 use crate::elements::{Energy, LinearLimit, LinearRange};
 use crate::joints::attached::AttachedJoint;
-use crate::joints::blocks::{Batches, JointStarts};
+use crate::joints::blocks::{Batches, JointBatch};
 use crate::joints::coupling::Coupling;
 use crate::joints::prescribed::Prescribed;
 use crate::joints::slider::Slider;
+use crate::joints::starts::JointStarts;
 use crate::kinematics::{self, CoordinateId, HeldId, Kinematics, Layout, NodeId};
 use crate::registry::Function;
 use crate::signals::Graph;
@@ -191,6 +194,12 @@ impl System {
             None => self.feedback.work(element.item, from, to),
             Some(batch) => self.batches[batch].work(element.item, from, to),
         }
+    }
+
+    /// Where the local numbers of each item begin, for every batch of elements and of joints.
+    pub(crate) fn starts_of_batches(&self) -> impl Iterator<Item = &[usize]> {
+        let elements = self.batches.iter().map(|batch| batch.starts());
+        elements.chain(self.joint_batches.iter().map(JointBatch::starts))
     }
 
     /// Work of loads between two configurations [J], as if forces changed linearly in time between them and places as

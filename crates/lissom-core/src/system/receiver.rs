@@ -4,7 +4,7 @@
 use lissom_solver::Scalar;
 use num_complex::Complex64;
 
-use super::assembly::Linearization;
+use super::linearization::Linearization;
 use super::places::Run;
 use crate::elements::Tangents;
 use crate::joints::derivatives::{Derivatives, OWN, TIP};

@@ -5,9 +5,6 @@ use std::ops::Range;
 
 use lissom_motion::WIDTH;
 
-use super::System;
-use crate::joints::blocks::JointBatch;
-
 /// With fewer elements or joints than this another thread takes about as long to wake as it helps.
 pub const WORTH_WHILE: usize = 4000;
 
@@ -19,20 +16,14 @@ pub(crate) struct Threads {
 }
 
 impl Threads {
-    /// None where one thread is all there is, or enough.
-    pub(crate) fn new(system: &System, threads: usize) -> Option<Self> {
-        let parts = system
-            .batches
-            .iter()
-            .map(|batch| batch.len())
-            .chain(system.joint_batches.iter().map(|batch| batch.indices().len()));
-        if threads < 2 || parts.max().unwrap_or(0) < WORTH_WHILE {
-            return None;
+    /// For batches of parts whose numbers begin at `starts`; none where one thread is all there is, or enough.
+    pub(crate) fn new<'a>(starts: impl Iterator<Item = &'a [usize]>, threads: usize) -> Option<Self> {
+        let (mut parts, mut longest) = (0, 0);
+        for own in starts {
+            parts = parts.max(own.len().saturating_sub(1));
+            longest = longest.max(own.last().copied().unwrap_or(0));
         }
-        let batches = system.batches.iter().map(|batch| batch.starts());
-        let joints = system.joint_batches.iter().map(JointBatch::starts);
-        let longest = batches.chain(joints).filter_map(|starts| starts.last().copied()).max();
-        Some(Self { count: threads, locals: vec![0.0; longest.unwrap_or(0)] })
+        (threads >= 2 && parts >= WORTH_WHILE).then(|| Self { count: threads, locals: vec![0.0; longest] })
     }
 
     /// Calls `work` with portions of the parts, whole blocks of eight, and the numbers that belong to them, all zero, side by side; gives

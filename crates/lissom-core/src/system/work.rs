@@ -2,7 +2,7 @@
 
 use lissom_motion::Vector3;
 
-use super::batch::with_room;
+use super::scratch::with_scratch;
 use crate::elements::Element;
 use crate::kinematics::Kinematics;
 
@@ -14,7 +14,7 @@ pub(super) fn work<E: Element + ?Sized>(
     factors: [f64; 2],
 ) -> f64 {
     let size = 6 * element.nodes().len() + element.coordinates().len();
-    with_room(2 * size, |locals| {
+    with_scratch(2 * size, |locals| {
         let (first, second) = locals.split_at_mut(size);
         let mut locals = [first, second];
         for ((at, local), factor) in [from, to].into_iter().zip(&mut locals).zip(factors) {
@@ -62,7 +62,7 @@ fn work_along<E: Element + ?Sized>(
 /// Power of an element's forces on its nodes and coordinates [W].
 pub(super) fn power<E: Element + ?Sized>(element: &E, at: &Kinematics) -> f64 {
     let size = 6 * element.nodes().len() + element.coordinates().len();
-    with_room(size, |forces| {
+    with_scratch(size, |forces| {
         element.forces(at, forces);
         let twists = element.nodes().iter().flat_map(|&node| at.nodes[node].twist.iter().copied());
         let rates = element.coordinates().iter().map(|&own| at.coordinates[own].rate);

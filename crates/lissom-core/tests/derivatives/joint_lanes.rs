@@ -1,8 +1,8 @@
 //! Joints evaluated several at a time: the same forces and violations as one at a time.
 
-use lissom_core::joints::blocks::JointStarts;
 use lissom_core::joints::derivatives::LOCAL;
 use lissom_core::joints::evaluation_point::Point;
+use lissom_core::joints::starts::JointStarts;
 use lissom_core::joints::{self, Build};
 use lissom_core::kinematics::{Freedoms, LOCKED};
 use lissom_core::system::{Builder, Placement, State, System};

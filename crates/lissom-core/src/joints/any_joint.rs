@@ -1,0 +1,103 @@
+//! Joints behind one interface, whatever their kind.
+
+use lissom_motion::{Motion, Vector6};
+use nalgebra::SVector;
+
+use super::attached::AttachedJoint;
+use super::blocks::Batches;
+use super::{Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, Own, Relative};
+use crate::contact::CreepLaw;
+use crate::contact::wheel_on_plane::Contact;
+use crate::contact::wheel_on_rail::RailContact;
+use crate::kinematics::Quantity;
+
+/// A joint of any kind.
+pub trait AnyJoint: Send + Sync + std::fmt::Debug {
+    /// See [`Joint::equations`].
+    fn equations(&self) -> &'static [&'static str];
+    /// What an equation is: see [`Joint::LENGTHS`].
+    fn equation_quantity(&self, equation: usize) -> Quantity;
+    /// See [`Joint::COORDINATES`].
+    fn coordinates(&self) -> &'static [Coordinate];
+    /// See [`Joint::initial`].
+    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion);
+    /// See [`Joint::contact`].
+    fn contact(&self) -> Option<Contact>;
+    /// The contact of a wheel with a rail, for joints that are one. Default: it is none.
+    fn rail_contact(&self) -> Option<&RailContact> {
+        None
+    }
+    /// The law of creep in that contact, if there is one.
+    fn creep(&self) -> Option<&CreepLaw> {
+        None
+    }
+    /// See [`Joint::violation`].
+    fn violation(&self, relative: &Relative, own: &Own) -> Equations;
+    /// See [`Joint::violation_change`].
+    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations;
+    /// See [`Joint::wrench`].
+    fn wrench(
+        &self,
+        relative: &Relative,
+        own: &Own,
+        mu: &Equations,
+    ) -> (Vector6, SVector<f64, MOST_COORDINATES>);
+    /// See [`Joint::gradient`].
+    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient);
+    /// See [`Joint::curvature`].
+    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature);
+    /// Adds the joint, the one of this index, to the batch of its kind.
+    fn enter(&self, index: usize, attached: &AttachedJoint, batches: &mut Batches);
+}
+
+impl<J: Joint> AnyJoint for J {
+    fn equations(&self) -> &'static [&'static str] {
+        Joint::equations(self)
+    }
+
+    fn equation_quantity(&self, equation: usize) -> Quantity {
+        if equation < J::LENGTHS { Quantity::Length } else { Quantity::Angle }
+    }
+
+    fn coordinates(&self) -> &'static [Coordinate] {
+        J::COORDINATES
+    }
+
+    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+        Joint::initial(self)
+    }
+
+    fn contact(&self) -> Option<Contact> {
+        Joint::contact(self)
+    }
+
+    fn violation(&self, relative: &Relative, own: &Own) -> Equations {
+        Joint::violation(self, relative, own)
+    }
+
+    fn violation_change(&self, relative: &Relative, own: &Own) -> Equations {
+        J::violation_change(&relative.into(), &own.into(), &self.numbers())
+    }
+
+    fn wrench(
+        &self,
+        relative: &Relative,
+        own: &Own,
+        mu: &Equations,
+    ) -> (Vector6, SVector<f64, MOST_COORDINATES>) {
+        let (wrench, forces) = J::wrench(&relative.into(), &own.into(), &self.numbers(), mu);
+        (wrench.into(), forces.into())
+    }
+
+    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient) {
+        Joint::gradient(self, relative, own, out);
+    }
+
+    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature) {
+        Joint::curvature(self, relative, own, mu, out);
+    }
+
+    fn enter(&self, index: usize, attached: &AttachedJoint, batches: &mut Batches) {
+        batches.enter(*self, index, attached);
+    }
+}

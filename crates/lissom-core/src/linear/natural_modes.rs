@@ -1,0 +1,41 @@
+//! Natural modes of a linearised model, by the search that fits it.
+
+use num_complex::Complex64;
+
+use super::lanczos::Found;
+use super::mode::{Mode, ModeError, ModeOptions, Modes};
+use super::model::LinearModel;
+use super::{arnoldi, lanczos};
+
+impl LinearModel<'_> {
+    /// Natural modes: real and counted where the model is conservative, else complex.
+    ///
+    /// # Errors
+    /// If the model has no mass or its matrices cannot be factored.
+    pub fn modes(&self, options: &ModeOptions) -> Result<Modes, ModeError> {
+        if options.count == 0 {
+            return Err(ModeError::NothingAsked);
+        }
+        if self.parts.mass.iter().all(|&value| value == 0.0) {
+            return Err(ModeError::NoMass);
+        }
+        if !self.is_conservative() {
+            return arnoldi::find(self, options);
+        }
+        let Found { pairs, completeness } = lanczos::find(self, options)?;
+        let modes = pairs
+            .into_iter()
+            .map(|pair| {
+                let root = pair.square.abs().sqrt();
+                let eigenvalue = match pair.square {
+                    square if square.abs() <= pair.round_off => Complex64::new(0.0, 0.0),
+                    square if square < 0.0 => Complex64::new(root, 0.0),
+                    _ => Complex64::new(0.0, root),
+                };
+                let shape = pair.shape.into_iter().map(Complex64::from).collect();
+                Mode::new(eigenvalue, shape, pair.residual)
+            })
+            .collect();
+        Ok(Modes { modes, completeness })
+    }
+}
