@@ -23,6 +23,7 @@ mod report;
 mod runs;
 mod scenes;
 mod stale;
+mod structure;
 mod subjects;
 mod transform;
 mod verify;
@@ -68,7 +69,7 @@ enum Chore {
     Defaults(defaults::DefaultsArguments),
     /// Write the reference of the model file, and the types of its entries for models built in Rust and Python
     Reference {
-        /// Write nothing; tell whether it is old
+        /// Write nothing; report whether it is out of date
         #[arg(long)]
         check: bool,
     },
@@ -78,6 +79,12 @@ enum Chore {
     Fuzz(fuzz::FuzzArguments),
     /// Mutation tests: change the code in one position at a time and report the changes that no test notices
     Mutants(mutants::MutantsArguments),
+    /// Print the files of a crate that import each other in a cycle
+    Structure {
+        /// The crate
+        #[arg(default_value = "lissom-core")]
+        name: String,
+    },
     /// Make the tables and figures of the book in docs/ anew
     Figures(FiguresArguments),
 }
@@ -90,7 +97,7 @@ struct FiguresArguments {
     /// Also make those that take minutes
     #[arg(long)]
     long: bool,
-    /// Make nothing; tell links that point nowhere, markers that nothing fills, and an old copy of the report
+    /// Make nothing; report links that point nowhere, markers that nothing fills, and an old copy of the report
     #[arg(long)]
     check: bool,
 }
@@ -195,6 +202,10 @@ fn main() -> ExitCode {
         }
         Chore::Count(arguments) => {
             count::count(&verify::root(), arguments.update).map_err(|error| error.to_string())
+        }
+        Chore::Structure { name } => {
+            let sources = verify::root().join("crates").join(name).join("src");
+            structure::run(&sources).map(|()| true).map_err(|error| error.to_string())
         }
         Chore::Bytes { name } => bench::print_bytes(&name).map(|()| true).map_err(|error| error.to_string()),
         Chore::Steps { name } => count::steps(&name).map(|()| true).map_err(|error| error.to_string()),

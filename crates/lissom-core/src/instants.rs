@@ -2,7 +2,7 @@
 //! differ by round-off. A step between two of them would be so short that its accelerations are round-off.
 
 /// Instants closer than this part of a step, or of a sample period, are the same [-].
-const SAME: f64 = 1e-9;
+pub(crate) const SAME: f64 = 1e-9;
 /// Round-off of a time that is the result of a few operations, relative to its size.
 const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
 /// Round-off that accumulates in a clock may reach this part of its step before it is taken for an intended difference.

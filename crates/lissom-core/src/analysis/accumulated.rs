@@ -3,10 +3,10 @@
 
 use std::sync::Arc;
 
-use super::dynamics::{Simulation, warn};
+use super::simulation::{Simulation, warn};
 use crate::elements::quadrature::gauss_legendre;
 use crate::judge::Warning;
-use crate::stepping::interpolate;
+use crate::stepping::dense::interpolate;
 use crate::system::{ElementId, State, System};
 
 /// A number that grows from step to step; zero at the start.

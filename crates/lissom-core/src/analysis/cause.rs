@@ -1,6 +1,6 @@
 //! Why a step has no solution however short: what can be seen of it where the motion stands.
 
-use super::dynamics::Simulation;
+use super::simulation::Simulation;
 use super::step_error::{NO_PART_CONVERGES, NO_PART_IS_FINITE, StepError};
 use crate::judge::{LARGEST_TURN, held};
 

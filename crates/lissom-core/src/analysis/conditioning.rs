@@ -5,7 +5,7 @@
 
 use lissom_solver::{LinearSolver, Pattern, Scalar, Structure, condition_estimate, condition_number, kind};
 
-use super::dynamics::Simulation;
+use super::simulation::Simulation;
 use super::tangent_values::TangentValues;
 use crate::equilibration::Equilibration;
 use crate::scaling::{Scaled, ScalingChoice};

@@ -12,8 +12,9 @@
 //! The damping D over the step h keeps neighbours of a driven node in a damped beam together: with the mass alone, the change of
 //! a light node would make a force in the damper beside it.
 
-use super::dynamics::{Simulation, pivoting_unless};
+use super::dynamics::pivoting_unless;
 use super::initial::Initial;
+use super::simulation::Simulation;
 use crate::schemes::Coupling;
 use crate::system::{State, System};
 

@@ -1,8 +1,8 @@
-//! Time steps and load steps: `Simulation::step` is the table of contents of a step.
+//! Starts a simulation, solves its steps and accepts them: `stepping` decides about their length.
 
 use std::sync::Arc;
 
-use lissom_solver::{FactorError, FactorReport, SolverKind};
+use lissom_solver::{FactorError, SolverKind};
 
 use super::accumulated::Accumulation;
 use super::compliance::Compliance;
@@ -13,6 +13,7 @@ use super::initial::{Initial, InitialError};
 use super::phase::{Stopwatch, Unwatched};
 use super::projection::Projection;
 use super::settings::Settings;
+use super::simulation::{Simulation, warn};
 use super::step_error::{StepError, describe};
 use super::tangent_values::TangentValues;
 use super::totals::{StepReport, Totals};
@@ -24,7 +25,7 @@ use crate::kinematics::{Kinematics, MotionChange};
 use crate::newton::{self, Equations, Failure, Memory, Outcome};
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::Coupling;
-use crate::stepping::kinks::{self, Kink};
+use crate::stepping::kinks;
 use crate::stepping::{
     Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, TimeFunctions, Watch,
 };
@@ -40,73 +41,6 @@ const JUMP: f64 = 0.6;
 
 /// Energy that the first load step may release, over what a linear model says of it.
 const RELEASED: f64 = 4.0;
-
-/// A system on its way through time.
-pub struct Simulation {
-    pub(crate) system: Arc<System>,
-    /// Where the first step began.
-    pub(crate) origin: Kinematics,
-    /// Before the last step; the same as `state` before the first.
-    pub(crate) previous: State,
-    pub(crate) state: State,
-    /// Where the attempt at the next step has come.
-    pub(crate) next: State,
-    pub(crate) settings: Settings,
-    pub(crate) representative: Representative,
-    /// The scaling of the tangent in use, for the size of the present attempt.
-    pub(crate) scaled: Scaled,
-    pub(crate) work: Box<Workspace>,
-    /// For schemes whose velocities leave the constraints a little.
-    projection: Option<Projection>,
-    /// For held values that change between steps.
-    pub(super) held_values: Option<Initial>,
-    pub(crate) memory: Memory,
-    /// For schemes that remember what belongs to the step size.
-    pub(crate) method_memory: Option<MethodMemory>,
-    /// Where in a planned step it stands, and the size of the next attempt.
-    pub(crate) parts: Parts,
-    pub(crate) controller: Option<Controller>,
-    /// Size of the next load step, where it is chosen.
-    pub(crate) load_control: Option<LoadControl>,
-    /// When functions of time are not smooth: steps of motions, and load steps of chosen size, do not cross it.
-    pub(crate) kinks: Vec<Kink>,
-    /// How far any node has moved since the start, for the error estimate [-].
-    pub(crate) farthest: f64,
-    pub(crate) totals: Totals,
-    pub(crate) velocity_correction: f64,
-    /// Energy and work up to the state.
-    pub(crate) ledger: Ledger,
-    /// The same up to where the attempt at the next step has come.
-    pub(crate) next_ledger: Ledger,
-    /// Largest violation of a constraint at the end of the last attempt, relative to the representative length, or in radians.
-    next_violation: f64,
-    /// Reasons to doubt the motion up to the state.
-    pub(crate) warnings: Vec<Warning>,
-    /// Positions in which constraints of loops repeat each other.
-    pub(crate) singular: SingularPositions,
-    /// The last load parameter at which the equilibrium was stable, in statics [s].
-    pub(super) stable_at: Option<f64>,
-    /// From which load parameter on [s] an equilibrium is unstable in how many directions; none where that cannot be
-    /// told.
-    pub(crate) stability: Vec<(f64, Option<usize>)>,
-    /// Numbers that may change their sign within a step.
-    pub(crate) watch: Watch,
-    /// How fast forces switch in steps of planned size.
-    pub(crate) impacts: Impacts,
-    /// Whether steps of planned size resolve the motion.
-    pub(crate) resolution: Resolution,
-    pub(crate) constraint_rates: ConstraintRates,
-    /// What is known of functions of time.
-    pub(crate) time_functions: TimeFunctions,
-    /// What is accumulated along the way.
-    pub(crate) accumulation: Accumulation,
-    /// Whether the workspace still holds the step that led to the state.
-    pub(crate) is_last_step_known: bool,
-    /// Energy that the first load step releases because its start is no equilibrium [J].
-    released: f64,
-    /// Whether a first load step without solution is looked for by relaxation, which takes load steps itself.
-    pub(super) may_relax: bool,
-}
 
 impl Simulation {
     /// Prepares a simulation: representative values, consistent initial velocities, accelerations and
@@ -225,77 +159,6 @@ impl Simulation {
         })
     }
 
-    /// System and state, given back.
-    pub(super) fn into_parts(self) -> (Arc<System>, State) {
-        (self.system, self.state)
-    }
-
-    /// The system.
-    pub fn system(&self) -> &System {
-        &self.system
-    }
-
-    /// How long the last step was [s]; 0 before the first.
-    pub fn last_step(&self) -> f64 {
-        self.state.kinematics.time - self.previous.kinematics.time
-    }
-
-    /// A shared handle on the system.
-    pub fn shared_system(&self) -> Arc<System> {
-        Arc::clone(&self.system)
-    }
-
-    /// The state after the last step.
-    pub fn state(&self) -> &State {
-        &self.state
-    }
-
-    /// Energy of the model, and work of loads and drives since the start.
-    pub fn ledger(&self) -> &Ledger {
-        &self.ledger
-    }
-
-    /// Reasons to doubt the motion up to the state, each kind once.
-    pub fn warnings(&self) -> &[Warning] {
-        &self.warnings
-    }
-
-    /// Stability of the equilibria of load steps: from which load parameter on [s] they are unstable in how many
-    /// directions; none where that cannot be told.
-    pub fn stability(&self) -> &[(f64, Option<usize>)] {
-        &self.stability
-    }
-
-    /// Sums over all steps.
-    pub fn totals(&self) -> &Totals {
-        &self.totals
-    }
-
-    /// The settings.
-    pub fn settings(&self) -> &Settings {
-        &self.settings
-    }
-
-    /// Representative mass, damping, stiffness and length.
-    pub fn representative(&self) -> &Representative {
-        &self.representative
-    }
-
-    /// The scaling in force.
-    pub fn scaled(&self) -> &Scaled {
-        &self.scaled
-    }
-
-    /// Stored numbers of the tangent's factors.
-    pub fn factor_entries(&self) -> usize {
-        self.work.factorization.entries()
-    }
-
-    /// Largest change made to the given initial twists to satisfy the constraints [m/s, rad/s].
-    pub fn velocity_correction(&self) -> f64 {
-        self.velocity_correction
-    }
-
     /// The tangent at the solution of the last step; none before the first step and after one that failed.
     pub(super) fn last_tangent(&mut self, scaled: Scaled, coupling: &Coupling) -> Option<TangentValues> {
         if !self.is_last_step_known {
@@ -321,11 +184,6 @@ impl Simulation {
         let pattern = &self.system.structure().pattern;
         let value = self.memory.has_tangent.then(|| self.work.factorization.condition_estimate(pattern));
         value.map(|value| value.max(1.0))
-    }
-
-    /// Smallest pivot over largest diagonal entry of the tangent factored last.
-    pub fn relative_pivot(&self) -> Option<f64> {
-        self.work.report.as_ref().map(FactorReport::relative_pivot)
     }
 
     /// Solves the equations of a step of the present size from the state, and leaves what it comes to in `next`.
@@ -507,13 +365,6 @@ impl Simulation {
         for violation in &self.state.violations {
             totals.max_constraint_violation = totals.max_constraint_violation.max(violation.abs());
         }
-    }
-}
-
-/// Adds a warning of a kind that was not told before.
-pub(crate) fn warn(warnings: &mut Vec<Warning>, warning: Warning) {
-    if warnings.iter().all(|known| known.code() != warning.code()) {
-        warnings.push(warning);
     }
 }
 

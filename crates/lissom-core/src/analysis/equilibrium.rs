@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use lissom_solver::SolverKind;
 
-use super::dynamics::Simulation;
 use super::initial::InitialError;
 use super::relaxation::{may_help, relax};
 use super::settings::Settings;
+use super::simulation::Simulation;
 use crate::judge::Warning;
 use crate::linear::LinearModel;
 use crate::schemes::statics;

@@ -3,10 +3,10 @@
 
 use lissom_solver::{FactorError, FactorReport, LinearSolver, Pattern, Scalar, SolverKind, refined_solution};
 
-use super::dynamics::Simulation;
 use super::equations::StepEquations;
 use super::factorization::Factorization;
 use super::phase::Unwatched;
+use super::simulation::Simulation;
 use super::workspace::Workspace;
 use crate::kinematics::Layout;
 use crate::newton::Equations;

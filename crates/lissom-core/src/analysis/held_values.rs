@@ -3,9 +3,9 @@
 //! Forces jump with them, and accelerations by M⁻¹ ΔF. What a scheme remembers of accelerations jumps as well, or it
 //! would see the change late by a part of a step: an error of first order in every velocity.
 
-use super::dynamics::Simulation;
 use super::initial::{Initial, InitialError};
 use super::settings::Settings;
+use super::simulation::Simulation;
 use crate::elements::latch::holds;
 use crate::kinematics::{Kinematics, LOCKED, Quantity};
 use crate::signals::SignalError;

@@ -6,8 +6,8 @@
 
 use std::sync::Arc;
 
-use super::dynamics::{Simulation, warn};
 use super::settings::Settings;
+use super::simulation::{Simulation, warn};
 use super::step_error::StepError;
 use crate::judge::Warning;
 use crate::kinematics::Kinematics;

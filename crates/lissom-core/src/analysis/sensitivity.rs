@@ -12,8 +12,8 @@
 //! the same J, which is not exact for every scheme, until what is still to come is round-off of the derivative: three corrections
 //! where J is exact.
 
-use super::dynamics::Simulation;
 use super::equations::StepEquations;
+use super::simulation::Simulation;
 use super::{StepError, Unwatched};
 use crate::newton::Equations;
 

@@ -1,6 +1,6 @@
 //! Whether steps come through singular positions of closed loops: what the judge sees of them is told here.
 
-use super::dynamics::{Simulation, warn};
+use super::simulation::{Simulation, warn};
 
 impl Simulation {
     /// Takes note of whether the step that was accepted has come through a singular position.

@@ -1,7 +1,7 @@
 //! Whether an equilibrium is stable: whether the stiffness at it, multipliers included, has negative eigenvalues among
 //! the motions that the constraints leave. They are counted by the signs of pivots [Sylvester's law of inertia].
 
-use super::dynamics::{Simulation, warn};
+use super::simulation::{Simulation, warn};
 use crate::judge::Warning;
 use crate::linear::LinearModel;
 

@@ -21,6 +21,13 @@
 use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Quantity};
 use crate::system::{CoordinateMass, Drive, System};
 
+/// Order of an estimate in the step size.
+#[derive(Clone, Copy)]
+pub(super) enum Order {
+    Third,
+    Fourth,
+}
+
 /// Motions smaller than this part of the model's size are not resolved for their own sake.
 pub(crate) const SMALLEST_REFERENCE: f64 = 1e-6;
 

@@ -4,8 +4,8 @@
 //! velocity. So a step ends as close before it as numbers allow, that its last stage does not see it either, and accelerations, with what a scheme remembers of them, jump as forces do. At a kink, which changes the slope
 //! alone, a step ends, and nothing jumps.
 
-use super::NEAR;
 use crate::analysis::{Simulation, StepError};
+use crate::instants::SAME;
 use crate::registry::Function;
 use crate::system::System;
 
@@ -45,7 +45,7 @@ pub(crate) struct Landing {
 
 /// All kinks of a system, in ascending order. Times closer than a part of the step, `step` [s], are one.
 pub(crate) fn of(system: &System, step: f64) -> Vec<Kink> {
-    let near = NEAR * step;
+    let near = SAME * step;
     let mut jumps: Vec<f64> = Vec::new();
     let mut known: Vec<f64> = Vec::new();
     for (_, function) in &system.functions {
@@ -81,7 +81,7 @@ impl Simulation {
     /// Where a step from the time `now` [s] is to end before its end at `limit` [s], because of a kink between; a jump at
     /// its end counts. `longest` is the longest step [s].
     pub(super) fn landing(&self, now: f64, limit: f64, longest: f64) -> Option<Landing> {
-        let near = NEAR * longest;
+        let near = SAME * longest;
         let begin = self.kinks.partition_point(|kink| kink.time <= now + near);
         let is_met = |kink: &&Kink| kink.time < limit - near || (kink.jumps && kink.time <= limit + near);
         let kink = self.kinks[begin..].iter().take_while(|kink| kink.time <= limit + near).find(is_met)?;
@@ -102,7 +102,7 @@ impl Simulation {
     /// If there are no consistent accelerations on one of the sides.
     pub(super) fn pass_kink(&mut self, landing: &Landing, longest: f64) -> Result<(), StepError> {
         if let Some(jump) = landing.jump {
-            let aside = NEAR * longest;
+            let aside = SAME * longest;
             self.jump_between(jump - aside, jump + aside)
                 .map_err(|error| StepError::Velocities { time: landing.clock, error })?;
             // What the step led to no longer tells all of where the next one begins.

@@ -6,7 +6,7 @@
 
 mod arc;
 mod controller;
-mod dense;
+pub(crate) mod dense;
 mod error_estimate;
 mod events;
 mod impacts;
@@ -23,7 +23,6 @@ mod watch;
 pub(crate) use arc::ArcControl;
 pub(crate) use controller::Controller;
 pub use controller::StepControl;
-pub(crate) use dense::interpolate;
 pub(crate) use impacts::Impacts;
 pub(crate) use load_steps::LoadControl;
 pub(crate) use method_memory::MethodMemory;
@@ -34,6 +33,7 @@ pub(crate) use time_functions::TimeFunctions;
 pub(crate) use watch::{Watch, Watched};
 
 use crate::analysis::{Phase, Simulation, StepError, StepReport, Stopwatch, Unwatched, cause};
+use crate::instants::SAME;
 use crate::judge::{LARGEST_TURN, Ledger};
 use crate::kinematics::Quantity;
 use crate::mechanisms::Mechanism;
@@ -42,7 +42,7 @@ use crate::numbers::Number;
 use crate::scaling::{ScaleBy, UnitStart};
 use crate::schemes::Stage;
 use crate::system::State;
-use error_estimate::{SMALLEST_ERROR, SMALLEST_REFERENCE, driven, excursion, inertial_part};
+use error_estimate::{Order, SMALLEST_ERROR, SMALLEST_REFERENCE, driven, excursion, inertial_part};
 use events::Checked;
 use kinks::Kink;
 use load_steps::Attempts;
@@ -51,8 +51,6 @@ use load_steps::Attempts;
 const MOST_REJECTED: usize = 60;
 /// Where parts of a planned step as short as this have no solution either, a smaller step hardly helps [-].
 const SHORT_PART: f64 = 1e-3;
-/// Times closer than this part of the largest step are the same [-].
-const NEAR: f64 = 1e-9;
 /// Steps shorter than this part of the largest one are not tried [-].
 const SHORTEST: f64 = 1e-12;
 
@@ -191,7 +189,7 @@ impl Simulation {
         };
         let now = self.state.kinematics.time + self.state.time_remainder;
         // A step across a kink of a load would not see what the load does between.
-        let near = NEAR * control.max_step;
+        let near = SAME * control.max_step;
         let ahead = |kink: &&Kink| kink.time > now + near && kink.time < limit - near;
         let limit = self.kinks.iter().find(ahead).map_or(limit, |kink| kink.time.next_down());
         let rest = limit - now;
@@ -267,7 +265,7 @@ impl Simulation {
             let size = controller.propose(rest).min(control.max_step).min(self.turning_limit());
             let size = size.min(told);
             // What would be left is round-off, over which velocities cannot be told.
-            let size = if (rest - size).abs() <= NEAR * size { rest } else { size };
+            let size = if (rest - size).abs() <= SAME * size { rest } else { size };
             let error = match self.attempt(size, watch) {
                 Ok(outcome) => {
                     watch.begin(Phase::Rest);
@@ -495,13 +493,6 @@ impl Simulation {
 /// begins late in a step changes the velocity alone.
 fn velocity_miss(stage: &Stage, unit: &UnitStart, increments: &[Vec<f64>], row: usize) -> f64 {
     (unit.combine(&stage.rate, increments, row) - unit.curvature[row]) / 3.0
-}
-
-/// Order of an estimate in the step size.
-#[derive(Clone, Copy)]
-enum Order {
-    Third,
-    Fourth,
 }
 
 fn note(report: &mut StepReport, outcome: &Outcome) {

@@ -13,8 +13,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::Order;
-use super::error_estimate::SMALLEST_REFERENCE;
+use super::error_estimate::{Order, SMALLEST_REFERENCE};
 use crate::analysis::{Simulation, warn};
 use crate::judge::{self, Warning};
 

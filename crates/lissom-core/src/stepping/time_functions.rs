@@ -14,9 +14,9 @@
 
 use std::sync::Arc;
 
-use super::NEAR;
 use super::kinks::Kink;
 use crate::analysis::{InitialError, Simulation, warn};
+use crate::instants::SAME;
 use crate::judge::Warning;
 use crate::registry::TimeFunction;
 use crate::system::System;
@@ -93,7 +93,7 @@ impl TimeFunctions {
 
     /// Looks at the block around a step of `step` [s] from `from` on, unless it has been looked at last; gives the jumps in it.
     fn look_ahead(&mut self, system: &System, origin: f64, from: f64, [step, length]: [f64; 2]) -> Vec<f64> {
-        let from = from + NEAR * step;
+        let from = from + SAME * step;
         if self.block.is_some_and(|[first, last]| first <= from && from + (1.0 + 0.5 * ASIDE) * step <= last)
         {
             return Vec::new();
@@ -160,7 +160,7 @@ impl Scan {
     fn look_between(&mut self, function: &dyn TimeFunction, [from, to]: [f64; 2], step: f64, size: f64) {
         self.looks += 1;
         let length = to - from;
-        if self.looks > MOST_IN_BLOCK || length <= NEAR * step {
+        if self.looks > MOST_IN_BLOCK || length <= SAME * step {
             return;
         }
         let is_told = || {
@@ -168,7 +168,7 @@ impl Scan {
             is_narrow(function, part, size) && departure(function, part, part) <= DEPARTURE * size
         };
         let mut middle = 0.5 * (from + to);
-        if length > (1.0 + NEAR) * step {
+        if length > (1.0 + SAME) * step {
             if is_told() {
                 return;
             }
@@ -187,7 +187,7 @@ impl Scan {
                 }
                 Found::Jump(time) => {
                     // At an end it is a known one.
-                    if (time - from).min(to - time) <= NEAR * step {
+                    if (time - from).min(to - time) <= SAME * step {
                         return;
                     }
                     self.jumps.push(time);
@@ -315,7 +315,7 @@ impl Simulation {
         let sizes = self.sizes_of_blocks();
         for time in self.time_functions.look_ahead(&self.system, self.origin.time, now, sizes) {
             let place = self.kinks.partition_point(|kink| kink.time < time);
-            let near = |kink: &Kink| (kink.time - time).abs() <= NEAR * sizes[0];
+            let near = |kink: &Kink| (kink.time - time).abs() <= SAME * sizes[0];
             if !self.kinks[place.saturating_sub(1)..].iter().take(2).any(near) {
                 self.kinks.insert(place, Kink::jump(time));
             }
@@ -329,7 +329,7 @@ impl Simulation {
     pub(crate) fn begin_behind_jumps(&mut self) -> Result<(), InitialError> {
         let now = self.state.kinematics.time;
         let [step, length] = self.sizes_of_blocks();
-        let behind = now + NEAR * step;
+        let behind = now + SAME * step;
         let sizes = self.time_functions.sizes(&self.system, now, now, WINDOW * length);
         let jumps = self.system.functions.iter().zip(sizes).any(|((_, function), size)| {
             (function.value(behind) - function.value(now)).abs() > DEPARTURE * size

@@ -17,8 +17,8 @@ use std::sync::Arc;
 use lissom_motion::Block;
 
 use super::{Lanes, stages::largest_found};
-use crate::analysis::dynamics::Simulation;
 use crate::analysis::equations::joint_changes;
+use crate::analysis::simulation::Simulation;
 use crate::joints::evaluation_point::Augmentation;
 use crate::joints::starts::JointStarts;
 use crate::kinematics::step_stages::{STAGES, StepStages};

@@ -25,7 +25,7 @@ use std::sync::Arc;
 use lissom_motion::{Block, WIDTH};
 
 use super::StepError;
-use super::dynamics::Simulation;
+use super::simulation::Simulation;
 use crate::kinematics::Quantity;
 use crate::schemes::Tableau;
 use crate::system::{Reach, State};

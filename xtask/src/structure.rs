@@ -1,0 +1,305 @@
+//! `cargo xtask structure`: import cycles between the files of a crate. A file imports another one if it names an item that is defined there,
+//! also through re-exports; a re-export alone is no import, and tests do not count.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Path, PathBuf};
+
+use syn::visit::Visit;
+use syn::{Item, UseTree, Visibility};
+
+/// Why imports cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum StructureError {
+    #[error("{path}: {source}", path = path.display())]
+    Read { path: PathBuf, source: std::io::Error },
+    #[error("{path}: {source}", path = path.display())]
+    Parse { path: PathBuf, source: syn::Error },
+}
+
+/// Names of modules from the root of the crate on.
+type Module = Vec<String>;
+
+/// One name that a file imports: its path, the name in this file, and whether it is a re-export.
+struct Import {
+    path: Vec<String>,
+    name: String,
+    is_public: bool,
+}
+
+/// What a file defines and names.
+#[derive(Default)]
+struct Source {
+    defined: BTreeSet<String>,
+    imports: Vec<Import>,
+    paths: Vec<Vec<String>>,
+}
+
+fn is_test(attributes: &[syn::Attribute]) -> bool {
+    attributes.iter().any(|attribute| {
+        attribute.path().is_ident("cfg")
+            && attribute.parse_args::<syn::Ident>().is_ok_and(|condition| condition == "test")
+    })
+}
+
+impl Source {
+    fn add_tree(&mut self, tree: &UseTree, before: &[String], is_public: bool) {
+        let mut path = before.to_vec();
+        match tree {
+            UseTree::Path(own) => {
+                path.push(own.ident.to_string());
+                self.add_tree(&own.tree, &path, is_public);
+            }
+            UseTree::Group(group) => {
+                for own in &group.items {
+                    self.add_tree(own, before, is_public);
+                }
+            }
+            UseTree::Name(own) if own.ident == "self" => {
+                let name = path.last().cloned().unwrap_or_default();
+                self.imports.push(Import { path, name, is_public });
+            }
+            UseTree::Name(own) => {
+                path.push(own.ident.to_string());
+                self.imports.push(Import { path, name: own.ident.to_string(), is_public });
+            }
+            UseTree::Rename(own) => {
+                path.push(own.ident.to_string());
+                self.imports.push(Import { path, name: own.rename.to_string(), is_public });
+            }
+            UseTree::Glob(_) => self.imports.push(Import { path, name: "*".to_owned(), is_public }),
+        }
+    }
+
+    fn define(&mut self, item: &Item) {
+        let name = match item {
+            Item::Const(own) => &own.ident,
+            Item::Enum(own) => &own.ident,
+            Item::Fn(own) => &own.sig.ident,
+            Item::Static(own) => &own.ident,
+            Item::Struct(own) => &own.ident,
+            Item::Trait(own) => &own.ident,
+            Item::Type(own) => &own.ident,
+            _ => return,
+        };
+        self.defined.insert(name.to_string());
+    }
+}
+
+impl<'ast> Visit<'ast> for Source {
+    fn visit_item(&mut self, item: &'ast Item) {
+        match item {
+            Item::Use(own) if !is_test(&own.attrs) => {
+                let is_public = !matches!(own.vis, Visibility::Inherited);
+                self.add_tree(&own.tree, &[], is_public);
+            }
+            Item::Mod(own) if is_test(&own.attrs) => {}
+            Item::Use(_) => {}
+            _ => {
+                self.define(item);
+                syn::visit::visit_item(self, item);
+            }
+        }
+    }
+
+    fn visit_path(&mut self, path: &'ast syn::Path) {
+        if path.segments.len() > 1 {
+            self.paths.push(path.segments.iter().map(|segment| segment.ident.to_string()).collect());
+        }
+        syn::visit::visit_path(self, path);
+    }
+}
+
+/// The files of a crate.
+struct Crate {
+    sources: BTreeMap<Module, Source>,
+}
+
+impl Crate {
+    fn read(root: &Path) -> Result<Self, StructureError> {
+        let mut sources = BTreeMap::new();
+        let mut folders = vec![(root.to_owned(), Module::new())];
+        while let Some((folder, module)) = folders.pop() {
+            let about = |source| StructureError::Read { path: folder.clone(), source };
+            for entry in std::fs::read_dir(&folder).map_err(about)? {
+                let path = entry.map_err(about)?.path();
+                let stem = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+                let mut own = module.clone();
+                if path.is_dir() {
+                    own.push(stem);
+                    folders.push((path, own));
+                    continue;
+                }
+                if path.extension().is_none_or(|extension| extension != "rs") {
+                    continue;
+                }
+                if !["mod", "lib"].contains(&stem.as_str()) {
+                    own.push(stem);
+                }
+                let text = std::fs::read_to_string(&path).map_err(about)?;
+                let file = syn::parse_file(&text).map_err(|source| StructureError::Parse { path, source })?;
+                let mut source = Source::default();
+                source.visit_file(&file);
+                sources.insert(own, source);
+            }
+        }
+        Ok(Self { sources })
+    }
+
+    /// A path from the root of the crate on; none for those of other crates and of local items.
+    fn absolute(&self, module: &[String], path: &[String]) -> Option<Module> {
+        let first = path.first()?.as_str();
+        let ups = path.iter().take_while(|own| *own == "super").count();
+        let (from, rest) = match first {
+            "crate" => (&[][..], &path[1..]),
+            "self" => (module, &path[1..]),
+            "super" => (&module[..module.len().checked_sub(ups)?], &path[ups..]),
+            _ => {
+                let child: Module = module.iter().cloned().chain([first.to_owned()]).collect();
+                if !self.sources.contains_key(&child) {
+                    return None;
+                }
+                (module, path)
+            }
+        };
+        Some(from.iter().chain(rest).cloned().collect())
+    }
+
+    /// The file that defines what a path from the root names.
+    fn definition(&self, path: &[String], seen: &mut Vec<Module>) -> Module {
+        let mut length = 0;
+        while length < path.len() && self.sources.contains_key(&path[..=length]) {
+            length += 1;
+        }
+        let module = path[..length].to_vec();
+        let (Some(name), Some(source)) = (path.get(length), self.sources.get(&module)) else { return module };
+        let key: Module = path[..=length].to_vec();
+        if source.defined.contains(name) || seen.contains(&key) {
+            return module;
+        }
+        seen.push(key);
+        for import in source.imports.iter().filter(|import| import.name == *name || import.name == "*") {
+            let Some(mut target) = self.absolute(&module, &import.path) else { continue };
+            if import.name == "*" {
+                target.push(name.clone());
+            }
+            let found = self.definition(&target, seen);
+            let is_there = self.sources.get(&found).is_some_and(|source| source.defined.contains(name));
+            if import.name != "*" || is_there {
+                return found;
+            }
+        }
+        module
+    }
+
+    /// The files that each file imports.
+    fn edges(&self) -> BTreeMap<Module, BTreeSet<Module>> {
+        let of = |(module, source): (&Module, &Source)| {
+            let imports = source.imports.iter().filter(|import| !import.is_public).map(|import| &import.path);
+            let targets = imports.chain(&source.paths).filter_map(|path| self.absolute(module, path));
+            let files = targets.map(|target| self.definition(&target, &mut Vec::new()));
+            (module.clone(), files.filter(|file| file != module).collect())
+        };
+        self.sources.iter().map(of).collect()
+    }
+}
+
+/// Files that `from` leads to.
+fn reached(edges: &BTreeMap<Module, BTreeSet<Module>>, from: &Module) -> BTreeSet<Module> {
+    let (mut found, mut open) = (BTreeSet::new(), vec![from.clone()]);
+    while let Some(module) = open.pop() {
+        for next in edges.get(&module).into_iter().flatten() {
+            if found.insert(next.clone()) {
+                open.push(next.clone());
+            }
+        }
+    }
+    found
+}
+
+/// Import cycles of the crate below `root`: the files that lead to each other, the largest cycle first.
+///
+/// # Errors
+/// If a file cannot be read or is no Rust.
+pub(crate) fn cycles(root: &Path) -> Result<Vec<Vec<String>>, StructureError> {
+    let edges = Crate::read(root)?.edges();
+    let reach: BTreeMap<&Module, BTreeSet<Module>> =
+        edges.keys().map(|module| (module, reached(&edges, module))).collect();
+    let mut cycles: BTreeSet<Vec<String>> = BTreeSet::new();
+    for (module, others) in &reach {
+        let own = others.iter().filter(|other| reach.get(other).is_some_and(|back| back.contains(*module)));
+        let files: Vec<String> = own.map(|other| other.join("/")).collect();
+        if files.len() > 1 {
+            cycles.insert(files);
+        }
+    }
+    let mut cycles: Vec<Vec<String>> = cycles.into_iter().collect();
+    cycles.sort_by_key(|files| std::cmp::Reverse(files.len()));
+    Ok(cycles)
+}
+
+/// Prints the cycles of a crate.
+///
+/// # Errors
+/// If a file cannot be read or is no Rust.
+pub(crate) fn run(root: &Path) -> Result<(), StructureError> {
+    for files in cycles(root)? {
+        println!("{} files: {}", files.len(), files.join(", "));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Files that may import each other.
+    const MAX_CYCLE: usize = 5;
+    /// The simulation and what it accumulates, until step control and monitors are parts of their own.
+    const ACROSS_FOLDERS: [&str; 2] = ["analysis/simulation", "stepping/resolution"];
+
+    fn of(name: &str) -> Vec<Vec<String>> {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates").join(name).join("src");
+        cycles(&root).expect("readable sources")
+    }
+
+    #[test]
+    fn files_of_the_core_import_each_other_in_small_cycles_within_one_folder() {
+        let folder = |file: &String| file.rsplit_once('/').map_or("", |(folder, _)| folder).to_owned();
+        for files in of("lissom-core") {
+            assert!(
+                files.len() <= MAX_CYCLE,
+                "{} files import each other: {}",
+                files.len(),
+                files.join(", ")
+            );
+            // A folder's own file is at its border.
+            let inner: BTreeSet<String> = files
+                .iter()
+                .filter(|file| !files.iter().any(|other| folder(other) == **file))
+                .map(folder)
+                .collect();
+            let is_known = ACROSS_FOLDERS.iter().all(|known| files.iter().any(|file| file == known));
+            assert!(inner.len() <= 1 || is_known, "a cycle across folders: {}", files.join(", "));
+        }
+    }
+
+    #[test]
+    fn cycles_are_found_through_re_exports() {
+        let folder = std::env::temp_dir().join(format!("xtask-structure-{}", std::process::id()));
+        std::fs::create_dir_all(folder.join("inner")).expect("a folder");
+        let write = |name: &str, text: &str| std::fs::write(folder.join(name), text).expect("a file");
+        write("lib.rs", "mod a;\nmod inner;\n");
+        write("a.rs", "use crate::inner::Thing;\npub struct Other(Thing);\n");
+        write("inner/mod.rs", "mod b;\npub use b::Thing;\n");
+        write(
+            "inner/b.rs",
+            "pub struct Thing;\nimpl Thing { fn own(&self) -> crate::a::Other { todo!() } }\n",
+        );
+        let found = cycles(&folder);
+        write("inner/b.rs", "pub struct Thing;\n#[cfg(test)]\nmod tests { use crate::a::Other; }\n");
+        let without = cycles(&folder);
+        std::fs::remove_dir_all(&folder).expect("a folder");
+        assert_eq!(found.expect("a crate"), [["a", "inner/b"]]);
+        assert!(without.expect("a crate").is_empty());
+    }
+}
