@@ -146,7 +146,7 @@ pub enum Failure {
     },
     /// The tangent has no factorisation without pivoting.
     Factor(FactorError),
-    /// It was told to stop.
+    /// It was interrupted.
     Interrupted,
 }
 

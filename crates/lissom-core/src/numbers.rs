@@ -22,10 +22,10 @@ pub enum Number {
     Small,
     /// Secants that are less independent of newer ones are left out.
     SecantIndependence,
-    /// A secant is used for corrections up to so many times as large: beyond, its round-off would tell.
+    /// A secant is used for corrections up to so many times as large: beyond, its round-off would dominate.
     SecantReach,
     /// A secant is kept if what the tangent has missed is below this part of it: where a tangent is worse it is to be
-    /// renewed, and corrections that are round-off have nothing to tell.
+    /// renewed, and corrections that are round-off contain no information.
     SecantCredible,
     /// What a step counts for after another one in linear prediction: coefficients change as the motion does.
     PredictionFading,

@@ -1,4 +1,4 @@
-//! What a kind of joint or force element tells the world about itself: its name, one sentence, a
+//! What a kind of joint or force element declares about itself: its name, one sentence, a
 //! sample, and the parameters it takes. Parser, manual, schema and conformance tests read these
 //! tables; nothing here knows mechanics or files.
 
@@ -142,7 +142,7 @@ pub enum ParameterType {
     /// A number or an expression in the time `t`.
     Function,
     /// The size of a load, a factor of all its forces: a number or an expression in the time `t`, inputs, signals,
-    /// states and outputs. A load is told functions of time only: where there is more in the expression, the load of
+    /// states and outputs. A load receives functions of time only: where there is more in the expression, the load of
     /// size one is multiplied.
     Size,
     /// A force over the two named quantities: a number, an expression of them, or a table over the first.

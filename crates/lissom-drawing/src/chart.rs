@@ -247,7 +247,7 @@ impl<'a> Frame<'a> {
         let named: Vec<&Curve> = self.panel.curves.iter().filter(|curve| !curve.name.is_empty()).collect();
         let lines = (((self.bottom - self.top) / LEGEND_LINE) as usize).max(1);
         let left = self.right + MARGIN;
-        // The last line tells how many there are more.
+        // The last line shows how many there are more.
         let shown = if named.len() > lines { lines - 1 } else { named.len() };
         for (index, curve) in named[..shown].iter().enumerate() {
             let y = self.top + LEGEND_LINE * (index as f64 + 0.5);

@@ -7,7 +7,7 @@ use crate::svg;
 /// Red, green and blue as screens take them, 0 to 255.
 pub type Shade = [u8; 3];
 
-/// Blue, vermilion, green, purple, orange, sky blue, black (after Okabe and Ito 2008): told apart also by
+/// Blue, vermilion, green, purple, orange, sky blue, black (after Okabe and Ito 2008): distinguished also by
 /// people who do not see all colours, and on paper.
 const COLOURS: [Shade; 7] =
     [[0, 114, 178], [213, 94, 0], [0, 158, 115], [204, 121, 167], [230, 159, 0], [86, 180, 233], [0, 0, 0]];

@@ -34,7 +34,7 @@ fn tell(log: Log, environment: *mut c_void, status: Status, words: &str) {
     unsafe { log(environment, status, c"logStatusError".as_ptr(), message.as_ptr()) };
 }
 
-/// Does something with a unit; what goes wrong is told to the importer.
+/// Does something with a unit; what goes wrong is reported to the importer.
 fn with(unit: *mut c_void, act: impl FnOnce(&mut Instance) -> Result<(), String>) -> Status {
     // SAFETY: a unit is null or what `fmi3InstantiateCoSimulation` gave, and is used by one thread at a time.
     let Some(unit) = (unsafe { unit.cast::<Unit>().as_mut() }) else { return ERROR };
@@ -240,7 +240,7 @@ extern "C" fn fmi3FreeFMUState(unit: *mut c_void, state: *mut *mut c_void) -> St
     with(unit, |_| {
         let [place] = room(state, 1)? else { return Ok(()) };
         if !place.is_null() {
-            // SAFETY: as in `saved`; the importer forgets it, as null tells.
+            // SAFETY: as in `saved`; the importer forgets it, as null states.
             drop(unsafe { Box::from_raw(place.cast::<SavedState>()) });
             *place = null_mut();
         }

@@ -48,7 +48,7 @@ struct Given {
     /// Parameters and inputs by their value references.
     parameters: BTreeMap<usize, f64>,
     inputs: BTreeMap<usize, f64>,
-    /// Inputs that the session has not been told of.
+    /// Inputs that the session has not been given.
     untold: Vec<usize>,
 }
 
@@ -158,7 +158,7 @@ impl Instance {
         all
     }
 
-    /// The session, started where there is none, and told of all inputs.
+    /// The session, started where there is none, with all inputs set.
     fn session(&mut self) -> Result<&mut Session, String> {
         if self.session.is_none() {
             self.session = Some(self.model.session(&self.overrides()).map_err(words)?);

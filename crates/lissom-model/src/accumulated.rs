@@ -49,7 +49,7 @@ const LEAST_COSINE: f64 = 1e-3;
 /// ```
 ///
 /// This is the angle of the turn about n that is left when the shortest turn of n itself is taken away. The whole turns are those
-/// that the angular velocity tells.
+/// that the angular velocity gives.
 pub(crate) struct AngleAboutAxis {
     pub(crate) name: String,
     pub(crate) place: Place,

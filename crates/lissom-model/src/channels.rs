@@ -320,7 +320,7 @@ impl Channel {
         out.extend_from_slice(vector.as_slice());
     }
 
-    /// Whether it tells of velocities, accelerations or forces of constraints. Forces in beams are those of their strains, and a
+    /// Whether it reports velocities, accelerations or forces of constraints. Forces in beams are those of their strains, and a
     /// signal is what acts.
     pub fn tells_rates(&self) -> bool {
         match &self.source {

@@ -47,7 +47,7 @@ pub(crate) enum MatrixError {
         /// Columns.
         columns: usize,
     },
-    /// There are more or fewer entries than told.
+    /// There are more or fewer entries than announced.
     #[error("there are {found} entries where {wanted} are announced")]
     Count {
         /// How many there are.
@@ -94,7 +94,7 @@ pub(crate) fn matrix(text: &str) -> Result<DMatrix<f64>, MatrixError> {
     }
     let mut matrix = DMatrix::zeros(rows, columns);
     let mut set = |row: usize, column: usize, value: f64| {
-        // Entries that are told twice add up, as of elements.
+        // Entries that occur twice add up, as those of elements do.
         matrix[(row, column)] += value;
         if is_symmetric && row != column {
             matrix[(column, row)] += value;

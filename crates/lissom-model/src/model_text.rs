@@ -69,7 +69,7 @@ impl ModelText {
         &self.0.library
     }
 
-    /// Overrides of what stands inside of parts, each as `path = value`: [`to_toml`](Self::to_toml) cannot tell them.
+    /// Overrides of what stands inside of parts, each as `path = value`: [`to_toml`](Self::to_toml) cannot express them.
     pub fn overrides_inside_parts(&self) -> Vec<String> {
         let line = |patch: &Patch| {
             let path: Vec<String> = patch.path.iter().map(|(name, _)| toml_text::key(name)).collect();
@@ -146,7 +146,7 @@ step = 1e-300
             let told = without(&[path], &[]).unwrap_err().render(false);
             assert!(told.contains(words) && told.contains("[override:1:"), "{path}: {told}");
         }
-        // What is missing then is told as if it had never been there.
+        // What is missing then is reported as if it had never been there.
         let told = without(&["point_masses.\"my ball\".mass"], &[]).unwrap_err().render(false);
         assert!(told.contains("mass"), "{told}");
     }

@@ -1,4 +1,4 @@
-//! Reads one table key by key against its description: unknown and missing keys are told at once, and every
+//! Reads one table key by key against its description: unknown and missing keys are reported at once, and every
 //! value is checked for what its key holds.
 
 use lissom_core::registry::{Function, Parameter, ParameterType, Parameters, Value as Held};
@@ -54,7 +54,7 @@ pub(crate) fn tag<'n>(
 }
 
 impl<'c, 'a> Reader<'c, 'a> {
-    /// Opens a table whose keys are known, and tells which ones are unknown or missing.
+    /// Opens a table whose keys are known, and reports which ones are unknown or missing.
     pub(crate) fn open(
         context: &'c Context<'a>,
         node: &'c Node,

@@ -169,12 +169,12 @@ impl Sources {
         sources
     }
 
-    /// Adds a text and tells where it starts.
+    /// Adds a text and returns where it starts.
     pub(crate) fn push(&mut self, name: &str, text: &str) -> usize {
         self.push_shared(name, Arc::from(text), None)
     }
 
-    /// Adds a text that others may share, for the part that `origin` tells, and tells where it starts.
+    /// Adds a text that others may share, for the part that `origin` names, and returns where it starts.
     pub(crate) fn push_shared(&mut self, name: &str, text: Arc<str>, origin: Option<Origin>) -> usize {
         let start = self.next_start();
         let end = start + text.len();
@@ -182,7 +182,7 @@ impl Sources {
         start
     }
 
-    /// Adds the text in which `span` lies once more, for the part that `origin` tells.
+    /// Adds the text in which `span` lies once more, for the part that `origin` names.
     pub(crate) fn push_again(&mut self, span: Span, origin: Origin) -> Shift {
         let Some(piece) = self.piece(span) else { return Shift::default() };
         let (name, text) = (Arc::clone(&piece.name), Arc::clone(&piece.text));

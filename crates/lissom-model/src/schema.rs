@@ -54,7 +54,7 @@ fn table(name: &str, registry: &Registry) -> Value {
     let Some(tag) = forms.tag else {
         return forms.all.first().map_or(json!({}), |form| of_keys(&form.keys));
     };
-    // With if/then an editor tells what is wrong with the chosen form, not that none of all forms fits.
+    // With if/then an editor shows what is wrong with the chosen form, not that none of all forms fits.
     let branch = |form: &Variant| {
         let mut then = of_keys(&form.keys);
         describe(&mut then, form.summary);

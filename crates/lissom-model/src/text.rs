@@ -169,7 +169,7 @@ impl Tree {
     }
 }
 
-/// Only the first mistake in the text is told: what follows it is mostly its echo.
+/// Only the first mistake in the text is reported: what follows it is mostly its echo.
 pub(crate) fn parse(text: &str) -> Result<Table, Box<Problem>> {
     let (root, errors) = DeTable::parse_recoverable(text);
     let place = |error: &toml::de::Error| error.span().map_or(Span::default(), Span::from);

@@ -16,7 +16,7 @@ pub trait Real:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// `value` in each lane; `self` only tells the kind.
+    /// `value` in each lane; `self` only gives the kind.
     fn like(self, value: f64) -> Self;
 
     /// `self` times a constant.
@@ -41,7 +41,7 @@ pub trait Real:
     ) -> [[Self; N]; M];
 
     /// Does what is asked in a function of its own, for long formulas with many callers that are seldom evaluated; `self`
-    /// only tells the kind.
+    /// only gives the kind.
     #[inline(always)]
     fn apart<T>(self, work: impl FnOnce() -> T) -> T {
         work()

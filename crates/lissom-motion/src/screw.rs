@@ -39,7 +39,7 @@ impl<R: Real> Screw<R> {
         [u.x, u.y, u.z, theta.x, theta.y, theta.z]
     }
 
-    /// Zero; `kind` only tells the kind of number.
+    /// Zero; `kind` only gives the kind of number.
     #[inline(always)]
     pub fn zero(kind: R) -> Self {
         Self::from_components([kind.like(0.0); 6])

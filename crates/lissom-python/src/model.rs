@@ -38,7 +38,7 @@ impl NativeModel {
         self.model.document(&self.overrides).map_err(|report| of_report(&report))
     }
 
-    /// A number that tells models apart by all they are made of: text, values put into it, included files.
+    /// A number that distinguishes models by all they are made of: text, values put into it, included files.
     pub(crate) fn fingerprint(&self) -> u64 {
         let mut hasher = DefaultHasher::new();
         (self.model.text(), &self.overrides, self.model.included(), lissom::VERSION).hash(&mut hasher);

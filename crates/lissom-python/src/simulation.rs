@@ -37,7 +37,7 @@ struct Inner {
     session: Session,
     values: Vec<f64>,
     are_current: bool,
-    /// How many of the session's warnings Python was told of.
+    /// How many of the session's warnings Python was given.
     told: usize,
 }
 
@@ -51,7 +51,7 @@ impl Inner {
         &self.values
     }
 
-    /// Reasons to doubt the results that Python has not been told of.
+    /// Reasons to doubt the results that Python has not been given.
     fn news(&mut self) -> Vec<String> {
         let count = self.session.warnings().count();
         let news = if count > self.told {
@@ -157,7 +157,7 @@ impl Simulation {
         warn(py, &outcome?)
     }
 
-    /// Reasons to doubt the results up to now, as in `summary.json`. Each is also told by a `ModelWarning` when it comes up.
+    /// Reasons to doubt the results up to now, as in `summary.json`. Each is also reported by a `ModelWarning` when it comes up.
     #[getter]
     fn warnings(&self) -> Vec<String> {
         self.lock().session.warnings().map(words).collect()

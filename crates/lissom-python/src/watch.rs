@@ -1,4 +1,4 @@
-//! Looks after Python while the interpreter lock is released: Ctrl-C, and a function that is told how far things are.
+//! Looks after Python while the interpreter lock is released: Ctrl-C, and a function that receives the progress.
 
 use std::ops::ControlFlow;
 use std::panic::resume_unwind;
@@ -27,7 +27,7 @@ pub(crate) fn interruptible<T: Send + 'static>(
         let (sender, receiver) = mpsc::channel();
         let given_up = Arc::new(AtomicBool::new(false));
         let asked_of_work = Arc::clone(&given_up);
-        // Where nobody waits any more, there is nobody to tell.
+        // Where nobody waits any more, there is no receiver.
         let begun = thread::Builder::new().name("lissom".to_owned()).stack_size(STACK).spawn(move || {
             let _ = sender.send(interrupt::within(asked_of_work, work));
         });

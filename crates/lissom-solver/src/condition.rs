@@ -89,7 +89,7 @@ fn one_norm<S: Scalar>(vector: &[S]) -> f64 {
     vector.iter().map(|&value| modulus(value)).sum()
 }
 
-/// Writes the signs of the numbers and tells whether they were so before.
+/// Writes the signs of the numbers and returns whether they were so before.
 fn update_signs<S: Scalar>(vector: &[S], signs: &mut [S]) -> bool {
     let mut unchanged = true;
     for (sign, &value) in signs.iter_mut().zip(vector) {

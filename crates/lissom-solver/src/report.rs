@@ -1,4 +1,4 @@
-//! What a factorisation tells about itself, and why it may refuse. Knows unknowns by number only.
+//! What a factorisation reports about itself, and why it may fail. Knows unknowns by number only.
 
 use crate::scalar::Scalar;
 
@@ -11,7 +11,7 @@ use crate::scalar::Scalar;
 pub const TINY_PIVOT: f64 = 1e-14;
 
 /// Monitor of a factorisation that went through. The solver `pivoting` gives what the size of a
-/// solution tells instead of its pivots, which do not see every near singularity.
+/// solution shows instead of its pivots, which do not see every near singularity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FactorReport {
     /// Smallest magnitude of a pivot.
@@ -30,7 +30,7 @@ pub struct FactorReport {
     pub worst_cancellation_unknown: usize,
     /// How many pivots are negative. Of a symmetric matrix that is how many negative eigenvalues it has (Sylvester's law of
     /// inertia): a saddle-point matrix `[A, Bᵀ; B, 0]` has one for each equation, and one for each direction allowed by
-    /// them in which A is not stable. Of other matrices only whether it is odd tells something: the sign of the determinant.
+    /// them in which A is not stable. Of other matrices only whether it is odd has a meaning: the sign of the determinant.
     /// None for complex matrices and from solvers that exchange rows.
     pub negative_pivots: Option<usize>,
 }

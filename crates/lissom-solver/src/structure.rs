@@ -1,4 +1,4 @@
-//! What a solver is told before it sees numbers: the pattern, and which unknowns are eliminated together and
+//! What a solver knows before it has numbers: the pattern, and which unknowns are eliminated together and
 //! after which others. Knows nothing of what the unknowns mean.
 
 use std::sync::Arc;

@@ -159,7 +159,7 @@ fn in_equilibrium(document: &Document, hand: Hand<'_>) -> Result<(), ModesError>
     drop(model);
     settings.limits.tolerance = settings.limits.tolerance.min(TOLERANCE);
     let (system, mut state, doubts) = at_rest(system, state, &settings)?;
-    // Instability is told by the modes themselves.
+    // Instability is reported by the modes themselves.
     let relaxed = doubts.iter().filter(|doubt| matches!(doubt, Warning::Relaxed { .. }));
     let warnings = relaxed.map(|doubt| format!("{}: {doubt}", doubt.code())).collect();
     stop(&mut state);

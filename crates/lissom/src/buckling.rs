@@ -50,7 +50,7 @@ pub enum BucklingRunError {
     Missing(usize),
 }
 
-/// Buckling modes of a model, with all that is told of them.
+/// Buckling modes of a model, with all reports about them.
 #[derive(Clone, Debug)]
 pub struct BucklingReport {
     /// Load factors and shapes.

@@ -14,7 +14,7 @@ use crate::modes::{AT_REST, ModesError, Reliable, reliable};
 
 /// Shapes that are less alike are not of one line.
 const ALIKE: f64 = 0.3;
-/// Shapes that are less alike than this are told about: a pair of equal frequencies splits into halves.
+/// Shapes that are less alike than this are reported: a pair of equal frequencies splits into halves.
 const DOUBTFUL: f64 = 0.45;
 /// A crossing is known to this part of its frequency …
 const CROSSED: f64 = 1e-7;
@@ -278,7 +278,7 @@ impl Search<'_> {
         let mut value = low.value;
         for _ in 0..SOLUTIONS {
             value = low.value - at.0 * (high.value - low.value) / (beyond.0 - at.0);
-            // At the crossing itself a mode may stand still in rotating axes, where its shape tells nothing.
+            // At the crossing itself a mode may stand still in rotating axes, where its shape gives no information.
             let Ok(middle) = self.point(value, Some(&low), &mut lines) else { break };
             let Some(own) = gap(&middle).filter(|own| own.2 == beyond.2) else { break };
             let is_found = own.0.abs() <= CROSSED * own.1;

@@ -36,7 +36,7 @@ impl Diagnosis {
         Self { time, part: part.map(str::to_owned), ..Self::of_text(&error.to_string()) }
     }
 
-    /// What a message alone tells: a remedy stands behind its first semicolon.
+    /// What a message alone contains: a remedy stands behind its first semicolon.
     pub fn of_text(text: &str) -> Self {
         let remedy = text.split_once("; ").map(|(_, remedy)| remedy.trim_end_matches(')').to_owned());
         Self { text: text.to_owned(), time: None, part: None, remedy }

@@ -61,7 +61,7 @@ const OF_LINEAR_MODELS: [&str; 25] = [
     "state-space-C.mtx",
     "state-space-D.mtx",
 ];
-/// Name of the file with what the steps told of their tangents.
+/// Name of the file with what the steps reported of their tangents.
 const TELEMETRY: &str = "telemetry.json";
 /// Name of the file that a run holds locked.
 const LOCK: &str = ".lock";
@@ -128,7 +128,7 @@ fn lock(path: &Path) -> Result<File, FileError> {
             ErrorKind::ResourceBusy,
             "another run is writing into this folder: wait for it, or choose another one with `--out`",
         ))),
-        // Where files cannot be locked runs are told apart by the folders they are given.
+        // Where files cannot be locked runs are distinguished by the folders they are given.
         _ => Ok(lock),
     }
 }
@@ -351,7 +351,7 @@ impl ResultFolder {
         files::write(&self.path.join(SUMMARY), summary.to_json().as_bytes())
     }
 
-    /// Writes what the steps told of their tangents.
+    /// Writes what the steps reported of their tangents.
     ///
     /// # Errors
     /// If it cannot be written.
@@ -378,7 +378,7 @@ impl ResultFolder {
         Ok(files::write(&self.path.join("campbell.png"), &plot.png()?)?)
     }
 
-    /// Draws figures that were asked for into a folder, as SVG and as PNG, and tells where they are.
+    /// Draws figures that were asked for into a folder, as SVG and as PNG, and returns where they are.
     ///
     /// # Errors
     /// If the folder or a figure cannot be made.

@@ -92,7 +92,7 @@ fn drawn(path: &Path) -> Result<Option<(Value, Vec<u8>)>, FolderError> {
         Err(error) if error.kind() == ErrorKind::NotFound => return Ok(None),
         Err(error) => return Err(files::failure(files::Action::Read, &motion, error).into()),
     };
-    // What is no motion file is told before the scene is missed.
+    // What is no motion file is reported before the scene is missed.
     Motion::last_time(&bytes).map_err(|error| foreign(&motion, error))?;
     let scene = read_scene(&path.join(SCENE))?;
     let described =

@@ -1,4 +1,4 @@
-//! Natural modes of a model about a state: finds the state, linearises there, and tells of the modes in tables.
+//! Natural modes of a model about a state: finds the state, linearises there, and reports the modes in tables.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
@@ -27,7 +27,7 @@ const FAR: f64 = 0.25;
 
 /// A mode that departs by more from being one when the model has turned belongs to coefficients that change.
 const CONSTANT: f64 = 3e-4;
-/// Departures up to so many times what round-off makes of them cannot be told from it …
+/// Departures up to so many times what round-off makes of them cannot be distinguished from it …
 const BEYOND_ROUND_OFF: f64 = 30.0;
 /// … unless round-off leaves nothing of the comparison.
 const MOST_ROUND_OFF: f64 = 1e-2;
@@ -140,7 +140,7 @@ impl From<SessionError> for ModesError {
     }
 }
 
-/// Modes of a model, with all that is told of them.
+/// Modes of a model, with all reports about them.
 #[derive(Clone, Debug)]
 pub struct ModeReport {
     /// The modes, by ascending frequency, unstable ones first.
@@ -222,7 +222,7 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
     Ok(report)
 }
 
-/// What is told of modes in axes at rest.
+/// Reports about modes in axes at rest.
 pub(crate) const AT_REST: &str = "the coefficients are constant in axes at rest alone, with multi-blade coordinates: frequencies are those seen \
     from there, shapes those of this instant";
 

@@ -8,7 +8,7 @@ use std::io;
 
 /// First and last bytes of a file.
 const MAGIC: &[u8; 4] = b"PAR1";
-/// Rows of a group: its pages stay far below the 2 GB that their headers can tell.
+/// Rows of a group: its pages stay far below the 2 GB that their headers can express.
 const GROUP: usize = 1 << 17;
 
 /// Values of a column.

@@ -94,7 +94,7 @@ pub enum PathRunError {
 pub enum PathEnd {
     /// At its load factor.
     Reached,
-    /// Because it was told to.
+    /// Because it was interrupted.
     Interrupted,
     /// Because it could not go on.
     Failed(PathRunError),

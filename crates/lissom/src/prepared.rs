@@ -200,7 +200,7 @@ impl Prepared {
             given.iter().zip(violations(&own.kinematics)).zip(rows).enumerate()
         {
             let unit = if *quantity == lissom_core::kinematics::Quantity::Angle { 1.0 } else { size };
-            // What the model starts with is told when it is read.
+            // What the model starts with is reported when it is read.
             if violation.abs() > known.abs() + LARGEST_VIOLATION * unit {
                 let (joint, equation) = system.layout().constraint_name(index);
                 return Err(StartError::Violated {

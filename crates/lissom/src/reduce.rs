@@ -149,7 +149,7 @@ pub fn reduce(
         interfaces: &interfaces,
         solver: settings.solver,
     };
-    // The lowest mode tells whether something moves freely while the interfaces are held, also where no mode is asked for.
+    // The lowest mode shows whether something moves freely while the interfaces are held, also where no mode is asked for.
     // The estimate of what loads do to the stiffness needs the modes that are left out, with and without corrections.
     let sought = SOUGHT[0] * request.modes + SOUGHT[1];
     let found = assembly.reduce(sought.min(inner))?.with_modes(request.modes, request.corrections);

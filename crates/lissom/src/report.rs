@@ -27,7 +27,7 @@ pub enum RunError {
 pub enum Stopped {
     /// At its planned end.
     End,
-    /// Because it was told to.
+    /// Because it was interrupted.
     Interrupted,
     /// Because it could not go on.
     Failed(RunError),

@@ -116,7 +116,7 @@ impl Transfer {
     }
 }
 
-/// Responses, and what is told of them.
+/// Responses, and what is reported of them.
 #[derive(Clone, Debug)]
 pub struct ResponseReport {
     /// Frequencies [Hz], ascending.

@@ -20,7 +20,7 @@ pub(crate) fn tell(summary: &mut Summary, name: &str, fact: Value) {
     summary.insert(name, fact).expect("a JSON value can be said in JSON");
 }
 
-/// What is known of an analysis without time steps before it has a result: it is told as failed until then.
+/// What is known of an analysis without time steps before it has a result: it is reported as failed until then.
 pub fn of_request(analysis: &str, name: &str, overrides: &[Override], document: &Document) -> Summary {
     let mut summary = Summary::new();
     let mut tell = |name: &str, fact: Value| tell(&mut summary, name, fact);
@@ -46,7 +46,7 @@ pub fn of_left_out(summary: &mut Summary, model: &Model) {
     }
 }
 
-/// What is known before the first step. A run that cannot even start is told as failed, with `steps` zero;
+/// What is known before the first step. A run that cannot even start is reported as failed, with `steps` zero;
 /// [`of_run`] replaces this.
 pub fn of_model(name: &str, overrides: &[Override], document: &Document, lowered: &Lowered) -> Summary {
     let Lowered { system, settings, plan, channels, .. } = lowered;

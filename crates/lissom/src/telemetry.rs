@@ -1,6 +1,6 @@
-//! What every step tells of its tangent: condition, pivots, iterations. Long runs are thinned out, so that the
+//! What every step reports about its tangent: condition, pivots, iterations. Long runs are thinned out, so that the
 //! summary stays small, and the condition is estimated ever more rarely. Nothing depends on the clock: a run that is
-//! continued tells the same as one that was not interrupted.
+//! continued reports the same as one that was not interrupted.
 
 use lissom_core::analysis::{Simulation, StepReport};
 use serde::{Deserialize, Serialize};

@@ -68,7 +68,7 @@ impl Bar {
     }
 }
 
-/// Whether Ctrl-C was pressed, or the program was told to end in another way (SIGTERM, SIGHUP).
+/// Whether Ctrl-C was pressed, or the program received another signal to end (SIGTERM, SIGHUP).
 #[derive(Clone, Default)]
 pub(crate) struct Interrupt(Arc<AtomicBool>);
 

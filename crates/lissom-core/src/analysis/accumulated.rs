@@ -14,7 +14,7 @@ pub trait Accumulated: Send + Sync {
     /// Its name in the model.
     fn name(&self) -> &str;
 
-    /// Its value at the end of a step, from the one at its start; not finite where that cannot be told.
+    /// Its value at the end of a step, from the one at its start; not finite where that cannot be determined.
     fn after(&self, step: &AcceptedStep<'_>, before: f64) -> f64;
 }
 

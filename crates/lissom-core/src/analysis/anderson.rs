@@ -1,4 +1,4 @@
-//! What earlier corrections tell of the error of a kept tangent: secants. A tangent that is old leaves something of each
+//! Estimates from earlier corrections of the error of a kept tangent: secants. A tangent that is old leaves something of each
 //! correction to the next ones, in a few directions that are the same from iteration to iteration and from step to
 //! step. Those are seen and taken away [Anderson 1965; Fang and Saad 2009, type II].
 //!

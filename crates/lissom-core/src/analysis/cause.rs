@@ -6,7 +6,7 @@ use crate::judge::{LARGEST_TURN, held};
 
 impl Simulation {
     /// The failure of a step with its likely cause: a joint or a closed loop close to where it cannot go on, or a
-    /// force that switches. `no_part` tells that the shortest parts of the step were tried too.
+    /// force that switches. `no_part` is true if the shortest parts of the step were tried too.
     pub(crate) fn with_cause(&mut self, error: StepError, no_part: bool) -> StepError {
         let time = match &error {
             StepError::NotConverged { time, .. }
@@ -72,8 +72,8 @@ impl Simulation {
     }
 }
 
-/// Of the failures of a step and of its parts the one that tells more: the first, unless it tells only that numbers did not
-/// converge and a later one tells why.
+/// Of the failures of a step and of its parts the more specific one: the first, unless it states only that numbers did not
+/// converge and a later one states why.
 pub(crate) fn telling(first: Option<StepError>, later: StepError) -> StepError {
     let tells_little =
         |error: &StepError| matches!(error, StepError::NotConverged { .. } | StepError::NotFinite { .. });

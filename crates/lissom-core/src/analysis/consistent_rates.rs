@@ -42,7 +42,7 @@ impl ConsistentRates {
         (settings.scheme.dynamic && may_be_driven && is_rigid && is_coarse).then(|| Self { initial: new() })
     }
 
-    /// The state with such rates, where a step of `step` [s] led to it; none where nothing drives it, where errors of places tell
+    /// The state with such rates, where a step of `step` [s] led to it; none where nothing drives it, where errors of positions show
     /// what rates miss, and where they are not found, as in a singular position.
     pub fn state(&mut self, system: &System, state: &State, step: f64) -> Option<State> {
         if system.drives().is_empty() && !is_timed(system, state, step) {

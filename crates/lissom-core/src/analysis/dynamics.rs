@@ -35,7 +35,7 @@ use crate::system::{Linearization, State, System, Threads};
 /// to the energy is seen by the ledger.
 const SUFFICIENT: f64 = 1e-9;
 
-/// Part of the work of a load step that must be missing for it to be told as a jump: a path of equilibria that the
+/// Part of the work of a load step that must be missing for it to be reported as a jump: a path of equilibria that the
 /// trapezoidal rule follows badly, as with all of a load at once, misses up to a third.
 const JUMP: f64 = 0.6;
 

@@ -18,7 +18,7 @@ use crate::system::{State, System};
 const HELD: f64 = 1e-9;
 
 /// Gives the start of load steps the multipliers that hold it, where loads act at once and constraints alone bear them: it is an
-/// equilibrium then, whose reactions are told and whose work begins with them. Otherwise gives the energy that the unbalanced forces
+/// equilibrium then, whose reactions are reported and whose work begins with them. Otherwise gives the energy that the unbalanced forces
 /// release on the way to equilibrium, by the linear model [J].
 pub(crate) fn hold_start(system: &System, state: &mut State, solver: &SolverKind) -> f64 {
     let mut still = state.clone();
@@ -67,7 +67,7 @@ fn free_motion(system: &System, state: &State, solver: &SolverKind) -> Option<St
     LinearModel::of(system, &still, solver).ok()?.free_motion()
 }
 
-/// Moves the places of `state` into equilibrium, in one load step or, where that has no solution, by relaxation. Tells if it is
+/// Moves the places of `state` into equilibrium, in one load step or, where that has no solution, by relaxation. Reports if it is
 /// unstable, and if it was found by relaxation.
 ///
 /// # Errors

@@ -187,7 +187,7 @@ impl Simulation {
             }
         }
         let (motion, constraints) = jump.split_at(layout.coordinate_count());
-        // The one before as well: their difference tells how accelerations change between jumps.
+        // The one before as well: their difference shows how accelerations change between jumps.
         for memory in [&mut self.previous.algorithmic, &mut self.state.algorithmic] {
             memory.iter_mut().zip(motion).for_each(|(value, jump)| *value += jump);
         }

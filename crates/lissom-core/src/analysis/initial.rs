@@ -50,7 +50,7 @@ pub struct Initial {
     unchanged: Vec<f64>,
     /// The mass, while that in use has damping.
     undamped: Vec<f64>,
-    /// What of the system is differentiated; all of it, where it is not told.
+    /// What of the system is differentiated; all of it by default.
     relevant: Option<Relevant>,
 }
 

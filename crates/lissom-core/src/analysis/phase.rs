@@ -1,4 +1,4 @@
-//! What a step spends its time on, told to a stopwatch that somebody else holds: no clock is read here.
+//! Phases of a step, reported to a stopwatch of the caller: no clock is read here.
 
 use crate::interrupt;
 
@@ -22,7 +22,7 @@ impl Phase {
     pub const COUNT: usize = 5;
 }
 
-/// Is told when a phase begins; the one before ends there.
+/// Called when a phase begins; the one before ends there.
 pub trait Stopwatch {
     /// A phase begins.
     fn begin(&mut self, phase: Phase);

@@ -44,7 +44,7 @@ pub(crate) struct Predictor {
     lengths: [f64; 2],
     /// Whether these coefficients have served a step: they serve two.
     is_used: bool,
-    /// Steps that are looked back: a few numbers tell few coefficients.
+    /// Steps that are looked back: a few numbers determine few coefficients.
     most: usize,
     #[serde(skip)]
     processor: Processor,

@@ -26,7 +26,7 @@ const LEAST: f64 = 1e-13;
 /// Corrections still to come, by their contraction, may be this part of the first one. The derivatives of reactions err by more:
 /// a small displacement is a large force across a constraint.
 const TO_COME: f64 = 1e-11;
-/// A contraction that is worse than this tells nothing of the next one.
+/// A contraction that is worse than this is no information about the next one.
 const CONTRACTS: f64 = 0.1;
 /// A neighbour whose last correction is larger has not found its solution.
 const FOUND: f64 = 1e-9;

@@ -68,7 +68,7 @@ pub struct Simulation {
     /// The last load parameter at which the equilibrium was stable, in statics [s].
     pub(crate) stable_at: Option<f64>,
     /// From which load parameter on [s] an equilibrium is unstable in how many directions; none where that cannot be
-    /// told.
+    /// determined.
     pub(crate) stability: Vec<(f64, Option<usize>)>,
     /// Numbers that may change their sign within a step.
     pub(crate) watch: Watch,
@@ -126,7 +126,7 @@ impl Simulation {
     }
 
     /// Stability of the equilibria of load steps: from which load parameter on [s] they are unstable in how many
-    /// directions; none where that cannot be told.
+    /// directions; none where that cannot be determined.
     pub fn stability(&self) -> &[(f64, Option<usize>)] {
         &self.stability
     }

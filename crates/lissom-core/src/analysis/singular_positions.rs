@@ -1,4 +1,4 @@
-//! Whether steps come through singular positions of closed loops: what the judge sees of them is told here.
+//! Whether steps come through singular positions of closed loops: what the judge sees of them is reported here.
 
 use super::simulation::{Simulation, warn};
 

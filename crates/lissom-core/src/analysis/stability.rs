@@ -6,7 +6,7 @@ use crate::judge::Warning;
 use crate::linear::LinearModel;
 
 impl Simulation {
-    /// Directions in which the equilibrium that was reached last is unstable; none where that cannot be told: in motion,
+    /// Directions in which the equilibrium that was reached last is unstable; none where that cannot be determined: in motion,
     /// where the stiffness is singular, and where it belongs to no energy, as with loads that turn with the model.
     pub fn unstable_directions(&mut self) -> Option<usize> {
         if self.settings.scheme.dynamic {

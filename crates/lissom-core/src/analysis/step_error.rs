@@ -216,7 +216,7 @@ pub enum StepError {
         /// Name of the node whose velocity changes most in the step.
         node: String,
     },
-    /// It was told to stop while a step was tried again.
+    /// It was interrupted while a step was tried again.
     #[error("interrupted after t = {time:.6e} s")]
     Interrupted {
         /// Where the simulation stands [s].

@@ -108,7 +108,7 @@ impl ForceLaw {
         [has_play || self.side == Side::Positive, has_play || self.side == Side::Negative]
     }
 
-    /// How many kinks it has as far as [`switches`](Self::switches) tells.
+    /// How many kinks it has as far as [`switches`](Self::switches) reports them.
     pub(crate) fn switch_count(&self) -> usize {
         let laws = [&self.elastic, &self.damper].into_iter().flatten();
         let kinks: usize = laws.map(|law| law.switch_count()).sum();

@@ -260,7 +260,7 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     fn energy(&self, at: &Kinematics) -> Energy;
 
     /// Whether its forces put energy in or take it out, so that their work is counted. Default: they do not, what they
-    /// store is told by [`energy`](Self::energy), and what they take away is lost.
+    /// store is reported by [`energy`](Self::energy), and what they take away is lost.
     fn is_load(&self) -> bool {
         false
     }
@@ -280,7 +280,7 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
         Vec::new()
     }
 
-    /// How many kinks and jumps of its forces [`switches`](Self::switches) tells of. Default: none.
+    /// How many kinks and jumps of its forces [`switches`](Self::switches) reports. Default: none.
     fn switch_count(&self) -> usize {
         0
     }
@@ -304,7 +304,7 @@ pub trait Element: std::fmt::Debug + Send + Sync + 'static {
     }
 
     /// The two of its nodes that are turned most against each other, and the cosine of half the angle between them,
-    /// for elements that cannot tell a turn from one the other way. Default: none.
+    /// for elements that cannot distinguish a turn from one the other way. Default: none.
     fn least_aligned(&self, _at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
         None
     }

@@ -25,7 +25,7 @@ impl Prescribed {
 }
 
 /// `f(time) - f(time - elapsed)`. Over short times the difference cancels; the integral of the
-/// derivative, by three Gauss points, does not. The two are told apart by their agreement within
+/// derivative, by three Gauss points, does not. The two are distinguished by their agreement within
 /// round-off.
 fn function_change(function: &Function, time: f64, elapsed: f64) -> f64 {
     const OFFSET: f64 = 0.774_596_669_241_483_4;

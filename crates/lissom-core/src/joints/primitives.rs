@@ -80,7 +80,7 @@ pub(crate) struct JointRotation<R> {
 }
 
 impl<R: Real> JointRotation<R> {
-    /// No rotation of its own; `kind` only tells the kind of number.
+    /// No rotation of its own; `kind` only gives the kind of number.
     #[inline(always)]
     pub(crate) fn none(kind: R) -> Self {
         let (zero, one) = (kind.like(0.0), kind.like(1.0));

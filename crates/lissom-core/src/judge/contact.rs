@@ -26,7 +26,7 @@ pub(crate) fn runs_round(system: &System, (from, to): (&Kinematics, &Kinematics)
     })
 }
 
-/// Adds the first wheel that the plane would have to pull, or that would slide, if no other was told.
+/// Adds the first wheel that the plane would have to pull, or that would slide, if there is none yet.
 pub(crate) fn tell(system: &System, state: &State, warnings: &mut Vec<Warning>) {
     if let Some(doubt) = doubt(system, state)
         && warnings.iter().all(|known| known.code() != doubt.code())

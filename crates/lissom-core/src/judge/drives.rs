@@ -7,7 +7,7 @@ use crate::system::System;
 
 /// A drive goes at once if it goes further in a step than its larger rate at both ends would take it, so many times over.
 const MOST: f64 = 2.0;
-/// Ways below this part of the representative length, or this angle, are not told [-, rad].
+/// Ways below this part of the representative length, or this angle, are not reported [-, rad].
 const LEAST: f64 = 1e-6;
 
 /// The first drive that jumps between two instants.

@@ -19,7 +19,7 @@ use crate::kinematics::Kinematics;
 use crate::scaling::Representative;
 use crate::system::{State, System};
 
-/// A surplus of this part of the energy turned over is told.
+/// A surplus of this part of the energy turned over is reported.
 const NOTEWORTHY: f64 = 0.05;
 /// A surplus of this part of the energy turned over, over a run or in a single step, makes the motion unbelievable.
 const GROSS: f64 = 0.25;

@@ -1,10 +1,10 @@
-//! Whether superelements deform no more than their linear matrices can tell, and are loaded no more than that.
+//! Whether superelements deform no more than their linear matrices allow, and are loaded no more than that.
 
 use super::Warning;
 use crate::elements::{LinearLimit, LinearRange};
 use crate::system::{State, System};
 
-/// Adds the first superelement that leaves its linear range in each way, if no other was told.
+/// Adds the first superelement that leaves its linear range in each way, if there is none yet.
 pub(crate) fn tell(system: &System, state: &State, warnings: &mut Vec<Warning>) {
     for limit in LinearLimit::ALL {
         let Some(found) = system.linear_range(limit, &state.kinematics).filter(|own| own.part > 1.0) else {

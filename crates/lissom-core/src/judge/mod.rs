@@ -28,11 +28,11 @@ use crate::system::{State, System};
 /// Violation of a constraint at which it is not held, relative to the representative length, or in radians. Solutions
 /// and redundant constraints that agree leave some 1e-10.
 const LARGEST_VIOLATION: f64 = 1e-5;
-/// Violation that is told: a tenth of that.
+/// Violation that is reported: a tenth of that.
 const NOTEWORTHY_VIOLATION: f64 = 1e-6;
 /// A node that turns further in one step than a quarter of a turn is not resolved by any of the schemes [rad].
 pub(crate) const LARGEST_TURN: f64 = 0.5 * PI;
-/// Nodes of an element that are turned against each other by more than this cannot be told from the other way round:
+/// Nodes of an element that are turned against each other by more than this cannot be distinguished from the other way round:
 /// part of half a turn.
 const LARGEST_RELATIVE_TURN: f64 = 0.9;
 /// Velocities that change by more than this part of the largest in a step are no smooth motion.
@@ -163,7 +163,7 @@ impl Judge<'_> {
         Ok(())
     }
 
-    /// Fails where a node turns so far that what it turns beyond would pass unseen. Tells whether the motion goes on
+    /// Fails where a node turns so far that what it turns beyond would pass unseen. Reports whether the motion goes on
     /// smoothly: no velocity changes by half of the largest.
     fn turns(&self, start: &State, end: &State) -> Result<bool, StepError> {
         let elapsed = end.kinematics.time - start.kinematics.time;

@@ -3,7 +3,7 @@
 //!
 //! Seen are the pivots of the loop's B Bᵀ = L D Lᵀ, taken without exchange, each over its largest value so far. Near a
 //! singular position one of them is a square of the way to it. It is followed from step to step there, and a parabola
-//! through three of its values tells whether it vanishes between steps.
+//! through three of its values shows whether it vanishes between steps.
 //!
 //! Where constraints repeat each other everywhere, as in a planar four-bar of revolutes or in Bennett's linkage, an equation may come
 //! to follow from those before it while one that followed from them does no more: a pivot vanishes, and no freedom comes. There the r
@@ -30,7 +30,7 @@ const SINGULAR: f64 = 1e-6;
 const CLOSE: f64 = 0.1;
 /// What a parabola through values between which parts turn by a quarter of a radian leaves at its zero.
 const MISSED: f64 = 2e-3;
-/// A minimum is told from zero where it is this part of the smallest value found.
+/// A minimum is distinguished from zero where it is this part of the smallest value found.
 const VANISHES: f64 = 0.1;
 /// Motion between two looks over the root of the smallest pivot [rad].
 const BETWEEN_LOOKS: f64 = 0.25;
@@ -205,7 +205,7 @@ impl Known {
         self.follow(time, (rank, named), smallest / most)
     }
 
-    /// Takes note of the size of what vanishes in a singular position, with its number, and tells the position and the
+    /// Takes note of the size of what vanishes in a singular position, with its number, and returns the position and the
     /// equation to be named, if the motion has come through one.
     fn follow(&mut self, time: f64, (number, equation): (usize, usize), size: f64) -> Option<(f64, usize)> {
         self.looks.push((time, number, size));

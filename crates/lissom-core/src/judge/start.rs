@@ -1,4 +1,4 @@
-//! Whether a motion starts as it was told to.
+//! Whether a motion starts as given.
 
 use lissom_motion::Vector3;
 

@@ -1,11 +1,11 @@
-//! What is worth knowing of a result that was reached: told on the terminal and in the summary.
+//! What is worth knowing of a result that was reached: reported on the terminal and in the summary.
 
 use serde::{Deserialize, Serialize};
 
 /// Error of the largest interface force of a blade that bends as far as superelements may: errors grow with the square [%].
 const PERCENT_AT_LIMIT: f64 = 1.4;
 
-/// A reason to doubt a result. Each kind is told once, with where it first showed.
+/// A reason to doubt a result. Each kind is reported once, with where it first showed.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, thiserror::Error)]
 #[non_exhaustive]
 pub enum Warning {
@@ -161,7 +161,7 @@ pub enum Warning {
         /// By how much it ran round in the first such step [rad].
         angle: f64,
     },
-    /// A function of time changes within a step of planned size in a way that its ends do not tell.
+    /// A function of time changes within a step of planned size in a way that its ends do not show.
     #[error(
         "around t = {time:.6e} s {function} does something within a step of {step:.3e} s that its values and slopes at the ends do not show, \
          such as a pulse or an oscillation: the step sees little of it, or takes it for something else; take smaller steps, or set \
@@ -237,7 +237,7 @@ pub enum Warning {
         /// The directions that repeat, in words.
         repeated: String,
     },
-    /// A superelement deforms by more than linear matrices can tell.
+    /// A superelement deforms by more than linear matrices allow.
     #[error(
         "from t = {time:.6e} s on the superelement's interface `{interface}` is displaced or turned by more than its linear \
          matrices are good for: by up to {largest:.2} times 0.2 rad, or 0.15 of the distance between interfaces, from the floating \
@@ -316,7 +316,7 @@ pub enum Warning {
          by half a turn"
     )]
     AccumulationLost {
-        /// End of the first step over which it could not be told [s].
+        /// End of the first step over which it could not be determined [s].
         time: f64,
         /// Name of the output.
         output: String,

@@ -18,7 +18,7 @@ const MAX_STATES: usize = 200;
 const EQUAL: f64 = 1e-4;
 /// … or by less than this part of the largest one.
 const ROUND_OFF: f64 = 1e-11;
-/// Eigenvalues whose squares are below this part of that of the largest one cannot be told from zero.
+/// Eigenvalues whose squares are below this part of that of the largest one cannot be distinguished from zero.
 const ZERO: f64 = 1e-13;
 /// Eigenvalues of the search and of an inverse iteration that differ by less than this part are the same.
 const SAME: f64 = 1e-6;

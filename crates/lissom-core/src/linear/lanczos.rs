@@ -2,7 +2,7 @@
 //!
 //! The operator x ↦ (K - σM)⁻¹ M x on the constraints is symmetric in the inner product of M; its eigenvalues are
 //! 1/(λ - σ). One multiplication by it removes what belongs to infinite eigenvalues [Ericsson and Ruhe 1980; Nour-Omid et al.
-//! 1987]. With the shift below all eigenvalues its pivots tell that none lies lower; a second factorisation above the last
+//! 1987]. With the shift below all eigenvalues its pivots show that none lies lower; a second factorisation above the last
 //! mode counts how many there are (Sylvester), so that none is missed.
 
 use lissom_solver::FactorError;
@@ -24,7 +24,7 @@ const BETWEEN: usize = 8;
 const CLUSTER: f64 = 1e-5;
 /// Modes sought beyond those asked for, so that the last one is not cut out of a cluster.
 const BEYOND: usize = 4;
-/// Squares of rates below this part of the small one that stands for zero are not told from rigid modes where the shift is chosen.
+/// Squares of rates below this part of the small one that stands for zero are not distinguished from rigid modes where the shift is chosen.
 const NEAREST: f64 = 1e-4;
 /// Times the search is started again with new vectors.
 const MOST_RESTARTS: usize = 6;
@@ -161,7 +161,7 @@ fn shift_below<'a>(model: &LinearModel<'a>, solver: &mut RealShift<'a>) -> Resul
     if below > 0 {
         return Ok((-square, below));
     }
-    // A short search tells where the lowest modes lie that are not rigid.
+    // A short search shows where the lowest modes lie that are not rigid.
     let mut krylov = Krylov::new(model.coordinate_count());
     let lowest = {
         let mut operator = inverse(model, solver);

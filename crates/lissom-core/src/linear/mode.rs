@@ -4,7 +4,7 @@ use num_complex::Complex64;
 
 use super::model::LinearError;
 
-/// Growth is told from round-off by a damping ratio below this.
+/// Growth is distinguished from round-off by a damping ratio below this.
 const GROWING: f64 = -1e-7;
 
 /// What is asked for.

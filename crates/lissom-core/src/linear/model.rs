@@ -77,7 +77,7 @@ pub enum LinearError {
         /// What went wrong.
         error: InitialError,
     },
-    /// It was told to stop.
+    /// It was interrupted.
     #[error(transparent)]
     Interrupted(#[from] Interrupted),
 }

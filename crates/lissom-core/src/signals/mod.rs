@@ -42,7 +42,7 @@ pub trait SignalFunction: Send + Sync + fmt::Debug {
     fn value(&self, time: f64, arguments: &[f64], sides: &[f64]) -> f64;
     /// Derivatives by the arguments at `time` [s], written to `out`, one for each argument.
     fn gradient(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut [f64]);
-    /// How many kinks and jumps [`switches`](Self::switches) tells of. Default: it has none.
+    /// How many kinks and jumps [`switches`](Self::switches) reports. Default: it has none.
     fn switch_count(&self) -> usize {
         0
     }

@@ -50,7 +50,7 @@ impl Impacts {
     }
 
     /// After a step that was accepted: the first switch that stopped what passed it faster than steps resolve, and when [s].
-    /// What looked fast at the start of a motion may turn out slow beside what follows, and is then no longer told.
+    /// What looked fast at the start of a motion may turn out slow beside what follows, and is then not reported.
     pub(crate) fn accept(&mut self, system: &System, at: &Kinematics) -> Option<(usize, f64)> {
         if self.approaches.is_empty() {
             return None;
@@ -116,7 +116,7 @@ fn values_at(system: &System, at: &Kinematics, out: &mut Vec<f64>) {
 mod tests {
     use super::*;
 
-    /// Whether the gap of a body that meets a spring of ω at a rate of 1 at the time 0 is told, with steps of `step` the
+    /// Whether the gap of a body that meets a spring of ω at a rate of 1 at the time 0 is reported, with steps of `step` the
     /// first of which ends at `first`; the body goes on through the spring and back.
     fn is_told(omega: f64, step: f64, first: f64, restitution: f64) -> bool {
         let contact = std::f64::consts::PI / omega;

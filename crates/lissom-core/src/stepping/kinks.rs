@@ -105,7 +105,7 @@ impl Simulation {
             let aside = SAME * longest;
             self.jump_between(jump - aside, jump + aside)
                 .map_err(|error| StepError::Velocities { time: landing.clock, error })?;
-            // What the step led to no longer tells all of where the next one begins.
+            // The end of the step no longer determines the start of the next one.
             self.is_last_step_known &= self.method_memory.is_none();
         }
         (self.state.kinematics.time, self.state.time_remainder) = (landing.clock, 0.0);

@@ -72,7 +72,7 @@ impl Simulation {
     }
 
     /// Takes one step as [`step`](Self::step) does, with step-size control not beyond the time `limit` [s], which is met
-    /// exactly where it is reached; a planned step that ends there up to round-off ends there exactly. Tells `watch` which part of the work begins.
+    /// exactly where it is reached; a planned step that ends there up to round-off ends there exactly. Calls `watch` where a part of the work begins.
     ///
     /// # Errors
     /// As [`step`](Self::step).
@@ -218,7 +218,7 @@ impl Simulation {
             let Some(error) = error else { continue };
             attempts = Attempts::default();
             let may_help = error.may_need_a_smaller_step() && report.rejected < MOST_REJECTED;
-            // The first failure tells more than those of shorter steps.
+            // The first failure is more specific than those of shorter steps.
             let first = first_error.get_or_insert(error);
             if !(may_help && choice.halve(size)) {
                 let size = planned.propose(rest, control.max_step);
@@ -264,7 +264,7 @@ impl Simulation {
         let located = loop {
             let size = controller.propose(rest).min(control.max_step).min(self.turning_limit());
             let size = size.min(told);
-            // What would be left is round-off, over which velocities cannot be told.
+            // What would be left is round-off, over which velocities cannot be determined.
             let size = if (rest - size).abs() <= SAME * size { rest } else { size };
             let error = match self.attempt(size, watch) {
                 Ok(outcome) => {

@@ -30,10 +30,10 @@ const OSCILLATION: f64 = 1.0 / 12.0;
 const MEAN_COSINE: f64 = std::f64::consts::FRAC_2_PI;
 /// Most that an oscillation errs, in amplitudes.
 const MOST: f64 = 8.0;
-/// Estimates beyond this part of how far the model moves are told. Where motions amplify errors, those at the end are up to ten
+/// Estimates beyond this part of how far the model moves are reported. Where motions amplify errors, those at the end are up to ten
 /// times the estimate: of 10 000 random mechanisms four erred by 1 to 2.5 % with estimates of 0.15 to 0.19 %.
 const NOTEWORTHY: f64 = 1e-3;
-/// Rates of constraints that miss more than this part of the speed are told: forces then err by a multiple of it.
+/// Rates of constraints that miss more than this part of the speed are reported: forces then err by a multiple of it.
 const NOTEWORTHY_RATES: f64 = 0.02;
 
 /// What is known of one unknown [scaled].
@@ -186,7 +186,7 @@ impl Simulation {
             is_pair =
                 self.resolution.note(errors.map(|((filtered, error), size)| [filtered * size, error * size]));
         }
-        // What has been told is kept up to date with every step, so that the last word is that of the end.
+        // What has been reported is kept up to date with every step, so that the last word is that of the end.
         if !is_pair && known.is_none() {
             return;
         }

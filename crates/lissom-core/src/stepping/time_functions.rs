@@ -1,16 +1,16 @@
 //! Whether steps see functions of time as they are. A pulse between the stages of a step, or an oscillation with the step as
 //! its period, is in no residual and in no estimate of what a step misses: it would be left out, or taken for something else,
-//! and nobody would know. Nor is a jump that no line of time under `step` or `sign` tells of.
+//! and nobody would know. Nor is a jump that no line of time under `step` or `sign` reports.
 //!
-//! A function is told by the ends of an interval if the cubic through values and slopes there gives its values between:
+//! A function is determined by the ends of an interval if the cubic through values and slopes there gives its values between:
 //!
 //! ```text
 //! |f(t) - H(t)| ≤ DEPARTURE · max |f|
 //! ```
 //!
-//! It is looked at where an interval is halved, as often as its bounds leave room for more than is seen. What cannot be told by
+//! It is looked at where an interval is halved, as often as its bounds leave room for more than is seen. What cannot be determined by
 //! the ends of any interval, however short, is a jump: a step ends there, as at those that are known, see `kinks`. Chosen steps
-//! are so short that their ends tell the rest; of planned ones it is told that they do not.
+//! are so short that their ends determine the rest; a warning reports planned ones that are not.
 
 use std::sync::Arc;
 
@@ -21,7 +21,7 @@ use crate::judge::Warning;
 use crate::registry::TimeFunction;
 use crate::system::System;
 
-/// A function that departs by more than this part of its largest value from what the ends of a step tell is not resolved: a
+/// A function that departs by more than this part of its largest value from what the ends of a step determine is not resolved: a
 /// sine with 4.4 steps a period.
 const DEPARTURE: f64 = 0.01;
 /// Where bounds are narrower than this part of the largest value, nothing hides between the instants looked at.
@@ -52,16 +52,16 @@ pub(crate) struct TimeFunctions {
     sizes: Vec<Vec<f64>>,
     /// The block looked at last, from when to when [s].
     block: Option<[f64; 2]>,
-    /// Where in it the first interval is that the ends of a step do not tell [s], with the function's index.
+    /// Where in it the first interval is that the ends of a step do not determine [s], with the function's index.
     hidden: Option<(f64, usize)>,
 }
 
 /// What is found within an interval.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Found {
-    /// Nothing but what its ends tell.
+    /// Nothing except what its ends determine.
     Nothing,
-    /// Something that the ends of shorter intervals tell.
+    /// Something that the ends of shorter intervals determine.
     Hidden,
     /// A jump, at the first number behind it [s].
     Jump(f64),
@@ -109,7 +109,7 @@ impl TimeFunctions {
             scan.look(&**function, block, step, size);
             let sooner = |time: &f64| hidden.is_none_or(|(known, _)| *time < known);
             hidden = scan.hidden.filter(sooner).map(|time| (time, index)).or(hidden);
-            // A part that a drive takes to another place at once is told, see `judge::drives`, not helped.
+            // A part that a drive takes to another place at once is reported, see `judge::drives`, not helped.
             if !system.drives().iter().any(|drive| Arc::ptr_eq(&drive.prescribed.value, function)) {
                 jumps.append(&mut scan.jumps);
             }
@@ -118,7 +118,7 @@ impl TimeFunctions {
         jumps
     }
 
-    /// The longest step of `size` [s] or less, halved, from `from` on whose ends tell what the functions do within it, but for
+    /// The longest step of `size` [s] or less, halved, from `from` on whose ends determine the functions within it, except for
     /// jumps.
     fn told(
         &mut self,
@@ -237,7 +237,7 @@ fn is_narrow(function: &dyn TimeFunction, [from, to]: [f64; 2], size: f64) -> bo
     function.bounds(from + inside, to - inside).is_none_or(|[low, high]| high - low <= NARROW * size)
 }
 
-/// What a function does between two times that its values and slopes there do not tell to `part` of its largest value.
+/// What a function does between two times that its values and slopes there do not determine to `part` of its largest value.
 fn found(function: &dyn TimeFunction, whole: [f64; 2], size: f64, part: f64) -> Found {
     if function.is_constant() || size == 0.0 {
         return Found::Nothing;
@@ -260,7 +260,7 @@ fn found(function: &dyn TimeFunction, whole: [f64; 2], size: f64, part: f64) -> 
     Found::Nothing
 }
 
-/// The first number behind a jump: where some part of an interval is told by the ends of no interval, however short.
+/// The first number behind a jump: where some part of an interval is determined by the ends of no interval, however short.
 fn jump(function: &dyn TimeFunction, [mut from, mut to]: [f64; 2], size: f64) -> Option<f64> {
     for _ in 0..MOST_HALVINGS {
         let middle = 0.5 * (from + to);
@@ -302,7 +302,7 @@ fn departure(function: &dyn TimeFunction, [from, to]: [f64; 2], part: [f64; 2]) 
             + x * y * (y * one.1 - x * other.1);
         (function.value(time) - cubic).abs()
     };
-    // A value that is no number is told elsewhere.
+    // A value that is no number is reported elsewhere.
     [0.25, 0.5, 0.75].map(departure).into_iter().fold(0.0, f64::max)
 }
 
@@ -345,7 +345,7 @@ impl Simulation {
         }
     }
 
-    /// Tells, after a step of planned size, that it has passed something that its ends do not tell.
+    /// Reports, after a step of planned size, that it has passed something that its ends do not determine.
     pub(super) fn note_hidden(&mut self) {
         let Some((time, index)) = self.time_functions.hidden else { return };
         if time < self.state.kinematics.time {
@@ -355,7 +355,7 @@ impl Simulation {
         }
     }
 
-    /// The longest step of `size` [s] or less within which no function of time does what its ends do not tell.
+    /// The longest step of `size` [s] or less within which no function of time does what its ends do not give.
     pub(super) fn told_by_its_ends(&mut self, now: f64, size: f64) -> f64 {
         let window = WINDOW * self.sizes_of_blocks()[1];
         // The square root of what a step of third order may miss.

@@ -198,7 +198,7 @@ impl Watch {
             let who: Vec<usize> = (0..self.values.len()).filter(|&k| self.has_passed(events, k)).collect();
             let are_switches = who.iter().all(|k| *k >= events.len());
             let share = match after {
-                // The step begins where the force switches: another of no length would tell nothing.
+                // The step begins where the force switches: another of no length would be no information.
                 after if after < CLOSE && are_switches => 0.0,
                 after if after > 1.0 - ACCURACY => 1.0,
                 after => after.max(CLOSE),

@@ -90,7 +90,7 @@ pub(crate) trait AnyBatch: Send + Sync {
     /// The two nodes of an element that are turned most against each other, and the cosine of half that angle.
     fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])>;
     /// What of these elements differs from those of neighbouring models, which come with the weights of a difference; none
-    /// where that cannot be told.
+    /// where that cannot be determined.
     fn changed(&self, neighbours: &[(&dyn AnyBatch, f64)], layout: &Layout) -> Option<Changed>;
     /// Adds the forces of some items alone.
     fn forces_of(&self, items: &[usize], at: &Kinematics, out: &mut [f64]);

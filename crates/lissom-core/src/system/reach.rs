@@ -34,7 +34,7 @@ pub(crate) struct Reach {
 }
 
 impl Reach {
-    /// Of neighbouring models with the weights of a difference. None where it cannot be told what differs.
+    /// Of neighbouring models with the weights of a difference. None where it cannot be determined what differs.
     pub(crate) fn of(systems: Vec<(Arc<System>, f64)>) -> Option<Self> {
         let (first, _) = systems.first()?;
         let is_alike = |other: &System| {

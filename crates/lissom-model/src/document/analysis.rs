@@ -160,7 +160,7 @@ pub struct Analysis {
     pub span: Span,
 }
 
-/// The range of a scheme's parameter, where its type does not tell.
+/// The range of a scheme's parameter, where its type does not state it.
 pub(super) fn range_of(parameter: &str) -> Option<Shape> {
     match parameter {
         // HHT: unconditionally stable and second order from -1/3 to 0.
@@ -392,7 +392,7 @@ fn chosen(reader: &Reader<'_, '_>, key: &str, table: &[ChoiceEntry]) -> Option<L
     table.first().map(|entry| Located::new(entry.name.to_owned(), reader.name))
 }
 
-/// The parameters of the chosen scheme; those of others are told.
+/// The parameters of the chosen scheme; those of others are reported.
 fn scheme_parameters(
     reader: &Reader<'_, '_>,
     scheme: Option<&Located<String>>,

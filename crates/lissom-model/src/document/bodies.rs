@@ -67,7 +67,7 @@ fn mass_and_inertia(reader: &Reader<'_, '_>) -> Option<(f64, Matrix3)> {
     Some((mass?, inertia?))
 }
 
-/// What is drawn, if it is given; the outer none tells of a mistake.
+/// What is drawn, if it is given; the outer none reports a mistake.
 #[expect(clippy::option_option, reason = "a mistake, or nothing given")]
 fn surface(reader: &Reader<'_, '_>, center: &Vector3) -> Option<Option<Arc<Surface>>> {
     let context = reader.context;

@@ -112,7 +112,7 @@ fn at_rest(context: &Context<'_>, document: &Document) {
     }
 }
 
-/// A part that was dropped without a word would change the model: whatever else is overlooked, this is told.
+/// A part that was dropped without a word would change the model: whatever else is overlooked, this is reported.
 fn complete(context: &Context<'_>, document: &Document) {
     let read = [
         ("materials", document.materials.len()),

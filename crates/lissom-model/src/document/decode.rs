@@ -63,7 +63,7 @@ pub(crate) fn from_tree(tree: Tree, registry: &Registry) -> Result<Document, Rep
     if let Some(document) = document {
         return Ok(Document { warnings, sources: model.sources, ..document });
     }
-    // Every decoder that gives nothing has told why; this is for the case that one forgot.
+    // Every decoder that gives nothing has reported why; this is for the case that one forgot.
     let problem = Problem::error(Span::default(), "the model could not be read");
     Err(Report::new(vec![problem], &model.sources))
 }

@@ -249,7 +249,7 @@ impl OutputKind {
         )
     }
 
-    /// Whether the axes in which it is told may be chosen.
+    /// Whether the axes in which it is reported may be chosen.
     pub(crate) fn takes_axes(self) -> bool {
         self.is_of_motion() || self == Self::Momentum
     }
@@ -288,7 +288,7 @@ pub enum OutputSource {
     Expression(Located<Formula>),
 }
 
-/// Axes in which a joint's reaction is told.
+/// Axes in which a joint's reaction is reported.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ReactionAxes {
     /// Global ones.
@@ -324,7 +324,7 @@ pub struct Output {
     pub source: OutputSource,
     /// In which axes, for a reaction.
     pub axes: ReactionAxes,
-    /// The node in whose axes its vectors are told; global axes, or those of the observer, where there is none.
+    /// The node in whose axes its vectors are reported; global axes, or those of the observer, where there is none.
     pub seen_in: Option<Located<NodeReference>>,
     /// The node as seen from which it is; the ground where there is none.
     pub relative_to: Option<Located<NodeReference>>,
@@ -396,7 +396,7 @@ pub(super) fn outputs(context: &Context<'_>, registry: &Registry) -> Vec<Output>
     })
 }
 
-/// How cycles are counted; none where there is no exponent, and where something is wrong, which is told.
+/// How cycles are counted; none where there is no exponent, and where something is wrong, which is reported.
 fn fatigue(reader: &Reader<'_, '_>) -> Option<Fatigue> {
     let (exponent, cycles) = (reader.number("woehler_exponent"), reader.number("reference_cycles"));
     if let (Some(cycles), false) = (&cycles, reader.has("woehler_exponent")) {

@@ -182,7 +182,7 @@ fn needed(reader: &Reader<'_, '_>, key: &str) -> Option<DMatrix<f64>> {
     found
 }
 
-/// The matrix in the file that `key` names, or in the archive; the outer none tells of a mistake.
+/// The matrix in the file that `key` names, or in the archive; the outer none reports a mistake.
 #[expect(clippy::option_option, reason = "a mistake, or nothing given")]
 fn matrix(reader: &Reader<'_, '_>, key: &str) -> Option<Option<DMatrix<f64>>> {
     let context = reader.context;

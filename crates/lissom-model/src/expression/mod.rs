@@ -85,7 +85,7 @@ impl Expression {
         }
     }
 
-    /// Values of the variable at which the expression is not smooth, as far as they can be told: where a function that is
+    /// Values of the variable at which the expression is not smooth, as far as they can be determined: where a function that is
     /// not smooth takes an argument that is a straight line of the variable. In ascending order.
     pub fn kinks(&self) -> Vec<f64> {
         kinks::of(&self.steps, &[]).kinks

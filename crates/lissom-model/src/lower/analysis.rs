@@ -23,7 +23,7 @@ pub struct Plan {
     pub output_every: usize,
     /// Whether it is a load history without inertia.
     pub is_static: bool,
-    /// Whether steps are chosen by their error: then `steps` tells nothing.
+    /// Whether steps are chosen by their error: then `steps` has no meaning.
     pub is_controlled: bool,
     /// Time from record to record where steps are chosen; none where each is recorded [s].
     pub output_step: Option<f64>,

@@ -1,4 +1,4 @@
-//! Moves parts that are placed approximately until all joints close, and tells what has moved.
+//! Moves parts that are placed approximately until all joints close, and reports what has moved.
 
 use lissom_core::analysis::assembly::{AssemblyError, Gap, Request, assemble};
 use lissom_core::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
@@ -51,7 +51,7 @@ pub struct Assembly {
     pub(crate) drawn: Vec<Motion>,
 }
 
-/// Most parts that are told of in words.
+/// Most parts that are reported in words.
 const MOST_TOLD: usize = 4;
 
 impl Assembly {

@@ -100,7 +100,7 @@ pub struct Names {
     pub coordinates: BTreeMap<String, Vec<CoordinateId>>,
     /// Springs that have an elongation, and whether it is a length or an angle.
     pub springs: BTreeMap<String, (ElementId, Quantity)>,
-    /// Springs, loads and joints' friction, whose power can be told.
+    /// Springs, loads and joints' friction, whose power can be determined.
     pub powers: BTreeMap<String, ElementId>,
     /// Signals, inputs and states.
     pub signals: BTreeMap<String, Argument>,

@@ -48,7 +48,7 @@ pub(super) fn add(
     for entry in order.sorted {
         if let Err(problem) = add_signal(document, builder, names, entry) {
             problems.push(problem);
-            // Later expressions that name it are not to be told about.
+            // Later expressions that name it are not to be reported.
             let instead = builder.add_held(&entry.name.value, 0.0);
             names.signals.insert(entry.name.value.clone(), Argument::Held(instead));
         }

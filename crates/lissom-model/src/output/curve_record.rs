@@ -47,7 +47,7 @@ impl CurveRecord {
         &self.columns
     }
 
-    /// Says anew what the columns hold: a table that was read back tells names alone.
+    /// Says anew what the columns hold: a table that was read back has names alone.
     pub fn set_columns(&mut self, columns: &[Column]) {
         self.columns = columns.to_vec();
     }

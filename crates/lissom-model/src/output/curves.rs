@@ -4,7 +4,7 @@ use super::plot::{Axis, Figure, Panel, file_name, quantity_of};
 use super::spectrum::Spectrum;
 use super::{Column, Record};
 
-/// Results with the name that tells them apart.
+/// Results with the name that distinguishes them.
 #[derive(Clone, Copy, Debug)]
 pub struct Source<'a> {
     /// Name; empty where there is one.

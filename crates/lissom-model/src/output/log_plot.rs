@@ -4,7 +4,7 @@ use lissom_drawing::{Axis, Chart, Curve, Drawing, Mark, Panel, palette};
 
 use super::FigureError;
 
-/// Marks, so that curves that coincide in colour or on paper are still told apart.
+/// Marks, so that curves that coincide in colour or on paper are still distinguished.
 const MARKS: [Mark; 4] = [Mark::Circle, Mark::Square, Mark::Triangle, Mark::Diamond];
 
 /// One drawing of positive numbers over positive numbers.

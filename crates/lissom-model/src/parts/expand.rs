@@ -112,7 +112,7 @@ type Read = (Arc<str>, Arc<Table>);
 struct Expansion<'l> {
     library: &'l Library,
     files: BTreeMap<String, Option<Read>>,
-    /// Folder of the model as it is told in messages.
+    /// Folder of the model as messages show it.
     folder: String,
     into: Expanded,
     problems: Vec<Problem>,
@@ -487,7 +487,7 @@ impl Expansion<'_> {
                 node: Node { value: Value::Table(Table::new()), ..entry.node.clone() },
             };
             let into = self.into.root.entry(word.clone()).or_insert_with(empty);
-            // A word that is no table is told by the decoder.
+            // A word that is no table is reported by the decoder.
             let Value::Table(into) = &mut into.node.value else { continue };
             into.extend(inner.iter().map(|(name, entry)| (format!("{prefix}{name}"), entry.clone())));
         }

@@ -134,7 +134,7 @@ impl Context<'_> {
     }
 
     /// The place of the point that is called `name` in the whole model. Nothing if there is none, or if it could not be read;
-    /// then its mistake is told.
+    /// then its mistake is reported.
     pub(crate) fn point(&self, name: &str) -> Option<Vector3> {
         let node = self.entry("points", name)?;
         let found = self.once(Wanted::Point(name.to_owned()), node.span, || {
@@ -180,7 +180,7 @@ impl Context<'_> {
         Some(if frame.rotation == Rotation::IDENTITY { *direction } else { frame.rotation.apply(direction) })
     }
 
-    /// Finds a frame once; what is needed for itself is told.
+    /// Finds a frame once; what is needed for itself is an error.
     fn once(&self, wanted: Wanted, place: Span, find: impl FnOnce() -> Option<Motion>) -> Option<Motion> {
         let known = self.frames.0.borrow().get(&wanted).copied();
         match known {

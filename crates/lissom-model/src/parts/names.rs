@@ -98,7 +98,7 @@ impl Context<'_> {
     pub(crate) fn entry_named(&self, table: &str, text: &str, node: &Node, what: &str) -> Option<String> {
         let written = self.written(text, (node.span, node.scope), what)?;
         let found = self.resolve(&written, node.scope, &|full| self.has(table, full));
-        // A name that is not there is told by whoever asks for it.
+        // A name that is not there is reported by whoever asks for it.
         Some(found.unwrap_or_else(|| written.into_owned()))
     }
 

@@ -40,7 +40,7 @@ pub(super) fn apply(mut patch: Patch, into: &mut Expanded) -> Result<(), Box<Pro
         let help = "write for example leg2.rod.mass=1, parts.leg2.parameters.length=2 or analysis.step=1e-4";
         return Err(Box::new(problem.label("not in the model").help(help).maybe_help(near)));
     };
-    // Entries of several tables may share a name: the next word tells which has it.
+    // Entries of several tables may share a name: the next word decides which is meant.
     let next = names.get(length).copied().unwrap_or_default();
     let holds = |word: &str| {
         let table = into.root.get(word).and_then(|entry| entry.node.table());

@@ -8,11 +8,11 @@ use super::symbols::attached;
 use super::{Anchor, Places, part_of};
 use crate::document::{Attachment, Component, Document};
 
-/// Instants at which the size of a load is told, less one.
+/// Instants at which the size of a load is sampled, less one.
 const SAMPLES: u32 = 240;
-/// Instants at which a force per length is told, less one.
+/// Instants at which a force per length is sampled, less one.
 const FEW_SAMPLES: u32 = 60;
-/// Most places along a beam at which a force per length is told.
+/// Most places along a beam at which a force per length is sampled.
 const MOST_PLACES: usize = 13;
 
 /// A joint, or a drive of one.

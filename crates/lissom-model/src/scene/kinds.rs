@@ -17,7 +17,7 @@ pub(super) enum Drawn {
     WithRod(fn(&Both) -> [Vec<Solid>; 2]),
     /// By a coil from base to tip.
     Coil,
-    /// By an arrow as long as its size tells.
+    /// By an arrow in proportion to its size.
     Arrow,
 }
 

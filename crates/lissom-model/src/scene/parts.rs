@@ -47,7 +47,7 @@ pub struct Station {
     pub section: String,
     /// Its outline.
     pub outline: Outline,
-    /// Its stiffness by rows, 6 x 6 [N, N m, N m²], linear between stations; empty where it is not told.
+    /// Its stiffness by rows, 6 x 6 [N, N m, N m²], linear between stations; empty if it is unknown.
     #[serde(default)]
     pub stiffness: Vec<f64>,
 }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Scene;
 
-/// Lengths at which the size of a load is told, less one.
+/// Lengths at which the size of a load is sampled, less one.
 const SAMPLES: u32 = 600;
 
 /// What changes along an equilibrium path: the load factor, or a number of the model file.

@@ -48,7 +48,7 @@ pub enum Tone {
 pub struct Solid {
     /// Its form.
     pub form: Form,
-    /// Its sizes, as the form tells.
+    /// Its sizes, in the order of the form.
     pub size: [f64; 3],
     /// Its centre, from the place of the symbol, in the frame of the node.
     pub place: [f64; 3],

@@ -122,7 +122,7 @@ impl Surface {
         Self { points, triangles }
     }
 
-    /// Reads an STL or a glTF file, which is told by how it begins; `beside` reads the buffers that a glTF file names. Corners
+    /// Reads an STL or a glTF file, which its first bytes decide; `beside` reads the buffers that a glTF file names. Corners
     /// at one place become one point.
     pub(crate) fn of_file(
         bytes: &[u8],

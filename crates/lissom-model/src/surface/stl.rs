@@ -11,7 +11,7 @@ pub(super) fn triangles(bytes: &[u8]) -> Result<Vec<Triangle>, SurfaceError> {
 }
 
 /// A heading of 80 bytes, the number of triangles, and for each its normal, its corners and two bytes more; none if the length
-/// tells otherwise.
+/// states otherwise.
 fn numbers(bytes: &[u8]) -> Option<Vec<Triangle>> {
     let count = u32::from_le_bytes(*bytes.get(80..84)?.first_chunk()?) as usize;
     if bytes.len() != 84 + 50 * count {

@@ -37,7 +37,7 @@ impl SweepFile {
         match sweep {
             Some(sweep) if problems.iter().all(|problem| problem.severity == Severity::Warning) => Ok(sweep),
             _ if problems.is_empty() => {
-                // Every reader that gives nothing has told why; this is for the case that one forgot.
+                // Every reader that gives nothing has reported why; this is for the case that one forgot.
                 let problem = Problem::error(Span::default(), "the sweep could not be read");
                 Err(Report::new(vec![problem], &tree.sources))
             }

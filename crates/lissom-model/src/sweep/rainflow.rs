@@ -47,7 +47,7 @@ impl Rainflow {
         self.reversals.push(value);
     }
 
-    /// Counts what the reversals close, and tells `told` ranges and counts.
+    /// Counts what the reversals close, and passes ranges and counts to `told`.
     fn close(&mut self, told: &mut dyn FnMut(f64, f64)) {
         while let [.., a, b, c] = self.reversals[..] {
             let range = (b - a).abs();
@@ -99,7 +99,7 @@ mod tests {
         };
         let mut rainflow = Rainflow::new(1.0);
         for value in history {
-            // As `add`, with the cycles told.
+            // As `add`, with the cycles passed on.
             match rainflow.reversals[..] {
                 [.., last] if last == *value => continue,
                 [.., before, last] if (last > before) == (*value > last) => {

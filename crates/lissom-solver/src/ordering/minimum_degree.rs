@@ -44,7 +44,7 @@ fn order(structure: &Structure, graph: &GroupGraph) -> Vec<usize> {
 enum State {
     /// Not yet eliminated.
     Variable,
-    /// Follows the variable it could not be told from.
+    /// Follows the variable it could not be distinguished from.
     Merged,
     /// Coupled with nearly everything: kept out of the graph until the others are gone.
     Withheld,

@@ -22,7 +22,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! What is wrong is told as it is for files, with the place in the code:
+//! What is wrong is reported as it is for files, with the place in the code:
 //!
 //! ```
 //! use lissom::builder::{ModelBuilder, analyses::Dynamics, parts::PointMass};

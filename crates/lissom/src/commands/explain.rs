@@ -11,7 +11,7 @@ use crate::terminal;
 /// The chapter of the manual; a test keeps it the same as `docs/warnings.md`.
 const CHAPTER: &str = include_str!("explain.md");
 
-/// Explain warnings and failures: a code, words of a message, or all that a run has told.
+/// Explain warnings and failures: a code, words of a message, or all that a run has reported.
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -113,7 +113,7 @@ impl Explain {
     }
 }
 
-/// What a run has told in its summary, each with its explanation.
+/// What a run has reported in its summary, each with its explanation.
 fn of_run(folder: &Path, warnings: &[Entry<'_>], failures: &[Entry<'_>]) -> Result<String, Failure> {
     let path = folder.join("summary.json");
     let text =

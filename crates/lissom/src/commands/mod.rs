@@ -70,7 +70,7 @@ pub(crate) struct Failure {
 }
 
 impl Failure {
-    /// A failure told in one sentence.
+    /// A failure reported in one sentence.
     fn new(exit: Exit, error: impl std::fmt::Display) -> Self {
         Self { exit, words: format!("error: {error}\n") }
     }

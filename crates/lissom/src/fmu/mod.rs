@@ -125,7 +125,7 @@ impl PackedModel {
         serde_json::to_string(self).expect("texts can always be said in JSON")
     }
 
-    /// What tells units apart: the same for the same model and version.
+    /// What distinguishes units: the same for the same model and version.
     pub fn token(&self) -> String {
         // FNV-1a, from two starts.
         let hash = |start: u64| {

@@ -36,7 +36,7 @@ pub enum Role {
 pub enum Colour {
     /// The part of this number: beams, bodies and point masses are counted on.
     Part(usize),
-    /// What symbols tell.
+    /// What symbols show.
     Tone(Tone),
     /// The ground.
     Ground,
@@ -55,7 +55,7 @@ pub enum Carrier {
     Arrow(Arrow),
 }
 
-/// An arrow whose length tells the size of a load.
+/// An arrow whose length gives the size of a load.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Arrow {
     anchor: Anchor,
@@ -314,7 +314,7 @@ impl Geometry {
     }
 }
 
-/// Vectors of a load at all instants that are told.
+/// Vectors of a load at all instants that are sampled.
 fn vectors(load: &Load) -> Option<Vec<Vector3>> {
     let vector = Vector3::from(load.vector?);
     Some(if load.scale.is_empty() {

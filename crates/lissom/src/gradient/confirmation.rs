@@ -7,7 +7,7 @@
 //! ```
 //!
 //! All numbers contribute the same, as far as rounding and small changes allow: so no derivative hides behind a larger one. One run confirms what agrees. Otherwise a second one on the other side takes away what is quadratic in the
-//! change; where the two do not confirm either, two runs nearby tell whether such differences know the derivative at all.
+//! change; where the two do not confirm either, two runs nearby show whether such differences know the derivative at all.
 
 use super::GradientError;
 
@@ -38,7 +38,7 @@ pub enum Confirmation {
         /// Runs that this took.
         runs: usize,
     },
-    /// They cannot tell: the output changes less than is left of runs, or not smoothly.
+    /// They cannot decide: the output changes less than is left of runs, or not smoothly.
     Untold {
         /// Runs that this took.
         runs: usize,
@@ -68,7 +68,7 @@ pub(super) fn confirm(
     let mut difference = |share: f64| {
         runs += 1;
         let changes: Vec<f64> = changes.iter().map(|change| share * change).collect();
-        // A model that has no motion tells nothing of its neighbour.
+        // A model that has no motion is no information about its neighbour.
         let found = measure(&changes).map_or(f64::NAN, |changed| (changed - value) / share);
         (found, runs)
     };

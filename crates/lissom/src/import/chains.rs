@@ -89,7 +89,7 @@ impl Composite {
 }
 
 /// Chains of joints through groups of links without mass. `frames` are those of links at the start, `groups` the groups of links,
-/// `massive` tells which groups have mass.
+/// `massive` shows which groups have mass.
 ///
 /// # Errors
 /// If no joint of the model leaves free what a chain does.

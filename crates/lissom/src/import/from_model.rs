@@ -7,7 +7,7 @@ use lissom_motion::{Motion, Rotation, Vector3};
 
 use super::{Freedom, ImportError, Link, LinkInertia, Robot, RobotJoint};
 
-/// Gravity that a description does not have to tell [m/s²].
+/// Gravity that a description does not have to state [m/s²].
 const GRAVITY: Vector3 = Vector3::new(0.0, 0.0, -9.81);
 
 /// A robot and where its joints are at the start of the model.
@@ -247,7 +247,7 @@ fn couplings(document: &Document, tree: &Tree, robot: &mut Robot) -> Result<(), 
     Ok(())
 }
 
-/// Dampers, friction and stops of joints; all else that springs do is told.
+/// Dampers, friction and stops of joints; all else that springs do is reported.
 fn resistance(spring: &Component, robot: &mut Robot) {
     let name = &spring.name.value;
     let only = |known: &[&str]| spring.parameter_spans.iter().all(|(key, _)| known.contains(&key.as_str()));

@@ -21,7 +21,7 @@ pub use model_text::{Options, Root, Unsupported, model_text};
 pub use to_urdf::to_urdf;
 pub use urdf::from_urdf;
 
-/// Reads a robot from a URDF or MJCF text: the root of the text tells which it is.
+/// Reads a robot from a URDF or MJCF text: the root of the text decides which it is.
 ///
 /// # Errors
 /// If it is neither, or holds what a [`Robot`] cannot say.
@@ -52,7 +52,7 @@ pub struct Robot {
     pub joints: Vec<RobotJoint>,
     /// What the description holds and a model does not get, one sentence each.
     pub left_out: Vec<String>,
-    /// What acts on the robot and no model can hold, one sentence each: refused unless it is told to be left out.
+    /// What acts on the robot and no model can hold, one sentence each: rejected unless leaving it out is asked for.
     pub unsupported: Vec<String>,
 }
 

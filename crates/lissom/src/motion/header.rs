@@ -15,7 +15,7 @@ pub struct ForcePoints {
     pub at: Vec<f64>,
 }
 
-/// What a motion file tells about its frames.
+/// What a motion file states about its frames.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Header {
     /// Name of every node; the first is the ground.

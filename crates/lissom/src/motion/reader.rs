@@ -90,7 +90,7 @@ impl Motion {
         Ok(bytes[frames..].chunks_exact(header.frame_bytes).next_back().map(number))
     }
 
-    /// What the file tells about its frames.
+    /// What the file states about its frames.
     pub fn header(&self) -> &Header {
         &self.header
     }

@@ -11,7 +11,7 @@ use crate::geometry::{Colour, Geometry, Mesh};
 /// Longest edge of a face that is partly hidden, relative to the model: long faces have no one distance.
 const LONGEST: f64 = 0.02;
 
-/// Colours of parts, that can be told apart by colour-blind eyes.
+/// Colours of parts, that can be distinguished by colour-blind eyes.
 const PARTS: [Shade; 8] = [
     [0x6f, 0x9b, 0xc8],
     [0xd9, 0x9a, 0x6c],

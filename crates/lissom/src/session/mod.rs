@@ -204,7 +204,7 @@ impl Session {
         self.scale
     }
 
-    /// What the steps so far tell of their tangents.
+    /// What the steps so far show of their tangents.
     pub fn telemetry(&self) -> &Telemetry {
         &self.telemetry
     }

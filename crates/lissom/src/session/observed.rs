@@ -10,7 +10,7 @@ use lissom_model::channels::Channel;
 pub(crate) struct Observed {
     system: Arc<System>,
     channels: Vec<Channel>,
-    /// Of motions that drives prescribe, where anything recorded tells of rates.
+    /// Of motions that drives prescribe, where anything recorded reports rates.
     consistent_rates: Option<Mutex<ConsistentRates>>,
 }
 

@@ -9,7 +9,7 @@ use std::thread;
 /// Steps between two looks at the watch.
 const OFTEN: usize = 64;
 
-/// Is told the steps done and planned over all members, from any thread, and says whether to go on.
+/// Is informed of the steps done and planned over all members, from any thread, and says whether to go on.
 pub type Watch<'a> = &'a (dyn Fn(usize, usize) -> ControlFlow<()> + Sync);
 
 /// Where a family stands.

@@ -62,13 +62,13 @@ pub enum StudyError {
         /// The largest step size [s].
         coarsest: f64,
     },
-    /// The reference cannot tell the error of finer runs.
+    /// The reference is too coarse for the error of finer runs.
     #[error("the reference's step size {0} s is larger than a step of the study: choose a smaller one")]
     CoarseReference(String),
     /// The output is zero, and nothing is relative to it.
     #[error("the output `{0}` stays at zero: choose one that moves")]
     NothingToCompare(String),
-    /// It was told to stop.
+    /// It was interrupted.
     #[error("interrupted")]
     Interrupted,
 }

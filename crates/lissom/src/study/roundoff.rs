@@ -15,7 +15,7 @@ pub const TOLERANCE: f64 = 1e-12;
 pub const STEPS: usize = 50;
 /// Last steps in which noise is looked for.
 pub const NOISY_STEPS: usize = 20;
-/// How much finer the steps of the reference are, and of the run that tells how good the reference is.
+/// How much finer the steps of the reference are, and of the run that shows how good the reference is.
 pub const FINER: [usize; 2] = [8, 4];
 
 /// What is asked for. Numbers stand as written, so that they reach the model unchanged.

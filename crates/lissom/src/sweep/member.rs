@@ -92,7 +92,7 @@ impl MemberOutcome {
     }
 }
 
-/// Runs a member to its end, unless told to stop.
+/// Runs a member to its end, unless interrupted.
 pub(super) fn run(
     member: usize,
     document: &Document,

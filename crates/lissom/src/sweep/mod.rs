@@ -124,7 +124,7 @@ impl Sweep {
     ///
     /// # Errors
     /// If no member has a good model (the complaint is about the first one), or if the model does not record what is
-    /// to be collected. Single members that are wrong are told in their outcomes.
+    /// to be collected. Single members that are wrong are reported in their outcomes.
     pub fn new(model: &Model, file: SweepFile, overrides: &[Override]) -> Result<Self, SweepError> {
         let mut all = file.set.clone();
         all.extend_from_slice(overrides);
@@ -208,8 +208,8 @@ impl Sweep {
         definition.to_string()
     }
 
-    /// Solves one member. `watch` is asked after every step whether to go on; nothing comes of a member that is told to
-    /// stop.
+    /// Solves one member. `watch` is asked after every step whether to go on; a member has no result if `watch`
+    /// stops it.
     ///
     /// # Panics
     /// If there is no such member.
@@ -226,7 +226,7 @@ impl Sweep {
     }
 
     /// Solves `members` on `workers` threads. `keep` receives each outcome on the calling thread, in the order in which
-    /// members end; `watch` is told there how many have ended, after each and every 50 ms, and says whether to go on.
+    /// members end; `watch` receives there how many have ended, after each and every 50 ms, and says whether to go on.
     ///
     /// # Errors
     /// The first error of `keep`: then no further member is started.

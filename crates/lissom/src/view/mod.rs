@@ -85,7 +85,7 @@ impl Results {
         Self { title: title.to_owned(), ..self }
     }
 
-    /// With what `summary.json` tells: title, counts, and why a run has ended early.
+    /// With facts of `summary.json`: title, counts, and why a run has ended early.
     #[must_use]
     pub fn with_summary(mut self, summary: &Value) -> Self {
         let word = |name: &str| summary[name].as_str().unwrap_or_default();

@@ -29,7 +29,7 @@ const TURN: f64 = 0.1;
 const SHIFT: f64 = 0.05;
 /// Most changes of held coordinates on the way to their values.
 const MOST_STAGES: f64 = 1000.0;
-/// Gaps below this part of the largest gap are not told of.
+/// Gaps below this part of the largest gap are not reported.
 const WORTH_TELLING: f64 = 0.05;
 /// Most joints that an error names.
 const MOST_NAMED: usize = 6;

@@ -128,7 +128,7 @@ impl EquilibriumPath {
             let after = if changes == 0 { last.unstable } else { at.unstable };
             points.push(self.point(CriticalKind::Limit, (at, is_located), [first.unstable, after]));
         }
-        // Several bifurcations in one step are told apart by the number of unstable directions between them.
+        // Several bifurcations in one step are distinguished by the number of unstable directions between them.
         let mut low = first;
         while changes > 0 {
             let found = self.change_of_count(start, (low, last), iterations);

@@ -37,7 +37,7 @@ const UNRESISTED: f64 = 1e-3;
 /// The last equilibrium is at most so much farther away than the step that passed it.
 const FARTHER: f64 = 1.1;
 
-/// What a path is told besides its systems and its start.
+/// Options of a path besides its systems and its start.
 #[derive(Clone, Copy)]
 pub struct PathSettings {
     /// First step of the load factor, or of the number; its sign is the direction in which the path begins.

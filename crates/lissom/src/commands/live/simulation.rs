@@ -22,12 +22,12 @@ use serde_json::{Value, json};
 const LOOK: Duration = Duration::from_millis(5);
 /// A file that was changed so shortly before may still be being written.
 const SETTLED: Duration = Duration::from_millis(10);
-/// A mistake in a file is told if the file has stayed as it is for so long: half of it may not have been written yet.
+/// A mistake in a file is reported if the file has stayed as it is for so long: half of it may not have been written yet.
 const SURE: Duration = Duration::from_millis(200);
 /// The same for a file that is empty, as it is for a moment while it is saved.
 const SURE_TO_BE_EMPTY: Duration = Duration::from_secs(2);
 
-/// What pages are told, and what they ask for.
+/// What pages receive, and what they ask for.
 #[derive(Default)]
 pub(super) struct Shared {
     state: Mutex<State>,
@@ -36,7 +36,7 @@ pub(super) struct Shared {
 
 #[derive(Default)]
 struct State {
-    /// Counts what is told; zero before there is anything.
+    /// Counts what is reported; zero before there is anything.
     version: u64,
     /// As JSON.
     told: Arc<str>,
@@ -52,7 +52,7 @@ impl Shared {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// What is told after `version`, as soon as there is something; nothing after `patience`.
+    /// What is reported after `version`, as soon as there is something; nothing after `patience`.
     pub(super) fn wait_after(&self, version: u64, patience: Duration) -> Option<Arc<str>> {
         let is_old = |state: &mut State| state.version == version || state.version == 0;
         let waited = self.changed.wait_timeout_while(self.lock(), patience, is_old);
@@ -77,7 +77,7 @@ impl Shared {
     }
 }
 
-/// What a page is told.
+/// What a page receives.
 #[derive(Default, Serialize)]
 struct Message {
     version: u64,
@@ -123,7 +123,7 @@ pub(super) fn start(model: PathBuf, set: Vec<Override>, shared: &Arc<Shared>) {
             while is_mistake && now.modified.is_some() && now.is_younger_than(sure) && is_current() {
                 std::thread::sleep(LOOK);
             }
-            // What was overtaken by a change is told to nobody.
+            // What was overtaken by a change is not sent.
             if let Some(message) = message.filter(|_| is_current()) {
                 shared.tell(message);
             }

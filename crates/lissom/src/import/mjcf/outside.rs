@@ -103,7 +103,7 @@ fn option(node: Node<'_, '_>, robot: &mut Robot) -> Result<(), ImportError> {
     Ok(())
 }
 
-/// Joints that follow others become followers; what else closes loops is told.
+/// Joints that follow others become followers; what else closes loops is reported.
 fn equality(node: Node<'_, '_>, classes: &Classes, robot: &mut Robot) -> Result<(), ImportError> {
     for node in inner(node) {
         let own = classes.element(node, None)?;
