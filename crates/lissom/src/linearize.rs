@@ -13,6 +13,7 @@ use serde_json::{Value, json};
 
 use crate::about::{self, About, Reached};
 use crate::model::{Model, Override};
+use crate::modes::ModesError;
 use crate::ports::{self, Input, Observed};
 use crate::response::FrequencyError;
 use crate::session::Session;
@@ -63,7 +64,7 @@ pub fn linearize(
     let mut report = request.about.linearized(&document, |reached| -> Result<_, FrequencyError> {
         let inputs = ports::inputs(&document, &reached, &request.inputs)?;
         let outputs = ports::outputs(&reached, &request.outputs)?;
-        Ok(told(reached, &inputs, &outputs))
+        told(reached, &inputs, &outputs)
     })?;
     report.about = request.about.name();
     report.wall = began.elapsed();
@@ -85,7 +86,7 @@ pub fn linearize_session(
     let mut report = about::now(session, document, |reached| -> Result<_, FrequencyError> {
         let inputs = ports::inputs(document, &reached, inputs)?;
         let outputs = ports::outputs(&reached, outputs)?;
-        Ok(told(reached, &inputs, &outputs))
+        told(reached, &inputs, &outputs)
     })?;
     report.about = About::Time(session.progress().time).name();
     report.wall = began.elapsed();
@@ -95,8 +96,13 @@ pub fn linearize_session(
 /// Derivatives by unknowns of one sort.
 type Part = fn(&OutputDerivatives) -> &BTreeMap<usize, f64>;
 
-fn told(reached: Reached<'_, '_>, inputs: &[Input], outputs: &[Observed]) -> LinearizeReport {
+fn told(
+    reached: Reached<'_, '_>,
+    inputs: &[Input],
+    outputs: &[Observed],
+) -> Result<LinearizeReport, FrequencyError> {
     let Reached { model, warnings, .. } = reached;
+    model.check_positions_alone().map_err(ModesError::from)?;
     let layout = model.system().layout();
     let (count, multipliers) = (layout.coordinate_count(), layout.multiplier_rows().len());
     let parts = model.parts();
@@ -162,7 +168,7 @@ fn told(reached: Reached<'_, '_>, inputs: &[Input], outputs: &[Observed]) -> Lin
         let rows: String = found.states.iter().map(|state| quoted(state) + "\n").collect();
         files.push(("states.csv".to_owned(), format!("state\n{rows}")));
     }
-    LinearizeReport {
+    Ok(LinearizeReport {
         files,
         state_space,
         inputs: inputs.iter().map(|input| input.name.clone()).collect(),
@@ -171,7 +177,7 @@ fn told(reached: Reached<'_, '_>, inputs: &[Input], outputs: &[Observed]) -> Lin
         unknowns: [count, multipliers],
         warnings,
         wall: Duration::ZERO,
-    }
+    })
 }
 
 /// Entries of values on the pattern, by row and column.

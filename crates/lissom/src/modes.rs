@@ -197,7 +197,7 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
     let mut report = about.linearized(&document, |reached| -> Result<ModeReport, ModesError> {
         let options = ModeOptions { count, shift };
         let found = reached.model.modes(&options)?;
-        let mut report = if about == About::Rotation {
+        let mut report = if about == About::Rotation || reached.model.rolls_on() {
             let Reliable { found, at_rest, warnings } = reliable(reached.model, found, &options)?;
             let mut report = tell(at_rest.as_ref().unwrap_or(reached.model), found, count);
             report.warnings.extend(warnings);
@@ -225,6 +225,10 @@ pub fn modes(model: &Model, overrides: &[Override], request: &ModeRequest) -> Re
 /// Reports about modes in axes at rest.
 pub(crate) const AT_REST: &str = "the coefficients are constant in axes at rest alone, with multi-blade coordinates: frequencies are those seen \
     from there, shapes those of this instant";
+
+/// Reports about modes in axes of wheels.
+const ROLLING: &str = "the coefficients are constant in axes alone that do not spin with the wheels: frequencies are those seen from there, \
+    shapes those of this instant";
 
 /// Modes whose coefficients stay constant while the model turns.
 pub(crate) struct Reliable<'a> {
@@ -262,13 +266,17 @@ pub(crate) fn reliable<'a>(
         return Ok(Reliable { found, at_rest: None, warnings: Vec::new() });
     }
     let (mut chosen, mut left_out) = (Reliable { found, at_rest: None, warnings: Vec::new() }, inconstant);
-    let mut reason = "they change in the multi-blade coordinates of its rotor, too";
-    match model.in_axes_at_rest() {
+    let (mut reason, warning, other) = if model.rolls_on() {
+        ("they change in axes that do not spin with the wheels, too", ROLLING, Ok(model.in_rolling_axes()))
+    } else {
+        ("they change in the multi-blade coordinates of its rotor, too", AT_REST, model.in_axes_at_rest())
+    };
+    match other {
         Err(no) => reason = no.words(),
         Ok(at_rest) => {
             let (found, inconstant) = divide(at_rest.modes(options)?, &at_rest, &later)?;
             if found.modes.len() > chosen.found.modes.len() {
-                let warnings = vec![AT_REST.to_owned()];
+                let warnings = vec![warning.to_owned()];
                 chosen = Reliable { found, at_rest: Some(at_rest), warnings };
                 left_out = inconstant;
             }

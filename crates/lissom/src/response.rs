@@ -72,6 +72,12 @@ pub enum FrequencyError {
         /// Last frequency [Hz].
         to: f64,
     },
+    /// Wheels roll on.
+    #[error(
+        "wheels roll on at that instant: their contacts move through the axes of the parts, in which responses are found; take a \
+         state in which they stand, or `lissom modes`, which knows axes that do not spin with the wheels"
+    )]
+    RollsOn,
     /// A solve failed.
     #[error("at {frequency} Hz: {error}")]
     Response {
@@ -165,6 +171,9 @@ fn of_state(
     let outputs = ports::outputs(&reached, &request.outputs)?;
     ports::check_effect(&inputs, &outputs)?;
     let Reached { model, mut warnings, .. } = reached;
+    if model.rolls_on() {
+        return Err(FrequencyError::RollsOn);
+    }
     if !model.is_at_rest() {
         warnings.push(
             "the model moves: outputs in global axes are those of the instant of linearisation".to_owned(),

@@ -330,10 +330,13 @@ fn latches_go_on_from_a_snapshot_and_are_refused_where_they_cannot_be() {
         let joined = shown.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ");
         assert!(joined.contains(wanted), "{wanted}: {shown}");
     }
-    // Angular velocities of modes know no constraints between velocities.
-    let modes = DISCS.split("[analysis]").next().unwrap().to_owned() + "[analysis]\nkind = \"modes\"\n";
-    let request = lissom::modes::ModeRequest::default();
-    let error =
-        lissom::modes::modes(&Model::from_text("discs.toml", &modes), &[], &request).map(|_| ()).unwrap_err();
-    assert!(error.to_string().contains("latch"), "{error}");
+    // First-order equations know no constraints between velocities.
+    let request = lissom::linearize::LinearizeRequest {
+        about: lissom::modes::About::Time(0.0),
+        inputs: vec!["motor".to_owned()],
+        outputs: vec!["axle".to_owned()],
+    };
+    let model = Model::from_text("discs.toml", DISCS);
+    let error = lissom::linearize::linearize(&model, &[], &request).map(|_| ()).unwrap_err();
+    assert!(error.to_string().contains("a constraint between velocities"), "{error}");
 }

@@ -48,4 +48,5 @@ mod superelements;
 mod support;
 mod threads;
 mod units;
+mod velocity_constraints;
 mod wheelset;

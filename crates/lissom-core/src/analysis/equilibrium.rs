@@ -25,7 +25,7 @@ pub(crate) fn hold_start(system: &System, state: &mut State, solver: &SolverKind
     for node in &mut still.kinematics.nodes {
         node.twist.fill(0.0);
     }
-    let Ok(model) = LinearModel::of(system, &still, solver) else { return 0.0 };
+    let Ok(model) = LinearModel::of_positions(system, &still, solver) else { return 0.0 };
     if model.imbalance() > HELD || !model.multipliers().iter().all(|value| value.is_finite()) {
         return model.released_energy();
     }
@@ -64,7 +64,7 @@ fn free_motion(system: &System, state: &State, solver: &SolverKind) -> Option<St
     for coordinate in &mut still.kinematics.coordinates {
         coordinate.rate = 0.0;
     }
-    LinearModel::of(system, &still, solver).ok()?.free_motion()
+    LinearModel::of_positions(system, &still, solver).ok()?.free_motion()
 }
 
 /// Moves the places of `state` into equilibrium, in one load step or, where that has no solution, by relaxation. Reports if it is

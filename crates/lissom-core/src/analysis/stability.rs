@@ -12,7 +12,7 @@ impl Simulation {
         if self.settings.scheme.dynamic {
             return None;
         }
-        let model = LinearModel::of(&self.system, &self.state, self.settings.solver).ok()?;
+        let model = LinearModel::of_positions(&self.system, &self.state, self.settings.solver).ok()?;
         model.unstable_directions()
     }
 

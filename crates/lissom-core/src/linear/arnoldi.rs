@@ -185,6 +185,10 @@ impl<S: Field> Operator<S> for Inverse<'_, '_, '_, S> {
             }
         }
         self.solver.solve(&mut self.right);
+        // Forces, as multipliers, have no part in what comes next.
+        for (row, _) in self.model.system.layout().impulses() {
+            self.right[row] = S::zero();
+        }
         for row in 0..count {
             let x = self.right[row] * self.units[row];
             image[row] = x;
@@ -232,7 +236,9 @@ pub(super) fn find(model: &LinearModel<'_>, options: &ModeOptions) -> Result<Mod
         }
         _ => {
             let mut solver = GeneralShift::on(model.system, model.structure(), &model.representative);
-            let shift = first_shift(model, &mut solver)?;
+            // Steadily rolling wheels have many zero eigenvalues, which hide the others from a small shift; their own rate is that
+            // of what they do.
+            let shift = if model.rolls_on() { model.spin().norm() } else { first_shift(model, &mut solver)? };
             // Conjugates and the second zero of each rigid mode are found as well.
             find_near(model, options, (&mut solver, shift), 2 * (options.count + BEYOND))
         }
@@ -280,11 +286,13 @@ fn find_near<'a, S: Field>(
     }
     let eigenvalues: usize = modes.iter().map(|mode| if mode.eigenvalue.im == 0.0 { 1 } else { 2 }).sum();
     let layout = model.system.layout();
-    let freedoms = layout.coordinate_count().saturating_sub(layout.multiplier_rows().len());
+    let constraints = layout.multiplier_rows().len() + 2 * layout.impulses.len();
+    let freedoms = layout.coordinate_count().saturating_sub(constraints);
     let most = match &spectrum {
         Some(spectrum) => spectrum.values.len(),
         None if freedoms == 0 || solver.has_redundant_constraints() => usize::MAX,
-        None => 2 * freedoms,
+        // What rolls has more positions than velocities.
+        None => 2 * freedoms + layout.impulses.len(),
     };
     if (is_empty && modes.is_empty()) || eigenvalues > most {
         return Err(ModeError::NotConverged);

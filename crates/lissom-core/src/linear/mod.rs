@@ -29,11 +29,13 @@ mod natural_modes;
 mod output;
 mod reduction;
 mod response;
+mod rolling_axes;
 mod schur;
 mod shapes;
 mod shifted;
 mod state_space;
 mod steady;
+mod velocity_constraints;
 mod whirl;
 
 pub use buckling::{Buckling, BucklingError, BucklingMode};

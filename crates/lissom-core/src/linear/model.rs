@@ -2,12 +2,14 @@
 
 use std::sync::Arc;
 
-use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
+use lissom_motion::{Matrix6, Vector3, Vector6, lie_bracket_matrix};
 use lissom_solver::{FactorError, Pattern, Scalar, SolverKind, Structure};
 use num_complex::Complex64;
 
 use super::generator::Generator;
+use super::rolling_axes;
 use super::shifted::{ComplexShift, GeneralShift, RealShift, small_square};
+use super::velocity_constraints::{refuse, take_forces};
 use crate::analysis::InitialError;
 use crate::analysis::initial::Initial;
 use crate::interrupt::{self, Interrupted};
@@ -41,8 +43,8 @@ pub enum LinearError {
     Sampled,
     /// Constraints between velocities.
     #[error(
-        "there is no linear model of a system that rolls: `{joint}` is a constraint between velocities, which these analyses \
-         do not know; hold the wheel with another joint, or simulate the motion"
+        "`{joint}` rolls, which is a constraint between velocities, and this analysis knows constraints between positions alone; \
+         hold the wheel with another joint, or simulate the motion"
     )]
     Rolls {
         /// Name of the joint.
@@ -50,8 +52,8 @@ pub enum LinearError {
     },
     /// A latch, which is a constraint between velocities.
     #[error(
-        "there is no linear model of a system with latches (`{coordinate}`), which these analyses do not know; leave the latch out, \
-         or hold its joint by a stiff spring"
+        "a latch (`{coordinate}`) is a constraint between velocities, and this analysis knows constraints between positions alone; \
+         leave the latch out, or hold its joint by a stiff spring"
     )]
     Latched {
         /// Name of its impulse.
@@ -112,18 +114,10 @@ impl<'a> LinearModel<'a> {
         if system.signals().has_samples() {
             return Err(LinearError::Sampled);
         }
-        if let Some(joint) = system.joints().iter().find(|joint| !joint.impulses.is_empty()) {
-            return Err(LinearError::Rolls { joint: joint.name.clone() });
-        }
-        if let Some((_, impulse)) = system.layout().impulses().next() {
-            return Err(LinearError::Latched {
-                coordinate: system.layout().coordinate_name(impulse).to_owned(),
-            });
-        }
         let mut state = state.clone();
-        let is_at_rest = is_at_rest(&state.kinematics);
+        let is_at_rest = is_at_rest(system, &state.kinematics);
         let zeros = vec![0.0; system.layout().multiplier_rows().len()];
-        let unloaded = Linearization::of_state(system, &state.kinematics);
+        let mut unloaded = Linearization::of_state(system, &state.kinematics);
         let representative = Representative::of(system, &state.kinematics, &unloaded);
         let time = state.kinematics.time;
         let ([mut imbalance, mut released], mut unsteadiness) = ([0.0; 2], 0.0);
@@ -134,13 +128,14 @@ impl<'a> LinearModel<'a> {
             for coordinate in &mut state.kinematics.coordinates {
                 coordinate.acceleration = 0.0;
             }
+            take_forces(system, &mut unloaded, true);
             [imbalance, released] = hold(system, &mut state, &unloaded, &representative, &zeros)?;
         } else {
             let mut initial = Initial::new(system, &state, &representative, solver);
             initial
                 .accelerations(system, &mut state)
                 .map_err(|error| LinearError::Accelerations { time, error })?;
-            unsteadiness = unsteadiness_of(&state.kinematics, representative.length);
+            unsteadiness = unsteadiness_of(system, &state.kinematics, representative.length);
         }
         let mut parts = Linearization::new(system);
         let (still, unchanged) = nothing(&state.kinematics);
@@ -148,6 +143,7 @@ impl<'a> LinearModel<'a> {
         let chart = if is_at_rest { Chart::Body } else { Chart::Departures(&state.kinematics.nodes) };
         system.linearize(&point, chart, &mut parts);
         parts.fold_multipliers();
+        take_forces(system, &mut parts, is_at_rest);
         if !is_at_rest {
             if unsteadiness > NEARLY_STEADY {
                 let displaced = displacement_by_inertia(system, &state.kinematics, (&parts, &representative));
@@ -171,6 +167,27 @@ impl<'a> LinearModel<'a> {
             solver,
             at_rest: None,
         })
+    }
+
+    /// The same for analyses that know no constraints between velocities.
+    ///
+    /// # Errors
+    /// Likewise, and where the system has such constraints.
+    pub(crate) fn of_positions(
+        system: &'a System,
+        state: &State,
+        solver: &'a SolverKind,
+    ) -> Result<Self, LinearError> {
+        refuse(system)?;
+        Self::of(system, state, solver)
+    }
+
+    /// Refuses a system with constraints between velocities, for what knows positions alone.
+    ///
+    /// # Errors
+    /// If there are such constraints.
+    pub fn check_positions_alone(&self) -> Result<(), LinearError> {
+        refuse(self.system)
     }
 
     /// The same with other matrices, those of axes at rest.
@@ -317,9 +334,11 @@ pub(super) fn stopped(system: &System, time: f64, error: &FactorError) -> Linear
     LinearError::Factor { time, unknown: system.layout().name_of(unknown), pivot }
 }
 
-fn is_at_rest(at: &Kinematics) -> bool {
+/// Whether nothing moves; rates of impulses are forces.
+fn is_at_rest(system: &System, at: &Kinematics) -> bool {
+    let is_force = |coordinate: usize| system.layout().impulses.contains(&coordinate);
     at.nodes.iter().all(|node| node.twist == Vector6::zeros())
-        && at.coordinates.iter().all(|coordinate| coordinate.rate == 0.0)
+        && (at.coordinates.iter().enumerate()).all(|(own, motion)| motion.rate == 0.0 || is_force(own))
 }
 
 pub(super) fn nothing(at: &Kinematics) -> (Vec<MotionChange>, Vec<f64>) {
@@ -411,6 +430,9 @@ fn hold(
     for (row, _, magnitude) in layout.states() {
         units[row] = 1.0 / magnitude;
     }
+    for (row, _) in layout.impulses() {
+        units[row] = 0.0;
+    }
     let (still, unchanged) = nothing(&state.kinematics);
     let mut residual = vec![0.0; layout.size()];
     let mut forces = vec![0.0; count];
@@ -429,20 +451,28 @@ fn hold(
         for (multiplier, change) in state.multipliers.iter_mut().zip(&residual[count..]) {
             *multiplier -= change;
         }
+        for (row, impulse) in layout.impulses() {
+            state.kinematics.coordinates[impulse].rate -= residual[row];
+        }
         let displacements = residual[..count].iter().zip(&units);
         imbalance = displacements.fold(0.0_f64, |most, (value, unit)| most.max((value * unit).abs()));
     }
     Ok([imbalance, released])
 }
 
-/// Largest change of a twist in its node's axes against the squares of the rates there are.
-fn unsteadiness_of(at: &Kinematics, length: f64) -> f64 {
+/// Largest change of a twist against the squares of the rates there are: in its node's axes, or in axes that do not spin with a wheel.
+fn unsteadiness_of(system: &System, at: &Kinematics, length: f64) -> f64 {
     let size = |twist: &Vector6| {
         let (v, w) = (twist.fixed_rows::<3>(0).norm(), twist.fixed_rows::<3>(3).norm());
         (v / length).max(w)
     };
     let rate = at.nodes.iter().fold(0.0_f64, |most, node| most.max(size(&node.twist)));
-    let change = at.nodes.iter().fold(0.0_f64, |most, node| most.max(size(&node.acceleration)));
+    let spins = rolling_axes::spins(system, at);
+    let changes = at.nodes.iter().zip(&spins).map(|(node, spin)| {
+        let own = lissom_motion::screw(&Vector3::zeros(), spin);
+        node.acceleration + lie_bracket_matrix(&own) * (node.twist - own)
+    });
+    let change = changes.fold(0.0_f64, |most, change| most.max(size(&change)));
     if rate > 0.0 { change / (rate * rate) } else { 0.0 }
 }
 
@@ -474,6 +504,9 @@ fn displacement_by_inertia(
     let mut solver = GeneralShift::<f64>::new(system, representative);
     solver.factor(parts, SLOW * rate).ok()?;
     solver.solve(&mut forces);
+    for (row, _) in layout.impulses() {
+        forces[row] = 0.0;
+    }
     let sizes = forces[..count].iter().zip(layout.quantities()).map(|(value, quantity)| match quantity {
         Quantity::Length => value.abs() / representative.length,
         Quantity::Angle | Quantity::State => value.abs(),

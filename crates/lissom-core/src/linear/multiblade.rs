@@ -64,7 +64,11 @@ impl<'a> LinearModel<'a> {
     /// # Errors
     /// If the rotor has no such coordinates.
     pub fn in_axes_at_rest(&self) -> Result<LinearModel<'a>, NoMultiblade> {
-        let generator = generator(self)?;
+        Ok(self.in_axes_of(generator(self)?))
+    }
+
+    /// The same model in other axes.
+    pub(super) fn in_axes_of(&self, generator: Generator) -> LinearModel<'a> {
         let pattern = self.pattern();
         let (mut damping, mut stiffness) = (BTreeMap::new(), BTreeMap::new());
         let rate = generator.rate;
@@ -101,7 +105,7 @@ impl<'a> LinearModel<'a> {
         parts.constraint = widened(&self.parts.constraint, &nothing);
         let groups = self.structure().groups.clone();
         let structure = Structure { pattern: Arc::new(wide), groups };
-        Ok(self.with_generator(parts, structure, generator))
+        self.with_generator(parts, structure, generator)
     }
 
     /// How much of a mode in axes at rest goes round with the rotation or against it: 1 for a circle in its sense, 0 for none.

@@ -22,6 +22,7 @@ use super::cubic::SecondOrder;
 use super::mode::{Completeness, ModeError, ModeOptions};
 use super::model::{LinearError, LinearModel, is_symmetric, nothing, point};
 use super::shifted::RealShift;
+use super::velocity_constraints::refuse;
 use crate::elements::superelement::{Damping, ReducedMatrices};
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::{LOCKED, NodeId};
@@ -120,8 +121,11 @@ impl Assembly<'_> {
     /// # Errors
     /// If the assembly with its interfaces held is a mechanism, not elastic, or not in equilibrium; if something else holds it.
     pub fn reduce(&self, modes: usize) -> Result<Reduction, ReductionError> {
-        let mut model =
-            self.locked.map(|system| LinearModel::of(system, self.state, self.solver)).transpose()?;
+        refuse(self.free)?;
+        let mut model = self
+            .locked
+            .map(|system| LinearModel::of_positions(system, self.state, self.solver))
+            .transpose()?;
         let multipliers = model.as_ref().map_or_else(
             || vec![0.0; self.free.layout().multiplier_rows().len()],
             |model| model.multipliers().to_vec(),

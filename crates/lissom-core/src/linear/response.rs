@@ -82,7 +82,16 @@ impl FrequencyResponse<'_, '_> {
         for (k, value) in self.values.iter_mut().enumerate() {
             *value = s * (s * parts.mass[k] + parts.damping[k]) + parts.stiffness[k] + parts.constraint[k];
         }
-        inputs.iter().map(|input| self.solve(s, input)).collect()
+        let impulses: Vec<usize> = self.model.system.layout().impulses().map(|(row, _)| row).collect();
+        let of = |input: &Vec<f64>| {
+            let mut amplitudes = self.solve(s, input)?;
+            // Forces were the unknowns; they are the rates of impulses.
+            for &row in &impulses {
+                amplitudes[row] /= s;
+            }
+            Ok(amplitudes)
+        };
+        inputs.iter().map(of).collect()
     }
 
     fn solve(&mut self, s: Complex64, input: &[f64]) -> Result<Vec<Complex64>, ResponseError> {

@@ -76,7 +76,8 @@ impl<'a> RealShift<'a> {
             report = self.solver.factor(&self.values);
         }
         let negative = report?.negative_pivots.unwrap_or(usize::MAX);
-        Ok(negative.saturating_sub(pattern.size() - count))
+        let forces = pattern.size() - count + self.system.layout().impulses.len();
+        Ok(negative.saturating_sub(forces))
     }
 
     /// Solves for forces and violations in SI: displacements, and multipliers in units of

@@ -55,6 +55,12 @@ pub enum StateSpaceError {
          `lissom modes` and `lissom response` know them"
     )]
     NormalForces,
+    /// Constraints between velocities.
+    #[error(
+        "{0}, a constraint between velocities, is none of first-order equations in independent coordinates; `lissom modes` and \
+         `lissom response` know it"
+    )]
+    VelocityConstraint(String),
     /// A reaction that is recorded is not unique.
     #[error("a reaction among the outputs is not unique, because constraints repeat each other")]
     Redundant,
@@ -81,6 +87,9 @@ impl LinearModel<'_> {
         if self.system.sees_multipliers() {
             return Err(StateSpaceError::NormalForces);
         }
+        if let Some((row, _)) = self.system.layout().impulses().next() {
+            return Err(StateSpaceError::VelocityConstraint(self.system.layout().name_of(row)));
+        }
         let reduced = self.reduced(inputs)?;
         reduced.with_outputs(self, outputs, inputs)
     }
@@ -89,8 +98,10 @@ impl LinearModel<'_> {
     /// would be larger.
     pub(super) fn first_order(&self, most: usize, rate: f64) -> Option<DMatrix<f64>> {
         let freedoms = self.coordinate_count().saturating_sub(self.system.layout().multiplier_rows().len());
-        if 2 * freedoms > most || self.coordinate_count() > MOST_COORDINATES || self.system.sees_multipliers()
-        {
+        if 2 * freedoms > most || self.coordinate_count() > MOST_COORDINATES {
+            return None;
+        }
+        if self.system.sees_multipliers() || self.system.layout().impulses().next().is_some() {
             return None;
         }
         let reduced = self.reduced(&[]).ok()?;

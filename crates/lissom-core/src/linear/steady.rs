@@ -16,7 +16,9 @@ use num_complex::Complex64;
 use super::krylov::{Noise, product};
 use super::mode::Mode;
 use super::model::{LinearError, LinearModel, nothing, point, stopped};
+use super::rolling_axes;
 use super::shifted::ComplexShift;
+use super::velocity_constraints::refuse;
 use crate::analysis::initial::Initial;
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::{LOCKED, NodeMotion, Quantity};
@@ -77,6 +79,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
     }
     let mut state = state.clone();
     let layout = system.layout();
+    refuse(system)?;
     let count = layout.coordinate_count();
     let time = state.kinematics.time;
     let unloaded = Linearization::of_state(system, &state.kinematics);
@@ -180,8 +183,9 @@ impl<'a> LinearModel<'a> {
         let mut kinematics = self.at.clone();
         let rate = self.spin().norm();
         let later = if rate > 0.0 { TURN / rate } else { 0.0 };
-        for node in &mut kinematics.nodes {
-            node.frame = node.frame * Motion::exponential(&(later * node.twist));
+        let spins = rolling_axes::spins(self.system, &self.at);
+        for (node, spin) in kinematics.nodes.iter_mut().zip(&spins) {
+            (node.frame, node.twist) = rolling_axes::later(node.frame, &node.twist, spin, later);
         }
         for coordinate in &mut kinematics.coordinates {
             coordinate.value += later * coordinate.rate;
@@ -242,6 +246,8 @@ impl<'a> LinearModel<'a> {
         let whole = size(&mode.shape);
         let mut departure_by = |mut forces: Vec<Complex64>| {
             shifted.solve(&mut forces);
+            // Shapes are without the forces of constraints.
+            other.system.layout().impulses().for_each(|(row, _)| forces[row] = Complex64::default());
             size(&forces[..count]) / whole
         };
         let mut noise = Noise(5);
