@@ -39,7 +39,7 @@ impl CampbellPlot {
 
     fn draw(&self) -> Result<Drawing, FigureError> {
         let most = self.lines.iter().flatten().map(|point| point.1).fold(0.0, f64::max);
-        if self.lines.iter().all(Vec::is_empty) || most <= 0.0 {
+        if most <= 0.0 {
             return Err(FigureError::new(NAME, "no mode has a frequency above zero"));
         }
         let line = |(index, points): (usize, &Vec<(f64, f64)>)| Curve {
@@ -79,6 +79,8 @@ mod tests {
             assert!(svg.contains(words), "{words}");
         }
         assert!(plot.png().unwrap().starts_with(b"\x89PNG"));
-        assert!(CampbellPlot { lines: vec![Vec::new()], ..plot }.svg().is_err());
+        let flat = CampbellPlot { lines: vec![vec![(0.0, 0.0), (20.0, 0.0)]], ..plot };
+        assert!(flat.svg().is_err());
+        assert!(CampbellPlot { lines: vec![Vec::new()], ..flat }.svg().is_err());
     }
 }
