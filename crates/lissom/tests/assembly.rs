@@ -105,6 +105,48 @@ fn moved(assembly: &Assembly, part: &str) -> (f64, f64) {
     found.map_or((0.0, 0.0), |moved| (moved.distance, moved.turn))
 }
 
+/// The tip of a slider is brought onto its beam, with the least change: straight across.
+#[test]
+fn a_slider_is_brought_onto_its_beam() {
+    let text = format!(
+        r#"
+[sections.bar]
+shape = "general"
+stiffness = [1e6, 4e4, 4e4, 300, 100, 150]
+mass = {{ per_length = 1, inertia = [2e-3, 1e-3, 1e-3] }}
+[beams.bar]
+section = "bar"
+from = [0, 0, 0]
+to = [1, 0, 0]
+up = [0, 0, 1]
+elements = 2
+[joints.root]
+kind = "clamp"
+base = "ground"
+tip = "bar.start"
+[bodies.ring]
+mass = 1
+inertia = [1, 1, 1]
+position = [0.4, 0.02, -0.01]
+[joints.slide]
+kind = "slider"
+beams = ["bar"]
+tip = "ring"
+at = [0.4, 0.02, -0.01]
+{END}"#
+    );
+    let Lowered { state, .. } = lowered(&text);
+    let ring = (state
+        .kinematics
+        .nodes
+        .iter()
+        .find(|node| node.frame.position.y.abs() < 1e-9 && (node.frame.position.x - 0.4).abs() < 0.05))
+    .expect("on the beam")
+    .frame;
+    assert!((ring.position - Vector3::new(0.4, 0.0, 0.0)).norm() < 1e-9, "{}", ring.position);
+    assert!(ring.rotation.logarithm().norm() < 1e-9);
+}
+
 /// Complaint about a model that cannot be assembled.
 fn refused(text: &str) -> String {
     let document = Model::from_text("model.toml", &format!("lissom = 1\n{text}")).document(&[]).unwrap();

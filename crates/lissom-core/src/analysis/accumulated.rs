@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::simulation::{Simulation, warn};
 use crate::elements::quadrature::gauss_legendre;
+use crate::joints::Constraint as _;
 use crate::judge::Warning;
 use crate::stepping::dense::interpolate;
 use crate::system::{ElementId, State, System};
@@ -49,7 +50,7 @@ impl AcceptedStep<'_> {
     /// Work of a drive of a coordinate [J], as if its force changed linearly in time.
     pub fn work_of_drive(&self, drive: usize) -> f64 {
         let [start, end] = [self.start, self.end].map(|state| (&state.kinematics, &state.multipliers[..]));
-        crate::system::work_of_drive(&self.system.drives()[drive], start, end)
+        self.system.drives()[drive].work(start, end)
     }
 
     /// How long it is [s].

@@ -30,7 +30,7 @@ impl ConsistentRates {
         let (system, settings) = (simulation.system(), simulation.settings());
         // Accelerations M⁻¹ f of light nodes of stiff beams would multiply what Newton's method leaves; their vibrations make steps short.
         let is_rigid = system.least_aligned(&simulation.state().kinematics).is_none();
-        let may_be_driven = !system.drives().is_empty() || !system.couplings().is_empty();
+        let may_be_driven = system.may_have_driven_constraint();
         // With steps of a size that was given, all schemes but Radau IIA have forces of constraints of second order.
         let is_radau =
             settings.scheme.tableau.is_none() && matches!(settings.scheme.coupling, Coupling::Pair { .. });
@@ -45,7 +45,7 @@ impl ConsistentRates {
     /// The state with such rates, where a step of `step` [s] led to it; none where nothing drives it, where errors of positions show
     /// what rates miss, and where they are not found, as in a singular position.
     pub fn state(&mut self, system: &System, state: &State, step: f64) -> Option<State> {
-        if system.drives().is_empty() && !is_timed(system, state, step) {
+        if !is_driven(system, state, step) {
             return None;
         }
         let mut told = state.clone();
@@ -54,12 +54,12 @@ impl ConsistentRates {
     }
 }
 
-/// Whether relations name the time, at this instant or a step before or after, for their rate may pass through zero.
-fn is_timed(system: &System, state: &State, step: f64) -> bool {
+/// Whether constraints depend on the time, at this instant or a step before or after, for their rate may pass through zero.
+fn is_driven(system: &System, state: &State, step: f64) -> bool {
     let mut at = state.kinematics.clone();
     let now = at.time;
     [0.0, -1.0, 1.0].into_iter().any(|steps| {
         at.time = now + steps * step;
-        system.has_timed_coupling(&at)
+        system.has_driven_constraint(&at)
     })
 }

@@ -32,7 +32,7 @@ impl Projection {
         self.initial.velocities(system, state)?;
         let after = system.energy(&state.kinematics).kinetic;
         let wanted = after + (1.0 - self.tableau.dissipation) * (before - after);
-        let is_driven = !system.drives().is_empty() || system.has_timed_coupling(&state.kinematics);
+        let is_driven = system.has_driven_constraint(&state.kinematics);
         if !is_driven && after > 0.0 && wanted > after {
             let factor = (wanted / after).sqrt();
             for node in &mut state.kinematics.nodes {

@@ -9,13 +9,14 @@
 use lissom_motion::{Matrix3, Motion, Vector3, Vector6};
 use nalgebra::{SMatrix, SVector};
 
+use super::constraint::{Constraint, Port};
 use super::derivatives::{Derivatives, IncrementTangent, Inner, LOCAL, OWN, Side, TIP};
 use super::{AnyJoint, Curvature, Equations, Gradient, MOST_COORDINATES, MOST_EQUATIONS, Own, Relative};
 use crate::contact::wheel_on_rail::{Pose, RailContactValues};
 use crate::elements::creep_force::CreepForce;
 use crate::elements::rolling::Rolling;
 use crate::joints::evaluation_point::{Chart, Increments, Point};
-use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, split};
+use crate::kinematics::{CarriedFrame, CoordinateId, Kinematics, Quantity, split};
 
 /// Derivatives of the equations with respect to the local unknowns.
 pub type LocalGradient = SMatrix<f64, MOST_EQUATIONS, LOCAL>;
@@ -116,12 +117,6 @@ impl AttachedJoint {
         (Relative::at_start(&self.relative_motion(at)), own)
     }
 
-    /// Violation, evaluated outright from absolute places.
-    pub fn violation(&self, at: &Kinematics) -> Equations {
-        let (relative, own) = self.outright(at);
-        self.joint.violation(&relative, &own)
-    }
-
     /// Derivatives of the equations with respect to the local unknowns, as body variations.
     pub(crate) fn gradient_at(&self, (relative, own): &(Relative, Own)) -> LocalGradient {
         let mut gradient = Gradient::zeros();
@@ -220,7 +215,7 @@ impl AttachedJoint {
     }
 
     /// Derivatives of the forces at constant multipliers `mu` with respect to the local unknowns, as body variations.
-    pub(crate) fn curvature(
+    pub(crate) fn force_derivatives(
         &self,
         configuration: &(Relative, Own),
         mu: &Equations,
@@ -271,7 +266,7 @@ impl AttachedJoint {
         for equation in 0..self.equations() {
             let mut mu = Equations::default();
             mu[equation] = 1.0;
-            let bias = speeds.dot(&(self.curvature(&configuration, &mu) * speeds));
+            let bias = speeds.dot(&(self.force_derivatives(&configuration, &mu) * speeds));
             right -= own.row(equation).transpose() * (known[equation] + bias);
         }
         let mut square = own.tr_mul(&own);
@@ -325,6 +320,78 @@ impl AttachedJoint {
         let rotation = at.nodes[tip.node].frame.rotation * tip.offset.rotation;
         let (force, moment) = split(&wrench);
         lissom_motion::screw(&rotation.apply(&force), &rotation.apply(&moment))
+    }
+}
+
+/// The local unknowns as those of its ports: base, tip, coordinates.
+fn ported(coordinates: usize) -> impl Iterator<Item = usize> + Clone {
+    (0..6).chain(TIP..TIP + 6).chain(OWN..OWN + coordinates)
+}
+
+/// In a step, joints are evaluated in lanes, several of a kind at a time (`blocks`); queries see them one by one.
+impl Constraint for AttachedJoint {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn first_multiplier(&self) -> usize {
+        self.first_multiplier
+    }
+
+    fn equations(&self) -> usize {
+        self.equations()
+    }
+
+    fn quantity(&self, equation: usize) -> Quantity {
+        self.joint.equation_quantity(equation)
+    }
+
+    fn ports(&self) -> usize {
+        2 + self.coordinates.len()
+    }
+
+    fn port(&self, _arrangement: usize, index: usize) -> Port {
+        match self.frames.get(index) {
+            Some(frame) => Port::Node(frame.node),
+            None => Port::Coordinate(self.coordinates[index - 2]),
+        }
+    }
+
+    fn violation(&self, at: &Kinematics, out: &mut [f64]) {
+        let (relative, own) = self.outright(at);
+        out.copy_from_slice(&self.joint.violation(&relative, &own)[..self.equations()]);
+    }
+
+    fn violation_change(&self, increments: &Increments<'_>, _time_elapsed: (f64, f64), out: &mut [f64]) {
+        let (relative, own) = self.configuration(increments);
+        out.copy_from_slice(&self.joint.violation_change(&relative, &own)[..self.equations()]);
+    }
+
+    fn gradient(&self, at: &Kinematics, out: &mut [f64]) {
+        let local = self.gradient_at(&self.outright(at));
+        let columns = ported(self.coordinates.len());
+        let entries = (0..self.equations()).flat_map(|e| columns.clone().map(move |k| (e, k)));
+        out.iter_mut().zip(entries).for_each(|(value, entry)| *value = local[entry]);
+    }
+
+    fn curvature(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
+        let mut mu = Equations::default();
+        mu[..multipliers.len()].copy_from_slice(multipliers);
+        let local = self.force_derivatives(&self.outright(at), &mu);
+        let columns = ported(self.coordinates.len());
+        let entries = columns.clone().flat_map(|i| columns.clone().map(move |j| (i, j)));
+        out.iter_mut().zip(entries).for_each(|(value, entry)| *value = local[entry]);
+    }
+
+    fn acceleration(&self, at: &Kinematics, out: &mut [f64]) {
+        let configuration = self.outright(at);
+        let speeds = self.speeds(at);
+        for (equation, value) in out.iter_mut().enumerate() {
+            let mut mu = Equations::default();
+            mu[equation] = 1.0;
+            // d/dt (B_eᵀ) = (∂(B_eᵀ)/∂q) v
+            *value = speeds.dot(&(self.force_derivatives(&configuration, &mu) * speeds));
+        }
     }
 }
 

@@ -9,7 +9,11 @@
 
 use std::sync::Arc;
 
-use crate::kinematics::{CoordinateId, Kinematics};
+use super::constraint::{Constraint, Port, Visit};
+use super::evaluation_point::Increments;
+use super::step_stages::ROUND_OFF;
+use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
+use crate::kinematics::{CoordinateId, Kinematics, Quantity};
 pub use crate::relation::{Coupled, MOST_COUPLED, Relation, RelationPoint};
 
 /// A relation with its place in the system.
@@ -19,13 +23,15 @@ pub struct Coupling {
     pub name: String,
     /// Its coordinates.
     pub coordinates: Vec<CoordinateId>,
+    /// What each of them measures.
+    pub(crate) quantities: Vec<Quantity>,
+    /// What its equation measures.
+    pub(crate) quantity: Quantity,
     /// Its multiplier among all.
     pub multiplier: usize,
     pub(crate) relation: Arc<dyn Relation>,
     /// The equation is multiplied by this, so that its largest derivative at the start is 1.
     pub(crate) scale: f64,
-    /// In the tangent's pattern: the square matrix of its coordinates and its multiplier, column by column.
-    pub(crate) positions: Vec<usize>,
 }
 
 impl Coupling {
@@ -60,31 +66,14 @@ impl Coupling {
             .map(|value| self.scale * value)
     }
 
-    /// Violation, evaluated outright.
-    pub fn violation(&self, at: &Kinematics) -> f64 {
-        self.jet(at, (0.0, &Coupled::default()))[0]
-    }
-
-    /// Change of the violation since `start`: `changes` of all coordinates over the time `elapsed` [s] that ends at `time`.
-    pub fn violation_change(&self, start: &Kinematics, changes: &[f64], (time, elapsed): (f64, f64)) -> f64 {
-        let count = self.count();
-        let (values, changes) = (self.values(start), self.each(|coordinate| changes[coordinate]));
-        self.scale * self.relation.change((time - elapsed, &values[..count]), elapsed, &changes[..count])
-    }
-
     /// ∂c/∂q.
-    pub fn gradient(&self, at: &Kinematics) -> Coupled {
+    pub fn slopes(&self, at: &Kinematics) -> Coupled {
         self.by_coordinate(|unit| self.jet(at, (0.0, unit))[1])
     }
 
     /// ∂c/∂t.
     pub(crate) fn by_time(&self, at: &Kinematics) -> f64 {
         self.jet(at, (1.0, &Coupled::default()))[1]
-    }
-
-    /// What c̈ holds besides ∂c/∂q q̈.
-    pub(crate) fn acceleration(&self, at: &Kinematics) -> f64 {
-        self.jet(at, (1.0, &self.rates(at)))[2]
     }
 
     /// ∂²c/∂q² times `direction` and `time` times ∂²c/∂q∂t.
@@ -121,7 +110,125 @@ impl Coupling {
 
     /// Forces on its coordinates for the multiplier `mu` [N, N m].
     pub fn forces(&self, at: &Kinematics, mu: f64) -> impl Iterator<Item = f64> {
-        self.gradient(at).into_iter().take(self.count()).map(move |by| -mu * by)
+        self.slopes(at).into_iter().take(self.count()).map(move |by| -mu * by)
+    }
+}
+
+impl Constraint for Coupling {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn first_multiplier(&self) -> usize {
+        self.multiplier
+    }
+
+    fn equations(&self) -> usize {
+        1
+    }
+
+    fn quantity(&self, _equation: usize) -> Quantity {
+        self.quantity
+    }
+
+    fn ports(&self) -> usize {
+        self.count()
+    }
+
+    fn port(&self, _arrangement: usize, index: usize) -> Port {
+        Port::Coordinate(self.coordinates[index])
+    }
+
+    fn violation(&self, at: &Kinematics, out: &mut [f64]) {
+        out[0] = self.jet(at, (0.0, &Coupled::default()))[0];
+    }
+
+    fn violation_change(&self, increments: &Increments<'_>, (time, elapsed): (f64, f64), out: &mut [f64]) {
+        let count = self.count();
+        let values = self.values(increments.start);
+        let changes = self.each(|coordinate| increments.coordinates[coordinate]);
+        out[0] =
+            self.scale * self.relation.change((time - elapsed, &values[..count]), elapsed, &changes[..count]);
+    }
+
+    fn gradient(&self, at: &Kinematics, out: &mut [f64]) {
+        out.copy_from_slice(&self.slopes(at)[..self.count()]);
+    }
+
+    fn curvature(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
+        let count = self.count();
+        for (j, column) in self.hessian(at).iter().enumerate().take(count) {
+            for (i, value) in column.iter().enumerate().take(count) {
+                out[i * count + j] = multipliers[0] * value;
+            }
+        }
+    }
+
+    fn time_derivative(&self, at: &Kinematics, out: &mut [f64]) {
+        out[0] = self.by_time(at);
+    }
+
+    fn acceleration(&self, at: &Kinematics, out: &mut [f64]) {
+        out[0] = self.jet(at, (1.0, &self.rates(at)))[2];
+    }
+
+    fn may_depend_on_time(&self) -> bool {
+        true
+    }
+
+    fn depends_on_time(&self, at: &Kinematics) -> bool {
+        self.by_time(at) != 0.0
+    }
+
+    /// The power is μ ∂c/∂t.
+    fn work(&self, from: (&Kinematics, &[f64]), to: (&Kinematics, &[f64])) -> f64 {
+        let elapsed = to.0.time - from.0.time;
+        let power =
+            |(at, multipliers): (&Kinematics, &[f64])| multipliers[self.multiplier] * self.by_time(at);
+        0.5 * elapsed * (power(from) + power(to))
+    }
+
+    /// As joints: forces do no work but that of ∂c/∂t.
+    fn visit(&self, step: &StepStages<'_>, end: &Increments<'_>, before: &[f64], out: &mut Visit<'_>) {
+        let mut rows = step.stages.map(|at| self.slopes(at));
+        let mut rates = [0.0; STAGES];
+        let mut weights = [Coupled::default(); STAGES];
+        let mut squares = [0.0; STAGES];
+        let mut way = 0.0_f64;
+        for (j, at) in step.stages.iter().enumerate() {
+            let speeds = self.rates(at);
+            rates[j] = self.by_time(at);
+            let mut terms = rates[j].abs();
+            for (k, quantity) in self.quantities.iter().enumerate() {
+                let unit = match quantity {
+                    Quantity::Length | Quantity::State => 1.0,
+                    Quantity::Angle => step.length,
+                };
+                rates[j] += rows[j][k] * speeds[k];
+                terms += (rows[j][k] * speeds[k]).abs();
+                weights[j][k] = unit * unit * speeds[k];
+                squares[j] += weights[j][k] * speeds[k];
+            }
+            way = way.max(step.lasting[j].abs() * terms);
+        }
+        self.violation_change(end, (step.end.time, step.end.elapsed), out.changes);
+        let missed = out.changes[0] - step.whole(rates);
+        let (inverse, mut shares) = step.shares(squares);
+        let whole: f64 = step.lasting.iter().sum();
+        if inverse == 0.0 {
+            shares = [1.0 / whole; STAGES];
+        }
+        // What is below round-off counts in the violations but would be noise in the forces.
+        let known = missed * above_round_off(missed.abs(), ROUND_OFF * way);
+        let violations =
+            step.at_stages(0.0, [0, 1].map(|j| rates[j] + shares[j] * missed + before[0] / whole));
+        for j in 0..STAGES {
+            for k in 0..self.count() {
+                rows[j][k] += inverse * known * weights[j][k];
+            }
+            out.rows[j].copy_from_slice(&rows[j][..self.count()]);
+            out.violations[j][0] = violations[j];
+        }
     }
 }
 
@@ -210,10 +317,11 @@ mod tests {
         let coupling = Coupling {
             name: "bent".to_owned(),
             coordinates: vec![1, 0],
+            quantities: vec![Quantity::Length; 2],
+            quantity: Quantity::Length,
             multiplier: 0,
             relation: Arc::new(Bent),
             scale: 2.0,
-            positions: Vec::new(),
         };
         let motion = |value, rate| crate::kinematics::CoordinateMotion { value, rate, acceleration: 0.0 };
         let at = Kinematics {
@@ -227,8 +335,13 @@ mod tests {
         let (sine, cosine) = 0.4_f64.sin_cos();
         let close =
             |found: f64, wanted: f64| assert!((found - 2.0 * wanted).abs() < 1e-14, "{found} {wanted}");
-        close(coupling.violation(&at), sine * 1.3 + 0.28);
-        let gradient = coupling.gradient(&at);
+        let numbers = |of: &dyn Fn(&mut [f64])| {
+            let mut out = [0.0];
+            of(&mut out);
+            out[0]
+        };
+        close(numbers(&|out| coupling.violation(&at, out)), sine * 1.3 + 0.28);
+        let gradient = coupling.slopes(&at);
         close(gradient[0], cosine * 1.3 + 0.7);
         close(gradient[1], sine);
         let hessian = coupling.hessian(&at);
@@ -237,7 +350,7 @@ mod tests {
         close(hessian[1][0], cosine);
         close(hessian[1][1], 0.0);
         close(coupling.by_time(&at), 0.4);
-        close(coupling.acceleration(&at), -sine * 0.04 * 1.3 - 2.0 * cosine * 0.1 - 0.4);
+        close(numbers(&|out| coupling.acceleration(&at, out)), -sine * 0.04 * 1.3 - 2.0 * cosine * 0.1 - 0.4);
         let second = coupling.second(&at, (1.0, &coupling.rates(&at)));
         close(second[0], -sine * 1.3 * -0.2 + cosine * 0.5 + 1.0);
         close(second[1], cosine * -0.2);

@@ -13,10 +13,12 @@ pub mod cam;
 pub(crate) mod centerline;
 pub mod clamp;
 pub mod constant_velocity;
+pub mod constraint;
 pub mod coupling;
 pub mod cylindrical;
 pub mod derivatives;
 pub mod distance;
+pub mod drive;
 pub mod equation;
 pub mod evaluation_point;
 pub mod gear;
@@ -51,6 +53,8 @@ pub mod universal;
 pub mod wheel_on_rail;
 
 pub use any_joint::AnyJoint;
+pub use constraint::Constraint;
+pub use drive::Drive;
 pub use kind::{Build, Coupled, Frames, Geometry, JointKind, MakeFree, MakeJoint, MakeRelation};
 pub use kinds::KINDS;
 

@@ -16,6 +16,7 @@ use lissom_motion::{Matrix3, Vector3, Vector6, skew};
 
 use super::alignment::{Aligned, Alignment};
 use super::centerline::{Centerline, SUPPORT, Support};
+use super::constraint::{Constraint, Port};
 use super::kind::{Build, JointKind};
 use crate::joints::evaluation_point::Increments;
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, NodeMotion, Quantity};
@@ -104,15 +105,10 @@ pub struct Slider {
     pub(crate) alignments: Vec<Alignment>,
     /// Its first multiplier among all; there are three, the force on the beam in inertial axes [N], and one for each direction.
     pub first_multiplier: usize,
-    /// By interval between nodes: local row, local column and position in the tangent's pattern of every entry that is there;
-    /// multipliers follow the local unknowns.
-    pub(crate) entries: Vec<Vec<(usize, usize, usize)>>,
 }
 
 /// Where a slider is.
 pub(crate) struct Place {
-    /// Between which nodes.
-    pub(crate) interval: usize,
     pub(super) support: Support,
 }
 
@@ -128,11 +124,6 @@ impl Slider {
     /// How many equations it has.
     pub fn equations(&self) -> usize {
         ON_LINE + self.alignments.len()
-    }
-
-    /// What an equation measures.
-    pub(crate) fn quantity(equation: usize) -> Quantity {
-        if equation < ON_LINE { Quantity::Length } else { Quantity::Angle }
     }
 
     fn aligned(&self) -> impl Iterator<Item = (usize, Aligned<'_>)> {
@@ -156,7 +147,7 @@ impl Slider {
     /// Where it is.
     pub(crate) fn place(&self, at: &Kinematics) -> Place {
         let s = at.coordinates[self.coordinate].value;
-        Place { interval: self.line.interval(s), support: self.line.at(s) }
+        Place { support: self.line.at(s) }
     }
 
     fn carried(&self, place: &Place, local: usize) -> &CarriedPoint {
@@ -173,18 +164,8 @@ impl Slider {
         Self::on_beam(place, 0).chain([(TIP, 1.0)])
     }
 
-    /// Nodes by local number in an interval.
-    pub(crate) fn nodes_of(&self, interval: usize) -> [Option<NodeId>; SUPPORT + 1] {
-        let (first, count) = self.line.nodes_of(interval);
-        std::array::from_fn(|k| match k {
-            TIP => Some(self.tip.node),
-            _ if k < count => Some(self.nodes[first + k].node),
-            _ => None,
-        })
-    }
-
     /// Violations, evaluated outright [m, rad]; those that it does not have are zero.
-    pub fn violation(&self, at: &Kinematics) -> Vector6 {
+    fn violations(&self, at: &Kinematics) -> Vector6 {
         let place = self.place(at);
         let beside = self.tip.place(at) - self.along(&place, 0, at);
         let mut violation = filled(&beside);
@@ -193,11 +174,11 @@ impl Slider {
     }
 
     /// Change of the violations since the start of the step, without cancellation [m, rad].
-    pub(crate) fn violation_change(&self, increments: &Increments<'_>) -> Vector6 {
+    fn violation_changes(&self, increments: &Increments<'_>) -> Vector6 {
         let start = increments.start.coordinates[self.coordinate].value;
         let change = increments.coordinates[self.coordinate];
         let (s, slide) = (start + change, (start, change));
-        let after = Place { interval: self.line.interval(s), support: self.line.at(s) };
+        let after = Place { support: self.line.at(s) };
         let moved = after.support.sum(0, |node| self.nodes[node].shift(increments));
         let slid = self.line.change(0, slide, |node| self.nodes[node].place(increments.start));
         let mut violation = filled(&(self.tip.shift(increments) - moved - slid));
@@ -215,7 +196,7 @@ impl Slider {
     }
 
     /// B by equation.
-    pub(crate) fn gradient(&self, place: &Place, at: &Kinematics) -> [Row; MOST_EQUATIONS] {
+    fn rows(&self, place: &Place, at: &Kinematics) -> [Row; MOST_EQUATIONS] {
         let mut rows = [[0.0; LOCAL]; MOST_EQUATIONS];
         for (k, factor) in Self::all(place) {
             let own = self.carried(place, k);
@@ -237,9 +218,9 @@ impl Slider {
     }
 
     /// Derivatives of Bᵀ μ at constant multipliers, by row and column of the local unknowns.
-    pub(crate) fn curvature(&self, place: &Place, at: &Kinematics, multipliers: &Vector6) -> [Row; LOCAL] {
+    fn row_derivatives(&self, place: &Place, at: &Kinematics, multipliers: &[f64]) -> [Row; LOCAL] {
         let mut out = [[0.0; LOCAL]; LOCAL];
-        let mu = &multipliers.fixed_rows::<ON_LINE>(0).into_owned();
+        let mu = &Vector3::from_column_slice(&multipliers[..ON_LINE]);
         let local_force = |k: usize| {
             let own = self.carried(place, k);
             (own.motion(at).frame.rotation.apply_inverse(mu), own.point)
@@ -271,17 +252,6 @@ impl Slider {
         out
     }
 
-    /// Rates of the local unknowns.
-    pub(crate) fn speeds(&self, place: &Place, at: &Kinematics) -> Row {
-        let mut speeds = [0.0; LOCAL];
-        for (k, _) in Self::all(place) {
-            let twist = self.carried(place, k).motion(at).twist;
-            speeds[6 * k..6 * k + 6].copy_from_slice(twist.as_slice());
-        }
-        speeds[OWN] = at.coordinates[self.coordinate].rate;
-        speeds
-    }
-
     /// Nodes on whose motion it depends: those along the beams, and what slides.
     pub fn carriers(&self) -> impl Iterator<Item = NodeId> + '_ {
         self.nodes.iter().chain([&self.tip]).map(|point| point.node)
@@ -291,8 +261,8 @@ impl Slider {
     /// coordinate to a lower order.
     pub fn coordinate_acceleration(&self, at: &Kinematics) -> f64 {
         let place = self.place(at);
-        let gradient = self.gradient(&place, at);
-        let mut missing = self.acceleration(at).fixed_rows::<ON_LINE>(0).into_owned();
+        let gradient = self.rows(&place, at);
+        let mut missing = self.accelerations(at).fixed_rows::<ON_LINE>(0).into_owned();
         for (k, _) in Self::all(&place) {
             let acceleration = self.carried(&place, k).motion(at).acceleration;
             for (e, row) in gradient.iter().take(ON_LINE).enumerate() {
@@ -304,7 +274,7 @@ impl Slider {
     }
 
     /// What c̈ holds besides B v̇ [m/s², rad/s²].
-    pub(crate) fn acceleration(&self, at: &Kinematics) -> Vector6 {
+    fn accelerations(&self, at: &Kinematics) -> Vector6 {
         let place = self.place(at);
         let rate = at.coordinates[self.coordinate].rate;
         let mut sum = -rate * rate * self.along(&place, 2, at);
@@ -320,6 +290,76 @@ impl Slider {
         let mut out = filled(&sum);
         self.aligned().for_each(|(e, own)| out[e] = own.acceleration(&place, at, rate));
         out
+    }
+}
+
+impl Constraint for Slider {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn first_multiplier(&self) -> usize {
+        self.first_multiplier
+    }
+
+    fn equations(&self) -> usize {
+        self.equations()
+    }
+
+    fn quantity(&self, equation: usize) -> Quantity {
+        if equation < ON_LINE { Quantity::Length } else { Quantity::Angle }
+    }
+
+    fn arrangements(&self) -> usize {
+        self.line.intervals()
+    }
+
+    fn arrangement(&self, at: &Kinematics) -> usize {
+        self.line.interval(at.coordinates[self.coordinate].value)
+    }
+
+    fn ports(&self) -> usize {
+        SUPPORT + 2
+    }
+
+    fn port(&self, interval: usize, index: usize) -> Port {
+        let (first, count) = self.line.nodes_of(interval);
+        match index {
+            TIP => Port::Node(self.tip.node),
+            _ if index < count => Port::Node(self.nodes[first + index].node),
+            _ if index < TIP => Port::NoNode,
+            _ => Port::Coordinate(self.coordinate),
+        }
+    }
+
+    fn size(&self) -> usize {
+        LOCAL
+    }
+
+    /// What slides, and all nodes of the beams together: of these it acts on others as it moves on.
+    fn sides(&self) -> Vec<Vec<NodeId>> {
+        vec![vec![self.tip.node], self.nodes.iter().map(|point| point.node).collect()]
+    }
+
+    fn violation(&self, at: &Kinematics, out: &mut [f64]) {
+        out.copy_from_slice(&self.violations(at).as_slice()[..self.equations()]);
+    }
+
+    fn violation_change(&self, increments: &Increments<'_>, _time_elapsed: (f64, f64), out: &mut [f64]) {
+        out.copy_from_slice(&self.violation_changes(increments).as_slice()[..self.equations()]);
+    }
+
+    fn gradient(&self, at: &Kinematics, out: &mut [f64]) {
+        let rows = self.rows(&self.place(at), at);
+        out.copy_from_slice(&rows.as_flattened()[..out.len()]);
+    }
+
+    fn curvature(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
+        out.copy_from_slice(self.row_derivatives(&self.place(at), at, multipliers).as_flattened());
+    }
+
+    fn acceleration(&self, at: &Kinematics, out: &mut [f64]) {
+        out.copy_from_slice(&self.accelerations(at).as_slice()[..self.equations()]);
     }
 }
 

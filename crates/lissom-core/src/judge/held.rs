@@ -31,7 +31,7 @@ pub(crate) struct LostHold {
 pub(crate) fn lost(system: &System, start: &Kinematics, at: &Kinematics, length: f64) -> Option<LostHold> {
     let length = if length > 0.0 { length } else { 1.0 };
     let mut least: Option<(f64, LostHold)> = None;
-    for joint in system.joints.iter().filter(|joint| joint.equations() > 0) {
+    for joint in system.joints().iter().filter(|joint| joint.equations() > 0) {
         let Some(((before, _), (now, equation))) = hold(joint, start, length).zip(hold(joint, at, length))
         else {
             continue;

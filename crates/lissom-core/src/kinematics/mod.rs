@@ -7,6 +7,7 @@ mod layout;
 mod motion;
 mod quantity;
 pub mod step_stages;
+pub(crate) mod work;
 
 pub use carried_frame::CarriedFrame;
 pub use layout::{Freedoms, LOCKED, Layout};

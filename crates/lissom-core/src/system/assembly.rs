@@ -8,12 +8,11 @@
 
 use lissom_motion::WIDTH;
 
+use super::System;
 use super::batch::{scatter, scatter_lane};
 use super::linearization::{Linearization, Scratch};
 use super::receiver::{Place, Receiver};
 use super::threads::Threads;
-use super::{Drive, System};
-use crate::joints::Equations;
 use crate::joints::blocks::{Results, Wanted};
 use crate::joints::derivatives::{Derivatives, LOCAL, OWN, TIP};
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
@@ -61,9 +60,7 @@ impl System {
                 }
             });
         }
-        self.add_drives(point, out);
-        self.add_couplings(point, out);
-        self.add_sliders(point, out);
+        self.add_others(point, out);
     }
 
     /// The same on several threads, to the last bit.
@@ -90,34 +87,12 @@ impl System {
                 scatter(self.rows_of_joint(index as usize), &locals[firsts[item]..firsts[item + 1]], out);
             }
         }
-        self.add_drives(point, out);
-        self.add_couplings(point, out);
-        self.add_sliders(point, out);
+        self.add_others(point, out);
     }
 
     /// Rows of a joint's local unknowns and equations.
     pub(crate) fn rows_of_joint(&self, joint: usize) -> &[u32] {
         &self.joint_rows[self.joint_starts[joint]..self.joint_starts[joint + 1]]
-    }
-
-    /// Rows of a drive's coordinate and multiplier.
-    pub(super) fn rows_of_drive(&self, drive: &Drive) -> [usize; 2] {
-        let coordinate = self.layout.row_of_coordinate(drive.prescribed.coordinate);
-        [coordinate, self.layout.coordinate_count + drive.multiplier]
-    }
-
-    fn add_drives(&self, point: &Point<'_>, out: &mut [f64]) {
-        for drive in &self.drives {
-            let rows = self.rows_of_drive(drive);
-            let violation = drive_violation(drive, point);
-            out[rows[1]] = violation;
-            let weight = point.augmentation.weight * self.relative_weight(point, drive.multiplier);
-            out[rows[0]] += point.multipliers[drive.multiplier] + weight * violation;
-        }
-    }
-
-    fn relative_weight(&self, point: &Point<'_>, multiplier: usize) -> f64 {
-        point.augmentation.relative(self.layout.quantities[self.layout.coordinate_count + multiplier])
     }
 
     /// Violations at `point` alone, by multiplier.
@@ -126,7 +101,7 @@ impl System {
             let blocks = 0..batch.indices().len().div_ceil(WIDTH);
             batch.evaluate(Wanted::Violations, point, starts, blocks, &mut |block, results| {
                 for (lane, item) in batch.block_items(block).enumerate() {
-                    let joint = &self.joints[batch.indices()[item] as usize];
+                    let joint = &self.constraints.joints[batch.indices()[item] as usize];
                     let own = &mut out[joint.first_multiplier..joint.first_multiplier + joint.equations()];
                     for (violation, numbers) in own.iter_mut().zip(&results[LOCAL..]) {
                         *violation = numbers[lane];
@@ -134,11 +109,7 @@ impl System {
                 }
             });
         }
-        for drive in &self.drives {
-            out[drive.multiplier] = drive_violation(drive, point);
-        }
-        self.coupling_violations(point, out);
-        self.slider_violations(point, out);
+        self.violations_of_others(point, out);
     }
 
     /// Linearisation at `point` with respect to the unknowns of `chart`.
@@ -195,55 +166,19 @@ impl System {
         out: &mut Receiver<'_>,
     ) {
         for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
-            batch.linearize(&self.joints, point, starts, chart, scratch, &mut |index, derivatives| {
-                let place = Place { rows: self.rows_of_joint(index), runs: self.joint_places.of(index) };
-                out.add_joint(place, derivatives);
-            });
+            batch.linearize(
+                &self.constraints.joints,
+                point,
+                starts,
+                chart,
+                scratch,
+                &mut |index, derivatives| {
+                    let place = Place { rows: self.rows_of_joint(index), runs: self.joint_places.of(index) };
+                    out.add_joint(place, derivatives);
+                },
+            );
         }
-        for drive in &self.drives {
-            out.add_drive(drive.positions, self.relative_weight(point, drive.multiplier));
-        }
-        self.linearize_couplings(point, out);
-        self.linearize_sliders(point, chart, out);
-    }
-
-    /// Ḃ v + ∂²c/∂t² by multiplier: what the constraints' second time derivative holds besides B v̇.
-    pub fn constraint_accelerations(&self, at: &Kinematics, out: &mut [f64]) {
-        let still = vec![MotionChange::none(); at.nodes.len()];
-        let unchanged = vec![0.0; at.coordinates.len()];
-        let increments = Increments { start: at, nodes: &still, coordinates: &unchanged, joints: None };
-        for joint in &self.joints {
-            let configuration = joint.configuration(&increments);
-            let speeds = joint.speeds(at);
-            for equation in 0..joint.equations() {
-                let mut mu = Equations::default();
-                mu[equation] = 1.0;
-                // d/dt (B_eᵀ) = (∂(B_eᵀ)/∂q) v
-                let curvature = joint.curvature(&configuration, &mu);
-                out[joint.first_multiplier + equation] = speeds.dot(&(curvature * speeds));
-            }
-        }
-        for drive in &self.drives {
-            out[drive.multiplier] = -drive.prescribed.value.second_derivative(at.time);
-        }
-        for coupling in &self.couplings {
-            out[coupling.multiplier] = coupling.acceleration(at);
-        }
-        for slider in &self.sliders {
-            let (first, count) = (slider.first_multiplier, slider.equations());
-            out[first..first + count].copy_from_slice(&slider.acceleration(at).as_slice()[..count]);
-        }
-    }
-
-    /// ∂c/∂t by multiplier.
-    pub(crate) fn constraint_velocities(&self, at: &Kinematics, out: &mut [f64]) {
-        out.fill(0.0);
-        for drive in &self.drives {
-            out[drive.multiplier] = -drive.prescribed.value.first_derivative(at.time);
-        }
-        for coupling in &self.couplings {
-            out[coupling.multiplier] = coupling.by_time(at);
-        }
+        self.linearize_others(point, chart, out);
     }
 }
 
@@ -261,10 +196,4 @@ fn scatter_joint(rows: &[u32], results: &Results, lane: usize, out: &mut [f64]) 
             *value = violation[lane];
         }
     }
-}
-
-fn drive_violation(drive: &Drive, point: &Point<'_>) -> f64 {
-    let change = point.increments.coordinates[drive.prescribed.coordinate];
-    point.violations[drive.multiplier]
-        + drive.prescribed.violation_change(change, point.at.time, point.at.elapsed)
 }

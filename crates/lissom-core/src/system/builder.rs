@@ -14,23 +14,21 @@ use std::sync::Arc;
 use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
 use lissom_solver::{Pattern, Structure};
 
-use self::coupling::rows_of_coupling;
 pub use self::drawn::PlaceOnTip;
 use self::drawn::{joint_rotation, start_values};
 use self::rolling::Impulse;
 use super::batch::{AnyBatch, Batch};
+use super::constraints::{Constraints, Placed};
 use super::feedback::{Feedback, Target};
-use super::places::{Places, free_rows, position_of};
+use super::places::{Places, free_rows};
 use super::state::State;
-use super::{CoordinateMass, Drive, ElementId, System};
+use super::{CoordinateMass, ElementId, System};
 use crate::elements::Element;
 use crate::elements::creep_force::CreepForce;
 use crate::elements::inertia::{Gravity, Inertia};
 use crate::joints::attached::AttachedJoint;
 use crate::joints::blocks::Batches;
-use crate::joints::coupling::Coupling;
 use crate::joints::derivatives::{LOCAL, OWN, TIP};
-use crate::joints::slider::Slider;
 use crate::joints::{Build, Geometry, JointKind};
 use crate::kinematics::{
     CarriedFrame, CoordinateId, CoordinateMotion, Freedoms, GROUND, Kinematics, LOCKED, Layout, NodeId,
@@ -90,10 +88,7 @@ pub struct Builder {
     nodes: Vec<Node>,
     coordinates: Vec<Coordinate>,
     batches: Vec<Box<dyn AnyBatch>>,
-    joints: Vec<AttachedJoint>,
-    drives: Vec<Drive>,
-    couplings: Vec<Coupling>,
-    sliders: Vec<Slider>,
+    constraints: Constraints,
     multipliers: Vec<(String, &'static str)>,
     multiplier_quantities: Vec<Quantity>,
     gravity: Gravity,
@@ -133,10 +128,7 @@ impl Builder {
             nodes: vec![ground],
             coordinates: Vec::new(),
             batches: Vec::new(),
-            joints: Vec::new(),
-            drives: Vec::new(),
-            couplings: Vec::new(),
-            sliders: Vec::new(),
+            constraints: Constraints::default(),
             multipliers: Vec::new(),
             multiplier_quantities: Vec::new(),
             gravity: Gravity::constant(Vector3::zeros()),
@@ -319,7 +311,7 @@ impl Builder {
             self.add_element(CreepForce::new(carried, first_multiplier, contact.clone(), law.clone()));
             self.last = None;
         }
-        self.joints.push(AttachedJoint {
+        self.constraints.joints.push(AttachedJoint {
             name: name.to_owned(),
             kind: kind.name,
             frames: carried,
@@ -397,22 +389,18 @@ impl Builder {
         let targets = std::mem::take(&mut self.targets);
         let mut feedback = Feedback::new(std::mem::take(&mut self.graph), targets, &layout)
             .map_err(|touches| BuildError::SignalTouchesTooMuch(touches.name))?;
-        let joint_rows: Vec<Vec<u32>> = self.joints.iter().map(|joint| rows_of(joint, &layout)).collect();
-        let of_drive = |drive: &Drive| {
-            let coordinate = layout.row_of_coordinate(drive.prescribed.coordinate);
-            (coordinate, layout.coordinate_count + drive.multiplier)
-        };
+        let joint_rows: Vec<Vec<u32>> =
+            self.constraints.joints.iter().map(|joint| rows_of(joint, &layout)).collect();
+        let mut placed: Vec<Placed> =
+            self.constraints.others().map(|constraint| Placed::new(constraint, &layout)).collect();
+        let of_others = self.constraints.others().zip(&placed);
         let cliques: Vec<Vec<usize>> = self
             .batches
             .iter()
             .flat_map(|batch| batch.cliques())
             .chain(feedback.cliques())
             .chain(joint_rows.iter().map(|rows| free_rows(rows)))
-            .chain(
-                self.drives.iter().map(of_drive).map(|(coordinate, multiplier)| vec![coordinate, multiplier]),
-            )
-            .chain(self.couplings.iter().map(|coupling| rows_of_coupling(coupling, &layout)))
-            .chain(self.sliders.iter().flat_map(|slider| slider::cliques(slider, &layout)))
+            .chain(of_others.flat_map(|(constraint, placed)| placed.cliques(constraint, &layout)))
             .collect();
         let pattern = Arc::new(Pattern::from_cliques(layout.size(), cliques.iter().map(Vec::as_slice)));
         for batch in &mut self.batches {
@@ -424,18 +412,8 @@ impl Builder {
             joint_places.push(&pattern, rows, LOCAL);
         }
         joint_places.shrink();
-        for drive in &mut self.drives {
-            let (coordinate, multiplier) = of_drive(drive);
-            drive.positions = [(coordinate, coordinate), (coordinate, multiplier), (multiplier, coordinate)]
-                .map(|(row, column)| position_of(&pattern, row, column));
-        }
-        for coupling in &mut self.couplings {
-            let rows = rows_of_coupling(coupling, &layout);
-            let entries = rows.iter().flat_map(|&column| rows.iter().map(move |&row| (row, column)));
-            coupling.positions = entries.map(|(row, column)| position_of(&pattern, row, column)).collect();
-        }
-        for slider in &mut self.sliders {
-            slider.entries = slider::entries(slider, &layout, &pattern);
+        for (constraint, placed) in self.constraints.others().zip(&mut placed) {
+            placed.locate(constraint, &layout, &pattern);
         }
         let structure = Structure::new(pattern, self.groups(&layout))
             .map_err(|error| BuildError::Structure(error.to_string()))?;
@@ -453,14 +431,12 @@ impl Builder {
         let system = System {
             layout,
             batches: self.batches,
-            joint_batches: Batches::new(&self.joints),
-            joints: self.joints,
-            drives: self.drives,
+            joint_batches: Batches::new(&self.constraints.joints),
+            constraints: self.constraints,
+            placed,
             coordinate_masses: self.coordinate_masses,
             free_coordinates: self.free_coordinates,
             latches: self.latches,
-            couplings: self.couplings,
-            sliders: self.sliders,
             structure,
             joint_places,
             joint_starts,

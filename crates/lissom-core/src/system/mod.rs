@@ -3,14 +3,13 @@
 mod assembly;
 mod batch;
 mod builder;
-mod couplings;
+mod constraints;
 mod feedback;
 mod linearization;
 pub(crate) mod places;
 mod reach;
 mod receiver;
 mod scratch;
-mod sliders;
 mod state;
 mod step_stages;
 mod threads;
@@ -18,6 +17,7 @@ mod work;
 
 use std::sync::Arc;
 
+pub use crate::joints::Drive;
 pub(crate) use batch::Owner;
 pub use builder::{BuildError, Builder, PlaceOnTip, Placement};
 pub use linearization::{Linearization, Scratch};
@@ -34,10 +34,10 @@ use nalgebra::DMatrix;
 
 use crate::elements::inertia::{Gravity, Inertia};
 use crate::elements::{Energy, LinearLimit, LinearRange};
+use crate::joints::Constraint;
 use crate::joints::attached::AttachedJoint;
 use crate::joints::blocks::{Batches, JointBatch};
 use crate::joints::coupling::Coupling;
-use crate::joints::prescribed::Prescribed;
 use crate::joints::slider::Slider;
 use crate::joints::starts::JointStarts;
 use crate::kinematics::{self, CoordinateId, HeldId, Kinematics, Layout, NodeId};
@@ -45,21 +45,10 @@ use crate::registry::Function;
 use crate::signals::Graph;
 use batch::AnyBatch;
 pub(crate) use batch::Mass;
+pub(crate) use constraints::rows_of_port;
+use constraints::{Constraints, Placed};
 pub(crate) use feedback::Feedback;
 use places::Places;
-
-/// A coordinate driven as a function of time, with its place among the multipliers.
-#[derive(Debug)]
-pub struct Drive {
-    /// Name in the model.
-    pub name: String,
-    /// What is prescribed.
-    pub prescribed: Prescribed,
-    /// Its multiplier, the drive's moment or force, among all multipliers.
-    pub multiplier: usize,
-    /// In the tangent's pattern: the coordinate's diagonal entry, and its entries in the multiplier's column and row.
-    pub(crate) positions: [usize; 3],
-}
 
 /// A mass matrix on coordinates, as elements bring it into the equations.
 pub(crate) struct CoordinateMass {
@@ -80,11 +69,10 @@ pub struct ElementId {
 pub struct System {
     pub(crate) layout: Layout,
     pub(crate) batches: Vec<Box<dyn AnyBatch>>,
-    pub(crate) joints: Vec<AttachedJoint>,
+    pub(crate) constraints: Constraints,
     pub(crate) joint_batches: Batches,
-    pub(crate) drives: Vec<Drive>,
-    pub(crate) couplings: Vec<Coupling>,
-    pub(crate) sliders: Vec<Slider>,
+    /// Where constraints act that are not evaluated in lanes.
+    pub(crate) placed: Vec<Placed>,
     pub(crate) coordinate_masses: Vec<CoordinateMass>,
     /// Coordinates that no joint between nodes has.
     pub(crate) free_coordinates: Vec<CoordinateId>,
@@ -122,7 +110,7 @@ impl System {
 
     /// All joints between nodes.
     pub fn joints(&self) -> &[AttachedJoint] {
-        &self.joints
+        &self.constraints.joints
     }
 
     /// Takes note of what joints see at the start of a step.
@@ -132,7 +120,17 @@ impl System {
 
     /// All prescribed coordinates.
     pub fn drives(&self) -> &[Drive] {
-        &self.drives
+        &self.constraints.drives
+    }
+
+    /// All relations between coordinates.
+    pub fn couplings(&self) -> &[Coupling] {
+        &self.constraints.couplings
+    }
+
+    /// All sliders along beams.
+    pub fn sliders(&self) -> &[Slider] {
+        &self.constraints.sliders
     }
 
     /// Inertia of every node that has mass.
@@ -210,8 +208,10 @@ impl System {
 
     /// Work of prescribed motions between two configurations with their multipliers, likewise [J].
     pub fn work_of_drives(&self, from: (&Kinematics, &[f64]), to: (&Kinematics, &[f64])) -> f64 {
-        self.drives.iter().map(|drive| work_of_drive(drive, from, to)).sum::<f64>()
-            + self.work_of_couplings(from, to)
+        if self.placed.is_empty() {
+            return 0.0;
+        }
+        self.constraints.others().map(|constraint| constraint.work(from, to)).sum()
     }
 
     /// The first function of time that has no finite value, or no finite derivative, at `time` [s]: its words and the
@@ -227,10 +227,10 @@ impl System {
     /// Times at which loads, prescribed motions, states and the numbers whose zeros are events are known not to be smooth
     /// [s], in ascending order.
     pub fn kinks(&self) -> Vec<f64> {
-        let of_drives = self.drives.iter().flat_map(|drive| drive.prescribed.value.kinks());
+        let of_constraints = self.constraints.others().flat_map(Constraint::kinks);
         let of_events = self.signals().kinks_of(self.signals().events().iter().map(|event| event.root));
         let of_elements = self.batches.iter().flat_map(|batch| batch.kinks());
-        let mut kinks: Vec<f64> = of_elements.chain(of_drives).chain(of_events).collect();
+        let mut kinks: Vec<f64> = of_elements.chain(of_constraints).chain(of_events).collect();
         kinks.sort_by(f64::total_cmp);
         kinks.dedup();
         kinks
@@ -317,32 +317,4 @@ impl System {
         });
         twists.chain(rates).collect()
     }
-
-    /// Violations of all constraints, evaluated outright from absolute places: by multiplier.
-    pub fn violations(&self, at: &Kinematics, out: &mut [f64]) {
-        for joint in &self.joints {
-            let violation = joint.violation(at);
-            let first = joint.first_multiplier;
-            out[first..first + joint.equations()].copy_from_slice(&violation[..joint.equations()]);
-        }
-        for drive in &self.drives {
-            let value = at.coordinates[drive.prescribed.coordinate].value;
-            out[drive.multiplier] = drive.prescribed.violation(value, at.time);
-        }
-        for coupling in &self.couplings {
-            out[coupling.multiplier] = coupling.violation(at);
-        }
-        for slider in &self.sliders {
-            let (first, count) = (slider.first_multiplier, slider.equations());
-            out[first..first + count].copy_from_slice(&slider.violation(at).as_slice()[..count]);
-        }
-    }
-}
-
-/// Work of a drive between two configurations with their multipliers [J].
-pub(crate) fn work_of_drive(drive: &Drive, from: (&Kinematics, &[f64]), to: (&Kinematics, &[f64])) -> f64 {
-    let coordinate = drive.prescribed.coordinate;
-    let [start, end] = [from.0, to.0].map(|at| at.coordinates[coordinate]);
-    let forces = [from.1, to.1].map(|multipliers| -multipliers[drive.multiplier]);
-    work::along(forces, end.value - start.value, [start.rate, end.rate], to.0.time - from.0.time)
 }

@@ -15,9 +15,7 @@ use std::sync::Arc;
 use super::System;
 use super::batch::{AnyBatch, Changed};
 use crate::elements::is_same;
-use crate::joints::Equations;
-use crate::joints::derivatives::LOCAL;
-use crate::kinematics::{Kinematics, LOCKED};
+use crate::kinematics::Kinematics;
 
 /// What differs between models of the same unknowns.
 pub(crate) struct Reach {
@@ -27,10 +25,7 @@ pub(crate) struct Reach {
     derivatives: Vec<Box<dyn AnyBatch>>,
     /// Elements to be compared, by batch.
     elements: Vec<(usize, Vec<usize>)>,
-    joints: Vec<usize>,
-    drives: Vec<usize>,
-    couplings: Vec<usize>,
-    sliders: Vec<usize>,
+    constraints: Vec<usize>,
 }
 
 impl Reach {
@@ -39,10 +34,7 @@ impl Reach {
         let (first, _) = systems.first()?;
         let is_alike = |other: &System| {
             first.batches.len() == other.batches.len()
-                && first.joints.len() == other.joints.len()
-                && first.drives.len() == other.drives.len()
-                && first.couplings.len() == other.couplings.len()
-                && first.sliders.len() == other.sliders.len()
+                && first.constraints.counts() == other.constraints.counts()
         };
         if !systems.iter().all(|(other, _)| is_alike(other)) {
             return None;
@@ -57,19 +49,12 @@ impl Reach {
                 Changed::Items(items) => elements.push((index, items)),
             }
         }
-        let differing = |is_changed: &dyn Fn(&System, usize) -> bool, count: usize| -> Vec<usize> {
-            let is_any = |&index: &usize| systems.iter().any(|(other, _)| is_changed(other, index));
-            (0..count).filter(is_any).collect()
+        let is_changed = |&index: &usize| {
+            let own = first.constraints.get(index);
+            systems.iter().any(|(other, _)| !is_same(own, other.constraints.get(index)))
         };
-        let is_other = |other: &System, k: usize| !is_same(&first.joints[k], &other.joints[k]);
-        let joints = differing(&is_other, first.joints.len());
-        let is_other = |other: &System, k: usize| !is_same(&first.drives[k], &other.drives[k]);
-        let drives = differing(&is_other, first.drives.len());
-        let is_other = |other: &System, k: usize| !is_same(&first.couplings[k], &other.couplings[k]);
-        let couplings = differing(&is_other, first.couplings.len());
-        let is_other = |other: &System, k: usize| !is_same(&first.sliders[k], &other.sliders[k]);
-        let sliders = differing(&is_other, first.sliders.len());
-        Some(Self { systems, derivatives, elements, joints, drives, couplings, sliders })
+        let constraints = (0..first.constraints.counts().iter().sum()).filter(is_changed).collect();
+        Some(Self { systems, derivatives, elements, constraints })
     }
 
     /// Adds the derivatives of forces and violations by the number, by row.
@@ -77,12 +62,7 @@ impl Reach {
         for batch in &self.derivatives {
             batch.forces(at, out);
         }
-        let has_differences = !(self.elements.is_empty()
-            && self.joints.is_empty()
-            && self.drives.is_empty()
-            && self.couplings.is_empty()
-            && self.sliders.is_empty());
-        if !has_differences {
+        if self.elements.is_empty() && self.constraints.is_empty() {
             return;
         }
         for (system, weight) in &self.systems {
@@ -95,46 +75,12 @@ impl Reach {
                     batch.forces_of(items, at, scratch);
                 }
             }
-            self.add_constraints(system, at, multipliers, scratch);
+            for &constraint in &self.constraints {
+                system.add_outright(constraint, at, multipliers, scratch);
+            }
             for (sum, value) in out.iter_mut().zip(&*scratch) {
                 *sum += weight * value;
             }
-        }
-    }
-
-    fn add_constraints(&self, system: &System, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
-        let layout = &system.layout;
-        for &index in &self.joints {
-            let joint = &system.joints[index];
-            let own = joint.first_multiplier..joint.first_multiplier + joint.equations();
-            let mut mu = Equations::default();
-            mu[..own.len()].copy_from_slice(&multipliers[own.clone()]);
-            let configuration = joint.outright(at);
-            let forces = joint.forces(&configuration, &mu);
-            let rows = system.rows_of_joint(index);
-            for (&row, force) in rows[..LOCAL].iter().zip(forces.iter()) {
-                if row != LOCKED {
-                    out[row as usize] += force;
-                }
-            }
-            let violation = joint.joint().violation(&configuration.0, &configuration.1);
-            out[layout.coordinate_count..][own].copy_from_slice(&violation[..joint.equations()]);
-        }
-        for &index in &self.drives {
-            let drive = &system.drives[index];
-            let value = at.coordinates[drive.prescribed.coordinate].value;
-            out[layout.coordinate_count + drive.multiplier] = drive.prescribed.violation(value, at.time);
-        }
-        for &index in &self.couplings {
-            let coupling = &system.couplings[index];
-            let mu = multipliers[coupling.multiplier];
-            for (&coordinate, by) in coupling.coordinates.iter().zip(&coupling.gradient(at)) {
-                out[layout.row_of_coordinate(coordinate)] += by * mu;
-            }
-            out[layout.coordinate_count + coupling.multiplier] = coupling.violation(at);
-        }
-        for &index in &self.sliders {
-            system.add_slider_outright(index, at, multipliers, out);
         }
     }
 }

@@ -114,19 +114,6 @@ impl Receiver<'_> {
             Self::Complex(sum) => sum.add_constraint_entry(position, [place, augmented, constraint]),
         }
     }
-
-    /// Adds a drive's derivatives: `weight` to BᵀWB, 1 to B and Bᵀ, at these positions.
-    pub(super) fn add_drive(&mut self, [gram, column, row]: [usize; 3], weight: f64) {
-        match self {
-            Self::Apart(out) => {
-                out.gram[gram] += weight;
-                out.constraint[column] = 1.0;
-                out.constraint[row] = 1.0;
-            }
-            Self::Real(sum) => sum.add_drive([gram, column, row], weight),
-            Self::Complex(sum) => sum.add_drive([gram, column, row], weight),
-        }
-    }
 }
 
 impl<T: Scalar> Sum<'_, T> {
@@ -170,12 +157,6 @@ impl<T: Scalar> Sum<'_, T> {
     fn add_constraint_entry(&mut self, position: usize, [place, augmented, constraint]: [f64; 3]) {
         let Blend { place: p, augmented: a, constraint: c, .. } = self.blend;
         self.values[position] += T::from_real(p * place + a * augmented + c * constraint);
-    }
-
-    fn add_drive(&mut self, [gram, column, row]: [usize; 3], weight: f64) {
-        self.values[gram] += T::from_real(self.blend.augmented * weight);
-        self.values[column] += T::from_real(self.blend.constraint);
-        self.values[row] += T::from_real(self.blend.constraint);
     }
 }
 

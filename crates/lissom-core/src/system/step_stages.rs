@@ -3,7 +3,7 @@
 
 use nalgebra::SVector;
 
-use super::{Drive, System};
+use super::System;
 use crate::joints::attached::AttachedJoint;
 use crate::joints::derivatives::LOCAL;
 use crate::joints::evaluation_point::{Augmentation, Increments};
@@ -36,20 +36,10 @@ impl System {
         for batch in &self.batches {
             batch.stage_forces(&point.step, out);
         }
-        for (index, joint) in self.joints.iter().enumerate() {
+        for (index, joint) in self.constraints.joints.iter().enumerate() {
             joint_residuals(joint, self.rows_of_joint(index), point, out);
         }
-        for drive in &self.drives {
-            let rows = self.rows_of_drive(drive);
-            let quantity = self.layout.quantities[self.layout.coordinate_count + drive.multiplier];
-            let weight = point.augmentation.weight * point.augmentation.relative(quantity);
-            for (stage, violation) in drive_violations(drive, point).into_iter().enumerate() {
-                out[stage][rows[1]] = violation;
-                out[stage][rows[0]] += point.multipliers[stage][drive.multiplier] + weight * violation;
-            }
-        }
-        self.add_coupling_stages(point, out);
-        self.add_slider_stages(point, out);
+        self.add_stages_of_others(point, out);
     }
 }
 
@@ -74,17 +64,4 @@ fn joint_residuals(joint: &AttachedJoint, rows: &[u32], point: &StepPoint<'_>, o
             out[stage][row as usize] = *value;
         }
     }
-}
-
-/// c_i = γ_i (c_start - ρ) + Δφ_i - Σ_j d_ij ḟ_j with ρ = Δf - Σ_j D_j ḟ_j: the rate of φ follows that of f at
-/// both stages, but for the small ρ, which makes the violation vanish at the end.
-fn drive_violations(drive: &Drive, point: &StepPoint<'_>) -> [f64; STAGES] {
-    let StepStages { stages, end, .. } = point.step;
-    let value = &drive.prescribed.value;
-    let rates = stages.map(|at| value.first_derivative(at.time));
-    let missed = -drive.prescribed.violation_change(0.0, end.time, end.elapsed) - point.step.whole(rates);
-    let whole: f64 = point.step.lasting.iter().sum();
-    let rate = (point.violations[drive.multiplier] - missed) / whole;
-    let behind = point.step.at_stages(0.0, rates.map(|of| rate - of));
-    std::array::from_fn(|i| point.increments[i].coordinates[drive.prescribed.coordinate] + behind[i])
 }

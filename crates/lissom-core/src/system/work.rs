@@ -5,6 +5,7 @@ use lissom_motion::Vector3;
 use super::scratch::with_scratch;
 use crate::elements::Element;
 use crate::kinematics::Kinematics;
+use crate::kinematics::work::along;
 
 /// Work of an element's forces on its nodes and coordinates between two configurations, times `factors` there: forces in
 /// inertial axes over the way of their nodes, moments over the turn between, forces on coordinates over their change.
@@ -69,10 +70,4 @@ pub(super) fn power<E: Element + ?Sized>(element: &E, at: &Kinematics) -> f64 {
         // Forces stand on the left-hand side of the equations of motion.
         -twists.chain(rates).zip(forces).map(|(rate, force)| rate * *force).sum::<f64>()
     })
-}
-
-/// ∫ f dx of a force that changes linearly in time along a cubic way of given ends and speeds at them:
-/// (f₀ + f₁)/2 Δx + (f₁ - f₀)(v₁ - v₀) T/12.
-pub(super) fn along(forces: [f64; 2], way: f64, speeds: [f64; 2], elapsed: f64) -> f64 {
-    0.5 * (forces[0] + forces[1]) * way + (forces[1] - forces[0]) * (speeds[1] - speeds[0]) * (elapsed / 12.0)
 }

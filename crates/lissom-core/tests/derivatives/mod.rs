@@ -1,6 +1,7 @@
 //! Every registered element and joint: its tangents are the derivatives of its forces.
 
 mod configuration;
+mod constraints;
 mod departures;
 mod energies;
 mod feedback;
@@ -104,8 +105,21 @@ fn two_bodies(random: &mut Random) -> (Builder, [usize; 2]) {
     (builder, nodes)
 }
 
+/// A line of four nodes, the position of a slider on it, and what its tip turns with.
+struct Line {
+    nodes: (Vec<CarriedPoint>, Vec<f64>),
+    at: Vector3,
+    orientation: Orientation,
+}
+
+impl Line {
+    fn add_slider(&self, builder: &mut Builder, name: &str, tip: usize) {
+        builder.add_slider(name, self.nodes.clone(), (tip, self.at), &self.orientation).expect("valid");
+    }
+}
+
 /// A slider along a line of four nodes that carry their points beside themselves.
-fn along_a_line(builder: &mut Builder, tip: usize, turns_with: usize, random: &mut Random) {
+fn along_a_line(builder: &mut Builder, tip: usize, turns_with: usize, random: &mut Random) -> Line {
     let places: [Vector3; 4] =
         std::array::from_fn(|k| Vector3::new(2.0 * k as f64, 0.0, 0.0) + 0.1 * random.vector());
     let nodes = places.map(|place| {
@@ -115,7 +129,6 @@ fn along_a_line(builder: &mut Builder, tip: usize, turns_with: usize, random: &m
     });
     // Half way between the middle nodes: away from nodes, where third derivatives jump.
     let on_line = (9.0 * (places[1] + places[2]) - places[0] - places[3]) / 16.0;
-    let line = (nodes.to_vec(), vec![0.0, 2.0, 4.0, 6.0]);
     let orientation = match turns_with {
         0 => Orientation::Free,
         1 => Orientation::Tangent,
@@ -124,7 +137,9 @@ fn along_a_line(builder: &mut Builder, tip: usize, turns_with: usize, random: &m
             nodes.map(|own| builder.initial_frame(own.node).rotation.apply_inverse(&Vector3::y())).to_vec(),
         ),
     };
-    builder.add_slider("slider", line, (tip, on_line), &orientation).expect("valid");
+    let line = Line { nodes: (nodes.to_vec(), vec![0.0, 2.0, 4.0, 6.0]), at: on_line, orientation };
+    line.add_slider(builder, "slider", tip);
+    line
 }
 
 /// Two coordinates that no joint between nodes has.
@@ -255,42 +270,46 @@ fn all_joints() {
                 second_axis: Some(random.vector()),
             };
             let parameters = sample_parameters(kind.parameters, true, &mut random);
-            match kind.build {
-                Build::Relative(..) => {
-                    builder.add_joint("joint", kind, &placement, &parameters).expect("valid");
-                }
-                Build::Motion => {
-                    builder.add_motion("motion", &placement, &parameters).expect("valid");
-                }
-                Build::Coordinate(wanted, _) => {
-                    let coordinates = builder
-                        .add_joint(
-                            "joint",
-                            joint_with(wanted),
-                            &placement,
-                            &sample_parameters(&[], false, &mut random),
-                        )
-                        .expect("valid");
-                    builder.add_drive("drive", kind, coordinates[0], &parameters).expect("valid");
-                }
-                Build::AlongBeams => along_a_line(&mut builder, nodes[1], 0, &mut random),
-                Build::Free(_) => {
-                    builder.add_free_coordinates("free", kind, &parameters).expect("valid");
-                }
-                Build::Coupling(..) => {
-                    let cylindrical =
-                        joints::KINDS.iter().find(|kind| kind.name == "cylindrical").expect("there");
-                    let none = Parameters::new();
-                    let coordinates =
-                        builder.add_joint("joint", cylindrical, &placement, &none).expect("valid");
-                    builder.add_coupling("relation", kind, &coordinates, &parameters).expect("valid");
-                }
-            }
+            add(&mut builder, kind, &placement, &parameters, &mut random);
             let (system, state) = builder.build(0.0).expect("valid");
             check_names(kind.name, &system);
             check(kind.name, &system, &state, size, &mut random);
         }
     }
+}
+
+/// Adds a joint, drive, relation or slider of any kind, with what it acts on; gives the line of a slider.
+fn add(
+    builder: &mut Builder,
+    kind: &JointKind,
+    placement: &Placement,
+    parameters: &Parameters,
+    random: &mut Random,
+) -> Option<Line> {
+    let none = Parameters::new();
+    match kind.build {
+        Build::Relative(..) => {
+            builder.add_joint("joint", kind, placement, parameters).expect("valid");
+        }
+        Build::Motion => {
+            builder.add_motion("motion", placement, parameters).expect("valid");
+        }
+        Build::Coordinate(wanted, _) => {
+            let coordinates =
+                builder.add_joint("joint", joint_with(wanted), placement, &none).expect("valid");
+            builder.add_drive("drive", kind, coordinates[0], parameters).expect("valid");
+        }
+        Build::AlongBeams => return Some(along_a_line(builder, placement.nodes[1], 0, random)),
+        Build::Free(_) => {
+            builder.add_free_coordinates("free", kind, parameters).expect("valid");
+        }
+        Build::Coupling(..) => {
+            let cylindrical = joints::KINDS.iter().find(|kind| kind.name == "cylindrical").expect("there");
+            let coordinates = builder.add_joint("joint", cylindrical, placement, &none).expect("valid");
+            builder.add_coupling("relation", kind, &coordinates, parameters).expect("valid");
+        }
+    }
+    None
 }
 
 /// Every equation has words of its own.

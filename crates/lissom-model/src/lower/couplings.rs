@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use lissom_core::joints::Constraint as _;
 use lissom_core::joints::JointKind;
 use lissom_core::kinematics::{CoordinateId, Quantity};
 use lissom_core::registry::Value;
@@ -170,7 +171,9 @@ pub(super) fn check(document: &Document, system: &System, state: &State, problem
         let Some(component) = document.joints.iter().find(|joint| joint.name.value == coupling.name) else {
             continue;
         };
-        let violation = coupling.violation(&state.kinematics);
+        let mut violation = [0.0];
+        coupling.violation(&state.kinematics, &mut violation);
+        let [violation] = violation;
         // A value that is not a number is refused too.
         if violation.abs() <= SAME_PLACE {
             continue;

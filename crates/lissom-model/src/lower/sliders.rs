@@ -19,10 +19,6 @@ pub(super) fn add(
     (builder, names): (&mut Builder, &mut Names),
 ) -> Result<(), Problem> {
     let name = &component.name.value;
-    if let Some(assembly) = document.assembly.as_ref().map(|_| component.name.span) {
-        return Err(Problem::error(assembly, format!("slider `{name}` cannot be assembled"))
-            .help("place its tip on the beam, and leave out [assembly]"));
-    }
     let (mut nodes, mut knots, mut last): (Vec<CarriedPoint>, Vec<f64>, Option<&Beam>) = Default::default();
     // Axis 2 of the section at each node, in its axes.
     let mut sections: Vec<Vector3> = Vec::new();

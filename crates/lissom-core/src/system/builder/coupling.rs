@@ -5,10 +5,10 @@ use nalgebra::DMatrix;
 use super::{Builder, Coordinate};
 use crate::joints::coupling::{Coupling, MOST_COUPLED, Relation, RelationPoint};
 use crate::joints::prescribed::Prescribed;
-use crate::joints::{Build, JointKind};
-use crate::kinematics::{CoordinateId, Layout, Quantity};
+use crate::joints::{Build, Drive, JointKind};
+use crate::kinematics::{CoordinateId, Quantity};
 use crate::registry::{ParameterError, Parameters};
-use crate::system::{CoordinateMass, Drive};
+use crate::system::CoordinateMass;
 
 impl Builder {
     /// Prescribes a coordinate, with a drive of a kind that acts on one.
@@ -27,11 +27,11 @@ impl Builder {
         };
         self.check_quantity(coordinate, wanted)?;
         let prescribed = Prescribed { coordinate, value: build(parameters)? };
-        self.drives.push(Drive {
+        self.constraints.drives.push(Drive {
             name: name.to_owned(),
             prescribed,
+            quantity: wanted,
             multiplier: self.multipliers.len(),
-            positions: [0; 3],
         });
         self.multipliers.push((name.to_owned(), wanted.relative()));
         self.multiplier_quantities.push(wanted);
@@ -105,24 +105,19 @@ impl Builder {
                            another equation";
             return Err(ParameterError::new(kind.parameters[0].name, problem));
         }
-        self.couplings.push(Coupling {
+        self.constraints.couplings.push(Coupling {
             name: name.to_owned(),
             coordinates: coordinates.to_vec(),
+            quantities,
+            quantity,
             multiplier: self.multipliers.len(),
             relation,
             scale: 1.0 / largest,
-            positions: Vec::new(),
         });
         self.multipliers.push((name.to_owned(), "coupling"));
         self.multiplier_quantities.push(quantity);
         Ok(())
     }
-}
-
-/// Rows of a coupling's coordinates and of its multiplier.
-pub(super) fn rows_of_coupling(coupling: &Coupling, layout: &Layout) -> Vec<usize> {
-    let coordinates = coupling.coordinates.iter().map(|&coordinate| layout.row_of_coordinate(coordinate));
-    coordinates.chain([layout.coordinate_count + coupling.multiplier]).collect()
 }
 
 /// The largest derivative of a relation by one of the chosen coordinates at the start.

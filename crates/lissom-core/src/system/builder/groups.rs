@@ -5,10 +5,11 @@ use lissom_solver::Group;
 use super::Builder;
 use super::rolling::Impulse;
 use crate::kinematics::Layout;
+use crate::system::constraints::group_of;
 use crate::system::places::free_rows;
 
 impl Builder {
-    /// One group per node and per coordinate, then one per joint and drive, after all that it acts on.
+    /// One group per node and per coordinate, then one per constraint, after all that it acts on.
     pub(super) fn groups(&self, layout: &Layout) -> Vec<Group> {
         let mut groups = Vec::new();
         let mut of_node = vec![None; self.nodes.len()];
@@ -31,32 +32,8 @@ impl Builder {
             groups[first_coordinate + coordinate].hosts =
                 nodes.chain(coordinates.iter().map(|own| first_coordinate + own)).collect();
         }
-        let multipliers = layout.coordinate_count;
-        for joint in &self.joints {
-            let first = multipliers + joint.first_multiplier;
-            let mut hosts: Vec<usize> = joint.frames.iter().filter_map(|frame| of_node[frame.node]).collect();
-            hosts.extend(joint.coordinates.iter().map(|&coordinate| first_coordinate + coordinate));
-            hosts.dedup();
-            groups.push(Group { unknowns: (first..first + joint.equations()).collect(), hosts });
-        }
-        for drive in &self.drives {
-            groups.push(Group {
-                unknowns: vec![multipliers + drive.multiplier],
-                hosts: vec![first_coordinate + drive.prescribed.coordinate],
-            });
-        }
-        for coupling in &self.couplings {
-            let hosts = coupling.coordinates.iter().map(|&coordinate| first_coordinate + coordinate);
-            groups.push(Group { unknowns: vec![multipliers + coupling.multiplier], hosts: hosts.collect() });
-        }
-        for slider in &self.sliders {
-            let first = multipliers + slider.first_multiplier;
-            let nodes = slider.nodes.iter().chain([&slider.tip]).filter_map(|own| of_node[own.node]);
-            let mut hosts: Vec<usize> = nodes.chain([first_coordinate + slider.coordinate]).collect();
-            hosts.sort_unstable();
-            hosts.dedup();
-            groups.push(Group { unknowns: (first..first + slider.equations()).collect(), hosts });
-        }
+        let hosts = (&of_node[..], first_coordinate);
+        groups.extend(self.constraints.iter().map(|constraint| group_of(constraint, layout, hosts)));
         groups
     }
 }

@@ -57,7 +57,7 @@ impl Builder {
         let carried = placement
             .nodes
             .map(|node| CarriedFrame { node, offset: frame.relative_to(&self.initial_frame(node)) });
-        if let Some(named) = self.joints.last_mut() {
+        if let Some(named) = self.constraints.joints.last_mut() {
             named.output_frames = carried;
         }
         Ok(coordinates)

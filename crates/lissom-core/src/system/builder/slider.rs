@@ -1,16 +1,13 @@
 //! Adds sliders along beams.
 
 use lissom_motion::Vector3;
-use lissom_solver::Pattern;
 
 use super::{Builder, Coordinate};
 use crate::joints::alignment::{Across, Alignment};
 use crate::joints::centerline::{Centerline, Support};
-use crate::joints::slider::{CarriedPoint, LOCAL, Orientation, Slider};
-use crate::kinematics::{CoordinateId, Freedoms, Layout, NodeId, Quantity};
+use crate::joints::slider::{CarriedPoint, Orientation, Slider};
+use crate::kinematics::{CoordinateId, Freedoms, NodeId, Quantity};
 use crate::registry::ParameterError;
-use crate::system::places::position_of;
-use crate::system::sliders::rows_of_slider;
 
 /// A point may be that far from the line at the start, relative to the length of the line: digits of a text, and what the
 /// smooth line through the nodes leaves of a curved one.
@@ -43,7 +40,9 @@ impl Builder {
         let value = line.nearest(&place, at);
         let on_line = line.at(value).sum(0, at);
         let distance = (on_line - place).norm();
-        if distance.is_nan() || distance > BESIDE * line.length() {
+        // Parts that are given approximately are brought together afterwards.
+        let is_drawn = self.start_values.is_some();
+        if distance.is_nan() || (!is_drawn && distance > BESIDE * line.length()) {
             let problem = format!(
                 "must be on the line through the beam's nodes, but is {distance:.3e} m away from it; its nearest place is \
                  [{:.6}, {:.6}, {:.6}]",
@@ -51,7 +50,8 @@ impl Builder {
             );
             return Err(ParameterError::new("at", problem));
         }
-        let point = self.nodes[tip].motion.frame.inverse_transform_point(&on_line);
+        let own = if is_drawn { place } else { on_line };
+        let point = self.nodes[tip].motion.frame.inverse_transform_point(&own);
         let alignments = self.alignments((&nodes, &line.at(value)), tip, orientation)?;
         self.coordinates.push(Coordinate {
             name: format!("{name}.displacement"),
@@ -70,7 +70,7 @@ impl Builder {
             self.multipliers.push((name.to_owned(), direction));
             self.multiplier_quantities.push(Quantity::Angle);
         }
-        self.sliders.push(Slider {
+        self.constraints.sliders.push(Slider {
             name: name.to_owned(),
             nodes,
             line,
@@ -78,7 +78,6 @@ impl Builder {
             coordinate,
             alignments,
             first_multiplier,
-            entries: Vec::new(),
         });
         Ok(coordinate)
     }
@@ -125,31 +124,4 @@ impl Builder {
         }
         Ok(alignments)
     }
-}
-
-/// What a slider fills of the tangent: for each interval all that is there.
-pub(super) fn cliques(slider: &Slider, layout: &Layout) -> Vec<Vec<usize>> {
-    let of = |interval: usize| {
-        let mut rows: Vec<usize> =
-            rows_of_slider(slider, interval, layout).into_iter().map(|(_, row)| row).collect();
-        rows.sort_unstable();
-        rows.dedup();
-        rows
-    };
-    (0..slider.line.intervals()).map(of).collect()
-}
-
-/// Where the local matrix of a slider lies, interval by interval; what two multipliers share stays zero.
-pub(super) fn entries(
-    slider: &Slider,
-    layout: &Layout,
-    pattern: &Pattern,
-) -> Vec<Vec<(usize, usize, usize)>> {
-    let of = |interval: usize| {
-        let rows = rows_of_slider(slider, interval, layout);
-        let pairs = rows.iter().flat_map(|row| rows.iter().map(move |column| (*row, *column)));
-        let filled = pairs.filter(|((i, _), (j, _))| *i < LOCAL || *j < LOCAL);
-        filled.map(|((i, row), (j, column))| (i, j, position_of(pattern, row, column))).collect()
-    };
-    (0..slider.line.intervals()).map(of).collect()
 }
