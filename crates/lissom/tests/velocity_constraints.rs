@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 
 use lissom::Model;
 use lissom::modes::{About, ModeReport, ModeRequest, modes};
+use lissom::response::{ResponseRequest, response};
 use lissom_core::linear::{Completeness, ModeKind};
 
 const GRAVITY: f64 = 9.81;
@@ -73,6 +74,32 @@ fn a_ball_on_springs_rolls_to_and_fro() {
     assert_eq!(report.modes[0].kind, ModeKind::Rigid);
     for (frequency, stiffness) in found[1..].iter().zip([300.0_f64, 500.0]) {
         near(*frequency, (stiffness / 4.0).sqrt() / TAU, 1e-12);
+    }
+}
+
+/// A push f at the centre: x = f/(k - ω² (m + J/r²)), and the plane holds the ball by J/r² ω² x against its rolling.
+#[test]
+fn a_ball_on_springs_responds_as_a_heavier_mass() {
+    let push = "\n[loads.push]\nkind = \"force\"\non = \"ball\"\nvector = [3, 0, 0]\nscale = \"0*t\"";
+    let request = ResponseRequest {
+        about: About::Time(0.0),
+        inputs: vec!["push".to_owned()],
+        outputs: vec!["ball.x".to_owned(), "floor.f1".to_owned()],
+        from: 0.1,
+        to: 1.2,
+        points: 20,
+    };
+    let report = response(&Model::from_text("model.toml", &ball(push)), &[], &request)
+        .unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(report.transfers.len(), 2);
+    for (k, frequency) in report.frequencies.iter().enumerate() {
+        let square = (TAU * frequency).powi(2);
+        let wanted = 3.0 / (300.0 - 4.0 * square);
+        let [position, force] = [0, 1].map(|transfer: usize| report.transfers[transfer].amplitudes[k]);
+        assert!(
+            (position.re - wanted).abs() < 1e-9 * wanted.abs() && position.im.abs() < 1e-9 * wanted.abs()
+        );
+        near(force.norm(), 2.0 * square * wanted.abs(), 1e-8);
     }
 }
 

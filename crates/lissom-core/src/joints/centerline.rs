@@ -281,12 +281,12 @@ mod tests {
             let found = line.nearest(&line.at(s).sum(0, place), place);
             assert!((found - s).abs() < 1e-12, "{s}: {found}");
         }
-        // Beside the line, as far as four fifths of its radius of curvature on the inner side.
+        // Beside an arc, as far as four fifths of its radius on the inner side.
+        let on_arc = |node: usize| Vector3::new(line.knots[node].cos(), line.knots[node].sin(), 0.0);
         for (s, share) in [(0.2, 0.5), (0.5, 0.8), (0.9, 0.8), (1.1, -2.0)] {
-            let [on_line, tangent, curvature] = [0, 1, 2].map(|order| line.at(s).sum(order, place));
+            let [on_line, tangent, curvature] = [0, 1, 2].map(|order| line.at(s).sum(order, on_arc));
             let across = curvature - tangent * (curvature.dot(&tangent) / tangent.norm_squared());
-            let radius = tangent.norm_squared() / across.norm();
-            let found = line.nearest(&(on_line + share * radius * across.normalize()), place);
+            let found = line.nearest(&(on_line + share * across.normalize()), on_arc);
             assert!((found - s).abs() < 1e-10, "{s} {share}: {found}");
         }
         assert_eq!(Centerline::new(vec![0.0]), None);
