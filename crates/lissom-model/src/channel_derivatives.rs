@@ -112,6 +112,8 @@ fn touched(source: &Source, system: &System, model: &LinearModel<'_>) -> Option<
             let joint = &system.joints()[*index];
             touched.nodes.extend(joint.frames.iter().chain(&joint.output_frames).map(|frame| frame.node));
             touched.coordinates.extend(&joint.coordinates);
+            // Forces against sliding are their rates.
+            touched.coordinates.extend(&joint.impulses);
             touched.multipliers = joint.first_multiplier..joint.first_multiplier + joint.equations();
         }
         Source::Line(places) => touched.nodes.extend(places.iter().flat_map(Place::nodes)),

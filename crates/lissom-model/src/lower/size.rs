@@ -62,8 +62,7 @@ fn steps(document: &Document, problems: &mut Vec<Problem>) {
     let duration = analysis.end - analysis.start;
     let (steps, span) = match &analysis.kind {
         AnalysisKind::Dynamics { step, control: None } => (duration / step.value, step.span),
-        AnalysisKind::Statics { steps: Some(steps), .. } => (*steps as f64, analysis.span),
-        // Steps of chosen size are few.
+        // Steps of chosen size are few, and load steps are limited by the reader.
         _ => return,
     };
     let rows = steps / analysis.output_every as f64;
@@ -96,14 +95,10 @@ mod tests {
     use crate::lower::registry::registry;
 
     fn told(elements: &str, further: &str, available: f64) -> Vec<String> {
-        of_kind("dynamics", elements, further, available)
-    }
-
-    fn of_kind(kind: &str, elements: &str, further: &str, available: f64) -> Vec<String> {
         let text = format!(
             "lissom = 1\n[sections.s]\nshape = \"general\"\nstiffness = [1, 1, 1, 1, 1, 1]\nmass = {{ per_length = 1, inertia = [1, 1, 1] }}\n\
              [beams.b]\nsection = \"s\"\nfrom = [0, 0, 0]\nto = [1, 0, 0]\nelements = {elements}\norder = 2\n\
-             [outputs.o]\nkind = \"position\"\nof = \"b.end\"\n[analysis]\nkind = \"{kind}\"\n{further}\n"
+             [outputs.o]\nkind = \"position\"\nof = \"b.end\"\n[analysis]\nkind = \"dynamics\"\n{further}\n"
         );
         let document = Document::parse(&text, "a.toml", &registry()).expect("it can be read");
         let mut problems = Vec::new();
@@ -130,14 +125,6 @@ mod tests {
         assert!(words.contains("1.0e9 rows") && words.contains("80.0 GB"), "{words}");
         assert_eq!(told("10", "end = 10\nstep = 1e-8\noutput_every = 1000", 1e9), Vec::<String>::new());
         assert_eq!(told("10", "end = 10", 1e9), Vec::<String>::new());
-    }
-
-    #[test]
-    fn load_steps_count_as_steps() {
-        let words = of_kind("statics", "10", "end = 1\nsteps = 100000000000", 1e9).join("\n");
-        assert!(words.contains("1.0e11 steps"), "{words}");
-        assert_eq!(of_kind("statics", "10", "end = 1\nsteps = 100", 1e9), Vec::<String>::new());
-        assert_eq!(of_kind("statics", "10", "end = 1", 1e9), Vec::<String>::new());
     }
 
     #[test]
