@@ -8,6 +8,7 @@ pub mod contact;
 mod dual;
 pub mod elements;
 pub(crate) mod equilibration;
+pub mod evaluation;
 pub mod instants;
 pub mod interrupt;
 pub mod joints;

@@ -5,7 +5,7 @@ use std::cell::Cell;
 
 use lissom_core::analysis::{Settings, Simulation};
 use lissom_core::elements::beam::SectionLaw;
-use lissom_core::elements::beam::line::{BeamLineDescription, add_beam_line};
+use lissom_core::elements::beam::line::{BeamLineDescription, beam_line};
 use lissom_core::joints;
 use lissom_core::newton::Limits;
 use lissom_core::registry::Parameters;
@@ -42,8 +42,8 @@ fn a_step_allocates_nothing() {
     for scheme in [generalized_alpha::hht(-0.1).expect("valid"), radau_iia::two_stages(), decaying] {
         let mut builder = Builder::new();
         builder.set_gravity(Vector3::new(0.0, -9.81, 0.0));
-        let line = add_beam_line(
-            &mut builder,
+        let (contribution, line) = beam_line(
+            builder.model(),
             &BeamLineDescription {
                 name: "beam",
                 elements: 4,
@@ -54,6 +54,7 @@ fn a_step_allocates_nothing() {
                 ends: [None, None],
             },
         );
+        builder.add(contribution);
         let placement = Placement {
             nodes: [builder.ground(), line.nodes[0]],
             at: Vector3::zeros(),

@@ -2,7 +2,7 @@
 
 use lissom_core::analysis::{Settings, Simulation};
 use lissom_core::elements::beam::SectionLaw;
-use lissom_core::elements::beam::line::{BeamLineDescription, add_beam_line};
+use lissom_core::elements::beam::line::{BeamLineDescription, beam_line};
 use lissom_core::elements::inertia::Inertia;
 use lissom_core::elements::{Attached, LOADS};
 use lissom_core::joints;
@@ -163,8 +163,8 @@ impl lissom_core::registry::TimeFunction for Ramp {
 fn cantilever_rolls_up_to_a_circle() {
     let mut builder = Builder::new();
     let (length, bending) = (10.0, 86.9e3);
-    let line = add_beam_line(
-        &mut builder,
+    let (contribution, line) = beam_line(
+        builder.model(),
         &BeamLineDescription {
             name: "beam",
             elements: 8,
@@ -175,6 +175,7 @@ fn cantilever_rolls_up_to_a_circle() {
             ends: [None, None],
         },
     );
+    builder.add(contribution);
     let placement = Placement {
         nodes: [builder.ground(), line.nodes[0]],
         at: Vector3::zeros(),
@@ -189,7 +190,7 @@ fn cantilever_rolls_up_to_a_circle() {
     let parameters = Parameters::new()
         .with("vector", Value::Vector(moment))
         .with("scale", Value::Function(std::sync::Arc::new(Ramp)));
-    (load.build)(&mut builder, Attached::OneNode(end, Vector3::zeros()), &parameters).expect("valid");
+    builder.add_of_kind(load, Attached::OneNode(end, Vector3::zeros()), &parameters).expect("valid");
     let steps = 10;
     let mut simulation = simulation(builder.build(0.0).expect("valid"), statics::statics(), 0.1);
     run(&mut simulation, steps);
@@ -209,8 +210,8 @@ fn rope(turn: &Motion, elements: usize) -> (System, State) {
     let stiffness =
         [young * area, shear * area, shear * area, 2.0 * shear * inertia, young * inertia, young * inertia];
     let mass = [area, area, area, 2.0 * inertia, inertia, inertia].map(|value| density * value);
-    let line = add_beam_line(
-        &mut builder,
+    let (contribution, line) = beam_line(
+        builder.model(),
         &BeamLineDescription {
             name: "rope",
             elements,
@@ -221,6 +222,7 @@ fn rope(turn: &Motion, elements: usize) -> (System, State) {
             ends: [None, None],
         },
     );
+    builder.add(contribution);
     let placement = Placement {
         nodes: [builder.ground(), line.nodes[0]],
         at: turn.position,

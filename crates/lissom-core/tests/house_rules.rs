@@ -191,7 +191,7 @@ fn files_of_tests_are_built() {
 }
 
 /// Folders and files of the lower floors, and what of this crate they may name.
-const FLOORS: [(&str, &[&str]); 8] = [
+const FLOORS: [(&str, &[&str]); 9] = [
     ("kinematics/", &["kinematics"]),
     ("dual.rs", &[]),
     ("relation.rs", &[]),
@@ -200,12 +200,15 @@ const FLOORS: [(&str, &[&str]); 8] = [
     ("signals/", &["instants", "kinematics"]),
     ("joints/", &["contact", "joints", "kinematics", "registry", "relation"]),
     ("elements/", &["contact", "dual", "elements", "kinematics", "registry"]),
+    ("evaluation/", &["elements", "evaluation", "joints", "kinematics"]),
 ];
 
-/// Names beyond the floors: kinds of elements add themselves to a system that is built, and a joint that rolls reports the forces of
-/// the element that keeps it rolling.
-const BEYOND: [(&str, &str); 2] =
-    [("elements/", "crate::system::Builder"), ("joints/attached.rs", "crate::elements::")];
+/// Names beyond the floors: the elements of an entry are of a kind that only their batch knows, and a joint that rolls reports the
+/// forces of the element that keeps it rolling.
+const BEYOND: [(&str, &str); 2] = [
+    ("elements/contribution.rs", "crate::evaluation::batch::AnyElement"),
+    ("joints/attached.rs", "crate::elements::"),
+];
 
 /// Elements and joints know no system: every import of the lower floors stays on its floor or goes down.
 #[test]

@@ -10,7 +10,7 @@ use super::tangent_values::TangentValues;
 use crate::equilibration::Equilibration;
 use crate::scaling::{Scaled, ScalingChoice};
 use crate::schemes::Coupling;
-use crate::system::{Receiver, Sum};
+use crate::system::{Sum, TangentAssembler};
 
 /// Tangents with at most so many real unknowns are measured truly; a complex unknown counts twice.
 pub const MOST_MEASURED: usize = 120;
@@ -60,13 +60,13 @@ impl TangentValues {
         scaled: &Scaled,
         coupling: &Coupling,
         stiffness: &'a mut [f64],
-    ) -> Receiver<'a> {
+    ) -> TangentAssembler<'a> {
         match (self, coupling) {
             (Self::Real(values), Coupling::Single(weights)) => {
-                Receiver::Real(Sum { blend: scaled.blend(*weights), values, stiffness })
+                TangentAssembler::Real(Sum { blend: scaled.blend(*weights), values, stiffness })
             }
             (Self::Complex(values), Coupling::Pair { weights, .. }) => {
-                Receiver::Complex(Sum { blend: scaled.blend(*weights), values, stiffness })
+                TangentAssembler::Complex(Sum { blend: scaled.blend(*weights), values, stiffness })
             }
             _ => unreachable!("a tangent is made for its scheme's coupling"),
         }

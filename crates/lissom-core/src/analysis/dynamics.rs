@@ -29,7 +29,7 @@ use crate::stepping::kinks;
 use crate::stepping::{
     Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, TimeFunctions, Watch,
 };
-use crate::system::{Linearization, State, System, Threads};
+use crate::system::{State, System, Threads};
 
 /// Where round-off keeps such a scheme from that, a last correction below this is a solution all the same: what it does
 /// to the energy is seen by the ledger.
@@ -72,7 +72,7 @@ impl Simulation {
             refuse_rates(&system)?;
         }
         let representative = known.copied().unwrap_or_else(|| {
-            let at_start = Linearization::of_state(&system, &state.kinematics);
+            let at_start = system.linearization_at(&state.kinematics);
             Representative::of(&system, &state.kinematics, &at_start)
         });
         let mut velocity_correction = 0.0;
@@ -175,7 +175,7 @@ impl Simulation {
             watch: &mut Unwatched,
         };
         let mut values = TangentValues::zeros(coupling, self.system.structure().pattern.entries());
-        equations.hand_derivatives(&mut values.receiver(&scaled, coupling, &mut []));
+        equations.assemble_tangent(&mut values.receiver(&scaled, coupling, &mut []));
         Some(values)
     }
 

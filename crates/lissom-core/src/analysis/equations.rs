@@ -17,7 +17,7 @@ use crate::newton::{Correction, Equations, Failure};
 use crate::numbers::Number;
 use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
 use crate::schemes::{Increments, Scheme, Tableau};
-use crate::system::{Receiver, State, StepPoint, System};
+use crate::system::{State, StepPoint, System, TangentAssembler};
 
 /// Roundings that add up in a force.
 const ROUNDINGS: f64 = 16.0;
@@ -172,13 +172,13 @@ impl StepEquations<'_> {
     pub(crate) fn linearize(&mut self) {
         let mut values = self.work.factorization.take_values();
         let mut stiffness = std::mem::take(&mut self.work.stiffness);
-        self.hand_derivatives(&mut values.receiver(&self.scaled, &self.scheme.coupling, &mut stiffness));
+        self.assemble_tangent(&mut values.receiver(&self.scaled, &self.scheme.coupling, &mut stiffness));
         self.work.factorization.set_values(values);
         self.work.stiffness = stiffness;
     }
 
     /// Hands the derivatives at the last stage to `out`.
-    pub(crate) fn hand_derivatives(&mut self, out: &mut Receiver<'_>) {
+    pub(crate) fn assemble_tangent(&mut self, out: &mut TangentAssembler<'_>) {
         let last = self.scheme.stages.len() - 1;
         let mut scratch = self.work.scratch.take().unwrap_or_default();
         let mut tangents = std::mem::take(&mut self.work.node_tangents);
@@ -193,7 +193,7 @@ impl StepEquations<'_> {
         if self.is_far() {
             point.stressed = &self.start.kinematics;
         }
-        self.system.hand_derivatives(&point, chart, &mut scratch, out);
+        self.system.assemble_tangent(&point, chart, &mut scratch, out);
         self.work.node_tangents = tangents;
         self.work.scratch = Some(scratch);
     }

@@ -65,7 +65,7 @@ impl Initial {
     pub fn new(system: &System, state: &State, representative: &Representative, kind: &SolverKind) -> Self {
         Self {
             solver: (kind.real)(system.structure()),
-            linearization: Linearization::new(system),
+            linearization: system.empty_linearization(),
             values: vec![0.0; system.structure().pattern.entries()],
             scale: if representative.mass > 0.0 { representative.mass } else { 1.0 },
             radian: representative.length,
@@ -97,7 +97,7 @@ impl Initial {
         at.nodes.iter_mut().for_each(|node| node.twist.fill(0.0));
         at.coordinates.iter_mut().for_each(|coordinate| coordinate.rate = 0.0);
         let zero = vec![0.0; system.layout().multiplier_count];
-        let mut linearization = Linearization::new(system);
+        let mut linearization = system.empty_linearization();
         let mut derivatives = |kinds: &[bool]| {
             system.linearize_kinds(kinds, &initial.point(&at, &zero), Chart::Body, &mut linearization);
             [&linearization.mass, &linearization.damping].map(Clone::clone)

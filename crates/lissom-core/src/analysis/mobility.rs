@@ -7,7 +7,7 @@ use lissom_motion::Vector3;
 
 use super::loops;
 use crate::joints::Equations;
-use crate::system::{Linearization, State, System};
+use crate::system::{State, System};
 
 /// Entries below this part of a row's largest count as round-off.
 const ROUND_OFF: f64 = 1e-9;
@@ -222,7 +222,7 @@ fn eliminate(
 /// Rows of B by multiplier.
 fn rows(system: &System, state: &State) -> Vec<BTreeMap<usize, f64>> {
     let layout = system.layout();
-    let linearization = Linearization::of_state(system, &state.kinematics);
+    let linearization = system.linearization_at(&state.kinematics);
     let pattern = system.pattern();
     layout
         .multiplier_rows()

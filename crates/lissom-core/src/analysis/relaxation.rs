@@ -16,7 +16,7 @@ use crate::newton::Memory;
 use crate::scaling::Representative;
 use crate::schemes::relaxation::relaxation;
 use crate::schemes::statics;
-use crate::system::{Linearization, State, System};
+use crate::system::{State, System};
 
 /// Steps until there is no equilibrium to be found.
 const MOST_STEPS: usize = 300;
@@ -65,7 +65,7 @@ pub(crate) fn relax(
     settings.limits.without = settings.limits.without.and(Mechanism::Parts);
     let mut reached = state.clone();
     let mut failures = 0;
-    let unloaded = Linearization::of_state(system, &state.kinematics);
+    let unloaded = system.linearization_at(&state.kinematics);
     let representative = Representative::of(system, &state.kinematics, &unloaded);
     let length = representative.length;
     let shortest = (representative.mass / representative.stiffness).sqrt();

@@ -18,11 +18,12 @@ use lissom_motion::{
     skew, translation_part,
 };
 
+use super::contribution::Contribution;
+use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::{Kinematics, NodeId};
 use crate::registry::{ModelAxis, Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::Builder;
 
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
@@ -71,23 +72,29 @@ pub struct Bushing {
     rest: Vector3,
 }
 
-fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
+fn build(
+    model: &InitialModel,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<Contribution, ParameterError> {
     let (nodes, points) = attached.two_nodes()?;
     let first = parameters.vector_or("axis", ModelAxis::X.direction())?;
     let second = parameters.vector_or("second_axis", ModelAxis::Y.direction())?;
     let axes = Rotation::from_axis_and_reference(&first, &second).ok_or_else(|| {
         ParameterError::new("axis", "is parallel to `second_axis`: give both `axis` and `second_axis`")
     })?;
-    let frames = [0, 1].map(|side| builder.initial_frame(nodes[side]));
+    let frames = [0, 1].map(|side| model.frame(nodes[side]));
     let places = [0, 1].map(|side| Motion::new(axes, frames[side].transform_point(&points[side])));
-    builder.add_element(Bushing {
-        nodes,
-        offsets: [0, 1].map(|side| places[side].relative_to(&frames[side])),
-        stiffness: parameters.matrix_or_zero("stiffness")?,
-        damping: parameters.matrix_or_zero("damping")?,
-        rest: places[1].relative_to(&places[0]).position,
-    });
-    Ok(())
+    Ok(Contribution::of(
+        model,
+        Bushing {
+            nodes,
+            offsets: [0, 1].map(|side| places[side].relative_to(&frames[side])),
+            stiffness: parameters.matrix_or_zero("stiffness")?,
+            damping: parameters.matrix_or_zero("damping")?,
+            rest: places[1].relative_to(&places[0]).position,
+        },
+    ))
 }
 
 /// The relative motion and what follows from it.

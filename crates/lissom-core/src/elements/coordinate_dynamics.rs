@@ -9,11 +9,12 @@
 
 use nalgebra::{DMatrix, DVector};
 
+use super::contribution::{Contribution, CoordinateMass};
+use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::Builder;
 
 /// Eigenvalues of symmetric matrices below this part of the largest are round-off.
 const ROUND_OFF: f64 = 1e-10;
@@ -70,7 +71,11 @@ pub(crate) struct CoordinateDynamics {
     is_load: bool,
 }
 
-fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
+fn build(
+    model: &InitialModel,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<Contribution, ParameterError> {
     let coordinates = attached.coordinates()?;
     let count = coordinates.len();
     if count > MOST_COORDINATES {
@@ -108,8 +113,9 @@ fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> 
     let drives = is_indefinite(&(0.5 * (&damping + damping.transpose())));
     let (kept, active) = if drives { (none.clone(), damping) } else { (damping, none.clone()) };
     let is_whole = active.amax() == 0.0 && circulatory.amax() == 0.0;
+    let mut contribution = Contribution::to(model);
     if !is_whole {
-        builder.add_element(CoordinateDynamics {
+        contribution = contribution.with(CoordinateDynamics {
             coordinates: coordinates.clone(),
             mass: none,
             damping: active,
@@ -119,9 +125,10 @@ fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> 
         });
     }
     if mass.amax() > 0.0 {
-        builder.note_coordinate_mass(&coordinates, &mass);
+        let own = CoordinateMass { coordinates: coordinates.clone(), matrix: mass.clone() };
+        contribution.coordinate_masses.push(own);
     }
-    builder.add_element(CoordinateDynamics {
+    let contribution = contribution.with(CoordinateDynamics {
         coordinates,
         mass,
         damping: kept,
@@ -129,11 +136,8 @@ fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> 
         rest,
         is_load: false,
     });
-    if !is_whole {
-        // One of two elements is not what the entry's power is asked of.
-        builder.take_last_element();
-    }
-    Ok(())
+    // The power of an entry of two elements is not that of one of them.
+    Ok(if is_whole { contribution } else { contribution.without_outputs() })
 }
 
 /// Whether a symmetric matrix has a negative eigenvalue. Scaled to a unit diagonal, so that units do not decide.

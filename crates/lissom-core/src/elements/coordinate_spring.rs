@@ -1,13 +1,14 @@
 //! Springs and dampers on a joint's relative rotation or displacement: moment or force k (φ - φ₀) + c φ̇, or
 //! another law of φ - φ₀ and φ̇.
 
+use super::contribution::Contribution;
 use super::force_law::{ForceLaw, SIDE_OF_ANGLE, SIDE_OF_LENGTH};
+use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::sides::Sides;
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::Builder;
 
 /// Registry entry of the spring on a rotation.
 pub(crate) const TORSIONAL: ElementKind = ElementKind {
@@ -51,8 +52,8 @@ pub(crate) const TORSIONAL: ElementKind = ElementKind {
         COORDINATE,
     ],
     attachment: Attachment::Coordinate(Quantity::Angle),
-    build: |builder, attached, parameters| {
-        add(builder, attached, parameters, Quantity::Angle, ["angle", "moment", "damper_moment"])
+    build: |model, attached, parameters| {
+        add(model, attached, parameters, Quantity::Angle, ["angle", "moment", "damper_moment"])
     },
 };
 
@@ -93,8 +94,8 @@ pub(crate) const AXIAL: ElementKind = ElementKind {
         COORDINATE,
     ],
     attachment: Attachment::Coordinate(Quantity::Length),
-    build: |builder, attached, parameters| {
-        add(builder, attached, parameters, Quantity::Length, ["displacement", "force", "damper_force"])
+    build: |model, attached, parameters| {
+        add(model, attached, parameters, Quantity::Length, ["displacement", "force", "damper_force"])
     },
 };
 
@@ -109,21 +110,23 @@ pub(crate) struct CoordinateSpring {
 }
 
 fn add(
-    builder: &mut Builder,
+    model: &InitialModel,
     attached: Attached,
     parameters: &Parameters,
     acts_on: Quantity,
     [rest, elastic, damper]: [&str; 3],
-) -> Result<(), ParameterError> {
+) -> Result<Contribution, ParameterError> {
     let coordinate = attached.coordinate()?;
-    builder.check_quantity(coordinate, acts_on)?;
-    builder.add_element(CoordinateSpring {
-        coordinate: [coordinate],
-        law: ForceLaw::new(parameters, [elastic, damper])?,
-        rest: parameters.number_or(rest, 0.0)?,
-        sides: Sides::default(),
-    });
-    Ok(())
+    model.check_quantity(coordinate, acts_on)?;
+    Ok(Contribution::of(
+        model,
+        CoordinateSpring {
+            coordinate: [coordinate],
+            law: ForceLaw::new(parameters, [elastic, damper])?,
+            rest: parameters.number_or(rest, 0.0)?,
+            sides: Sides::default(),
+        },
+    ))
 }
 
 impl CoordinateSpring {

@@ -2,11 +2,12 @@
 
 use lissom_motion::{Vector3, skew};
 
+use super::contribution::Contribution;
+use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::{Kinematics, NodeId};
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::Builder;
 
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
@@ -54,14 +55,13 @@ pub(super) struct DirectedLoad {
 impl DirectedLoad {
     /// Reads the parameters; a follower's vector is turned into the node's axes at the start.
     pub(super) fn new(
-        builder: &Builder,
+        model: &InitialModel,
         node: NodeId,
         parameters: &Parameters,
     ) -> Result<Self, ParameterError> {
         let follower = parameters.flag_or("follower", false)?;
         let vector = parameters.vector("vector")?;
-        let vector =
-            if follower { builder.initial_frame(node).rotation.apply_inverse(&vector) } else { vector };
+        let vector = if follower { model.frame(node).rotation.apply_inverse(&vector) } else { vector };
         Ok(Self { vector, scale: parameters.function_or("scale", 1.0)?, follower })
     }
 
@@ -77,11 +77,14 @@ impl DirectedLoad {
     }
 }
 
-fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
+fn build(
+    model: &InitialModel,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<Contribution, ParameterError> {
     let (node, point) = attached.one_node()?;
-    let load = DirectedLoad::new(builder, node, parameters)?;
-    builder.add_element(Force { node: [node], point, load });
-    Ok(())
+    let load = DirectedLoad::new(model, node, parameters)?;
+    Ok(Contribution::of(model, Force { node: [node], point, load }))
 }
 
 impl Element for Force {

@@ -8,11 +8,12 @@
 //! z' = v - σ₀ |v| z/g(v),      g = F_c + (F_s - F_c) exp(-(v/v_s)²),      F = σ₀ z + σ₁ z' + σ₂ v
 //! ```
 
+use super::contribution::Contribution;
+use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::Builder;
 
 /// Deflection at which the bristle slips, where it is not given [rad, m].
 const DEFLECTION: f64 = 1e-4;
@@ -57,7 +58,7 @@ pub const TORSIONAL: ElementKind = ElementKind {
         COORDINATE,
     ],
     attachment: Attachment::Coordinate(Quantity::Angle),
-    build: |builder, attached, parameters| add(builder, attached, parameters, Quantity::Angle),
+    build: |model, attached, parameters| add(model, attached, parameters, Quantity::Angle),
 };
 
 /// Registry entry of friction on a displacement.
@@ -100,7 +101,7 @@ pub const AXIAL: ElementKind = ElementKind {
         COORDINATE,
     ],
     attachment: Attachment::Coordinate(Quantity::Length),
-    build: |builder, attached, parameters| add(builder, attached, parameters, Quantity::Length),
+    build: |model, attached, parameters| add(model, attached, parameters, Quantity::Length),
 };
 
 /// Friction on an algebraic coordinate.
@@ -117,18 +118,19 @@ pub struct Friction {
 }
 
 fn add(
-    builder: &mut Builder,
+    model: &InitialModel,
     attached: Attached,
     parameters: &Parameters,
     acts_on: Quantity,
-) -> Result<(), ParameterError> {
+) -> Result<Contribution, ParameterError> {
     let coordinate = attached.coordinate()?;
-    builder.check_quantity(coordinate, acts_on)?;
+    model.check_quantity(coordinate, acts_on)?;
     let coulomb = parameters.number("coulomb")?;
     let deflection = parameters.number_or("deflection", DEFLECTION)?;
-    let name = format!("{}, friction", builder.coordinate_name(coordinate));
-    let bristle = builder.add_state(&name, 0.0, deflection);
-    builder.add_element(Friction {
+    let name = format!("{}, friction", model.coordinate_name(coordinate));
+    let mut contribution = Contribution::to(model);
+    let bristle = contribution.add_state(name, 0.0, deflection);
+    Ok(contribution.with(Friction {
         coordinates: [coordinate, bristle],
         coulomb,
         breakaway: parameters.number_or("breakaway", 0.0)?,
@@ -136,8 +138,7 @@ fn add(
         viscous: parameters.number_or("viscous", 0.0)?,
         stiffness: coulomb / deflection,
         damping: parameters.number_or("damping", 0.0)?,
-    });
-    Ok(())
+    }))
 }
 
 impl Friction {

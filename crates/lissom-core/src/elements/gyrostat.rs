@@ -11,11 +11,12 @@
 
 use lissom_motion::{Vector3, rotation_part, skew};
 
+use super::contribution::Contribution;
+use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::{Kinematics, NodeId};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::Builder;
 
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
@@ -48,12 +49,15 @@ pub struct Gyrostat {
     momentum: Vector3,
 }
 
-fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
+fn build(
+    model: &InitialModel,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<Contribution, ParameterError> {
     let (node, _) = attached.one_node()?;
-    let axis = builder.initial_frame(node).rotation.apply_inverse(&parameters.vector("axis")?.normalize());
+    let axis = model.frame(node).rotation.apply_inverse(&parameters.vector("axis")?.normalize());
     let momentum = parameters.number("inertia")? * parameters.number("spin")? * axis;
-    builder.add_element(Gyrostat { node: [node], momentum });
-    Ok(())
+    Ok(Contribution::of(model, Gyrostat { node: [node], momentum }))
 }
 
 impl Element for Gyrostat {

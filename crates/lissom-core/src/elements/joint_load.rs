@@ -1,10 +1,11 @@
 //! Torque or force in a joint: acts on a relative coordinate, on the tip and with the opposite sign on the base.
 
+use super::contribution::Contribution;
+use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Function, Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::Builder;
 
 /// Registry entry of the torque on a rotation.
 pub(crate) const TORQUE: ElementKind = ElementKind {
@@ -21,7 +22,7 @@ pub(crate) const TORQUE: ElementKind = ElementKind {
         COORDINATE,
     ],
     attachment: Attachment::Coordinate(Quantity::Angle),
-    build: |builder, attached, parameters| add(builder, attached, parameters, Quantity::Angle, "torque"),
+    build: |model, attached, parameters| add(model, attached, parameters, Quantity::Angle, "torque"),
 };
 
 /// Registry entry of the force on a displacement.
@@ -39,7 +40,7 @@ pub(crate) const FORCE: ElementKind = ElementKind {
         COORDINATE,
     ],
     attachment: Attachment::Coordinate(Quantity::Length),
-    build: |builder, attached, parameters| add(builder, attached, parameters, Quantity::Length, "force"),
+    build: |model, attached, parameters| add(model, attached, parameters, Quantity::Length, "force"),
 };
 
 /// Generalised force on an algebraic coordinate.
@@ -50,16 +51,15 @@ pub(crate) struct JointLoad {
 }
 
 fn add(
-    builder: &mut Builder,
+    model: &InitialModel,
     attached: Attached,
     parameters: &Parameters,
     acts_on: Quantity,
     size: &str,
-) -> Result<(), ParameterError> {
+) -> Result<Contribution, ParameterError> {
     let coordinate = attached.coordinate()?;
-    builder.check_quantity(coordinate, acts_on)?;
-    builder.add_element(JointLoad { coordinate: [coordinate], size: parameters.function(size)? });
-    Ok(())
+    model.check_quantity(coordinate, acts_on)?;
+    Ok(Contribution::of(model, JointLoad { coordinate: [coordinate], size: parameters.function(size)? }))
 }
 
 impl Element for JointLoad {

@@ -2,9 +2,10 @@
 
 use lissom_motion::Vector3;
 
+use super::contribution::Contribution;
+use super::initial_model::InitialModel;
 use crate::kinematics::{CoordinateId, NodeId, Quantity};
 use crate::registry::{Parameter, ParameterError, Parameters};
-use crate::system::Builder;
 
 /// What a springlike or loadlike kind is attached to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,6 +111,6 @@ pub struct ElementKind {
     pub parameters: &'static [Parameter],
     /// What it is attached to.
     pub attachment: Attachment,
-    /// Builds it and adds it to a system.
-    pub build: fn(&mut Builder, Attached, &Parameters) -> Result<(), ParameterError>,
+    /// Its elements, states and coordinates, for a model as it is so far.
+    pub build: fn(&InitialModel, Attached, &Parameters) -> Result<Contribution, ParameterError>,
 }

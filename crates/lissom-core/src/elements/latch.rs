@@ -8,11 +8,12 @@
 //!
 //! What it does at the instant of latching, an impact without rebound, is a matter of `Simulation::change_held_values`.
 
+use super::contribution::Contribution;
+use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, HeldId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::Builder;
 
 /// An input above this holds.
 const HOLDS: f64 = 0.5;
@@ -53,12 +54,18 @@ pub(crate) struct Latch {
     engaged: HeldId,
 }
 
-fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
+fn build(
+    model: &InitialModel,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<Contribution, ParameterError> {
     let coordinate = attached.coordinate()?;
     let engaged = parameters.input("engaged")?;
-    let impulse = builder.add_latch(coordinate, engaged);
-    builder.add_element(Latch { coordinates: [coordinate, impulse], engaged });
-    Ok(())
+    let mut contribution = Contribution::to(model);
+    let name = format!("{}, latched", model.coordinate_name(coordinate));
+    let impulse = contribution.add_impulse(name, Vec::new(), vec![coordinate]);
+    contribution.latches.push(engaged);
+    Ok(contribution.with(Latch { coordinates: [coordinate, impulse], engaged }))
 }
 
 /// Whether an input of this value lets a latch hold.

@@ -6,6 +6,7 @@
 pub mod beam;
 pub mod blocks;
 pub mod bushing;
+pub mod contribution;
 pub(crate) mod coordinate_dynamics;
 pub(crate) mod coordinate_spring;
 pub mod creep_force;
@@ -16,6 +17,7 @@ pub mod friction;
 pub mod gyrostat;
 pub mod inertia;
 mod inertia_blocks;
+pub mod initial_model;
 pub(crate) mod joint_load;
 pub mod kind;
 mod kinds;
@@ -31,6 +33,8 @@ pub mod sides;
 pub mod stop;
 pub mod superelement;
 
+pub use contribution::Contribution;
+pub use initial_model::InitialModel;
 pub use kind::{Attached, Attachment, ElementKind};
 pub use kinds::{LOADS, SPRINGS};
 

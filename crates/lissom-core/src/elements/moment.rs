@@ -2,12 +2,13 @@
 
 use lissom_motion::skew;
 
+use super::contribution::Contribution;
 use super::force::{DirectedLoad, LOAD_PARAMETERS};
+use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::{Kinematics, NodeId};
 use crate::registry::{ParameterError, Parameters};
-use crate::system::Builder;
 
 /// Registry entry.
 pub const KIND: ElementKind = ElementKind {
@@ -26,11 +27,14 @@ pub struct Moment {
     load: DirectedLoad,
 }
 
-fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
+fn build(
+    model: &InitialModel,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<Contribution, ParameterError> {
     let (node, _) = attached.one_node()?;
-    let load = DirectedLoad::new(builder, node, parameters)?;
-    builder.add_element(Moment { node: [node], load });
-    Ok(())
+    let load = DirectedLoad::new(model, node, parameters)?;
+    Ok(Contribution::of(model, Moment { node: [node], load }))
 }
 
 impl Element for Moment {

@@ -7,14 +7,15 @@
 use lissom_motion::{Matrix3, Vector3, skew};
 use nalgebra::SMatrix;
 
+use super::contribution::Contribution;
 use super::force_law::{ForceLaw, Response, SIDE_OF_LENGTH};
+use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::sides::Sides;
 use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{Kinematics, NodeId, NodeMotion, split};
 use crate::registry::{Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::Builder;
 
 /// Registry entry.
 pub(crate) const KIND: ElementKind = ElementKind {
@@ -65,9 +66,13 @@ pub(crate) struct PointSpring {
     sides: Sides,
 }
 
-fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
+fn build(
+    model: &InitialModel,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<Contribution, ParameterError> {
     let (nodes, points) = attached.two_nodes()?;
-    let [a, b] = [0, 1].map(|i| builder.initial_frame(nodes[i]).transform_point(&points[i]));
+    let [a, b] = [0, 1].map(|i| model.frame(nodes[i]).transform_point(&points[i]));
     let distance = (b - a).norm();
     if distance == 0.0 {
         return Err(ParameterError::new(
@@ -75,14 +80,16 @@ fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> 
             "is at the same place as `base`: the spring has no direction",
         ));
     }
-    builder.add_element(PointSpring {
-        nodes,
-        points,
-        law: ForceLaw::new(parameters, ["force", "damper_force"])?,
-        length: parameters.number_or("length", distance)?,
-        sides: Sides::default(),
-    });
-    Ok(())
+    Ok(Contribution::of(
+        model,
+        PointSpring {
+            nodes,
+            points,
+            law: ForceLaw::new(parameters, ["force", "damper_force"])?,
+            length: parameters.number_or("length", distance)?,
+            sides: Sides::default(),
+        },
+    ))
 }
 
 /// Motion of an attachment point in inertial axes.

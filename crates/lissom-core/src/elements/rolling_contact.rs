@@ -11,14 +11,15 @@
 
 use lissom_motion::{Matrix6, Motion, Rotation, Vector3, Vector6, lie_bracket_matrix};
 
+use super::contribution::Contribution;
 use super::frame_pair::{FramePair, RelativeMotion};
+use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::sides::{Sides, is_above};
 use super::{Element, Energy, Tangents};
 use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
 use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::Builder;
 
 /// Sliding velocities below are those of rolling, where the law is linear [m/s].
 const STILL: f64 = 1e-9;
@@ -118,17 +119,20 @@ impl Traction {
     }
 }
 
-fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
+fn build(
+    model: &InitialModel,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<Contribution, ParameterError> {
     let (nodes, points) = attached.two_nodes()?;
     let normal = parameters.vector("normal")?;
     let axes = axes_of(&normal).ok_or_else(|| ParameterError::new("normal", "has no direction"))?;
     let frames = [0, 1].map(|side| {
-        let node = builder.initial_frame(nodes[side]);
+        let node = model.frame(nodes[side]);
         let place = Motion::new(axes, node.transform_point(&points[side]));
         CarriedFrame { node: nodes[side], offset: place.relative_to(&node) }
     });
-    let [plane, centre] =
-        [0, 1].map(|side| builder.initial_frame(nodes[side]).transform_point(&points[side]));
+    let [plane, centre] = [0, 1].map(|side| model.frame(nodes[side]).transform_point(&points[side]));
     let height = axes.apply_inverse(&(centre - plane)).z;
     if height.abs() <= 0.0 {
         return Err(ParameterError::new("at_tip", "lies in the plane: it must be the centre of the wheel"));
@@ -147,15 +151,17 @@ fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> 
         return Err(ParameterError::new("radius", problem));
     }
     let contact = Contact { axis, side: height.signum(), radius, rim, friction: f64::INFINITY, creep: 0.0 };
-    builder.add_element(RollingContact {
-        frames: FramePair::new(frames),
-        contact,
-        stiffness: parameters.number("stiffness")?,
-        dissipation: parameters.number_or("dissipation", 0.0)?,
-        traction: traction(parameters)?,
-        sides: Sides::default(),
-    });
-    Ok(())
+    Ok(Contribution::of(
+        model,
+        RollingContact {
+            frames: FramePair::new(frames),
+            contact,
+            stiffness: parameters.number("stiffness")?,
+            dissipation: parameters.number_or("dissipation", 0.0)?,
+            traction: traction(parameters)?,
+            sides: Sides::default(),
+        },
+    ))
 }
 
 /// Axes with the third along a direction.

@@ -12,7 +12,9 @@
 use lissom_motion::{Matrix3, Vector3, skew};
 use nalgebra::SMatrix;
 
+use super::contribution::Contribution;
 use super::force_law::{ForceLaw, Response};
+use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::point_spring::Point;
 use super::sides::Sides;
@@ -20,7 +22,6 @@ use super::{Element, Energy, Tangents, add_block};
 use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
 use crate::kinematics::{CoordinateId, GROUND, Kinematics, NodeId};
 use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters, Value};
-use crate::system::Builder;
 
 /// Registry entry.
 pub(crate) const KIND: ElementKind = ElementKind {
@@ -96,7 +97,7 @@ pub(crate) struct Rope {
 
 /// What drums pay out per unit of their coordinates, and where these are at the start.
 fn drums(
-    builder: &Builder,
+    model: &InitialModel,
     drums: &[CoordinateId],
     parameters: &Parameters,
 ) -> Result<Vec<[f64; 2]>, ParameterError> {
@@ -111,13 +112,17 @@ fn drums(
     if radii.contains(&0.0) {
         return fault("must not be zero: such a drum pays nothing out".to_owned());
     }
-    Ok(radii.iter().zip(drums).map(|(radius, drum)| [*radius, builder.coordinate_start(*drum)]).collect())
+    Ok(radii.iter().zip(drums).map(|(radius, drum)| [*radius, model.coordinate_value(*drum)]).collect())
 }
 
-fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> Result<(), ParameterError> {
+fn build(
+    model: &InitialModel,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<Contribution, ParameterError> {
     let (along, winding) = attached.places()?;
     let points: Vec<Vector3> =
-        along.iter().map(|(node, place)| builder.initial_frame(*node).transform_point(place)).collect();
+        along.iter().map(|(node, place)| model.frame(*node).transform_point(place)).collect();
     let fault = |problem: &str| Err(ParameterError::new("along", problem));
     if points.len() < 2 {
         return fault("needs two places at least");
@@ -136,7 +141,7 @@ fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> 
     let mut places = Vec::new();
     for (node, place) in along {
         if node == GROUND {
-            places.push((None, builder.initial_frame(node).transform_point(&place)));
+            places.push((None, model.frame(node).transform_point(&place)));
             continue;
         }
         let known = nodes.iter().position(|known| *known == node).unwrap_or_else(|| {
@@ -154,19 +159,21 @@ fn build(builder: &mut Builder, attached: Attached, parameters: &Parameters) -> 
             );
         }
     }
-    let pays_out = drums(builder, &winding, parameters)?;
+    let pays_out = drums(model, &winding, parameters)?;
     // It cannot push.
     let pulls = parameters.clone().with("side", Value::Text("tension".to_owned()));
-    builder.add_element(Rope {
-        nodes,
-        places,
-        drums: winding,
-        pays_out,
-        law: ForceLaw::new(&pulls, ["force", "damper_force"])?,
-        length: parameters.function_or("length", at_start)?,
-        sides: Sides::default(),
-    });
-    Ok(())
+    Ok(Contribution::of(
+        model,
+        Rope {
+            nodes,
+            places,
+            drums: winding,
+            pays_out,
+            law: ForceLaw::new(&pulls, ["force", "damper_force"])?,
+            length: parameters.function_or("length", at_start)?,
+            sides: Sides::default(),
+        },
+    ))
 }
 
 /// A straight part of the rope.

@@ -12,12 +12,13 @@
 //! the whole contact, whatever m, k and n. The force is continuous at touch and never pulls. Between e and the velocity of
 //! impact there is the relation of the law: slower impacts lose less.
 
+use super::contribution::Contribution;
+use super::initial_model::InitialModel;
 use super::kind::{Attached, Attachment, ElementKind};
 use super::sides::{Sides, is_above};
 use super::{Element, Energy, Tangents};
 use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
 use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
-use crate::system::Builder;
 
 /// Least restitution that a contact can have.
 const LEAST_RESTITUTION: f64 = 0.01;
@@ -57,7 +58,7 @@ pub const TORSIONAL: ElementKind = ElementKind {
         COORDINATE,
     ],
     attachment: Attachment::Coordinate(Quantity::Angle),
-    build: |builder, attached, parameters| add(builder, attached, parameters, Quantity::Angle),
+    build: |model, attached, parameters| add(model, attached, parameters, Quantity::Angle),
 };
 
 /// Registry entry of the stop of a displacement.
@@ -90,7 +91,7 @@ pub const AXIAL: ElementKind = ElementKind {
         COORDINATE,
     ],
     attachment: Attachment::Coordinate(Quantity::Length),
-    build: |builder, attached, parameters| add(builder, attached, parameters, Quantity::Length),
+    build: |model, attached, parameters| add(model, attached, parameters, Quantity::Length),
 };
 
 /// Stops on an algebraic coordinate.
@@ -105,13 +106,13 @@ pub struct Stop {
 }
 
 fn add(
-    builder: &mut Builder,
+    model: &InitialModel,
     attached: Attached,
     parameters: &Parameters,
     acts_on: Quantity,
-) -> Result<(), ParameterError> {
+) -> Result<Contribution, ParameterError> {
     let coordinate = attached.coordinate()?;
-    builder.check_quantity(coordinate, acts_on)?;
+    model.check_quantity(coordinate, acts_on)?;
     let exponent = parameters.number_or("exponent", 1.0)?;
     if exponent < 1.0 {
         return Err(ParameterError::new("exponent", "must be 1 or greater: the stiffness would be infinite"));
@@ -125,8 +126,7 @@ fn add(
         dissipation: dissipation(parameters)?,
         sides: Sides::default(),
     };
-    builder.add_element(stop);
-    Ok(())
+    Ok(Contribution::of(model, stop))
 }
 
 /// The factor a, as it is given or from the restitution.

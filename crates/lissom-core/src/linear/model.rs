@@ -117,7 +117,7 @@ impl<'a> LinearModel<'a> {
         let mut state = state.clone();
         let is_at_rest = is_at_rest(system, &state.kinematics);
         let zeros = vec![0.0; system.layout().multiplier_rows().len()];
-        let mut unloaded = Linearization::of_state(system, &state.kinematics);
+        let mut unloaded = system.linearization_at(&state.kinematics);
         let representative = Representative::of(system, &state.kinematics, &unloaded);
         let time = state.kinematics.time;
         let ([mut imbalance, mut released], mut unsteadiness) = ([0.0; 2], 0.0);
@@ -137,7 +137,7 @@ impl<'a> LinearModel<'a> {
                 .map_err(|error| LinearError::Accelerations { time, error })?;
             unsteadiness = unsteadiness_of(system, &state.kinematics, representative.length);
         }
-        let mut parts = Linearization::new(system);
+        let mut parts = system.empty_linearization();
         let (still, unchanged) = nothing(&state.kinematics);
         let point = point(&state.kinematics, (&still, &unchanged), &state.multipliers, &zeros);
         let chart = if is_at_rest { Chart::Body } else { Chart::Departures(&state.kinematics.nodes) };

@@ -28,7 +28,6 @@ use super::generator::Generator;
 use super::mode::Mode;
 use super::model::LinearModel;
 use crate::kinematics::{Kinematics, LOCKED, NodeId};
-use crate::system::Linearization;
 
 /// Places that differ by less, over the length of the model, and axes [rad], are the same.
 const SAME: f64 = 1e-6;
@@ -97,7 +96,7 @@ impl<'a> LinearModel<'a> {
             wider
         };
         let nothing = BTreeMap::new();
-        let mut parts = Linearization::new(self.system);
+        let mut parts = self.system.empty_linearization();
         parts.mass = widened(&self.parts.mass, &nothing);
         parts.damping = widened(&self.parts.damping, &damping);
         parts.stiffness = widened(&self.parts.stiffness, &stiffness);

@@ -345,7 +345,7 @@ impl Whole {
         }
         let (still, unchanged) = nothing(&at);
         let point = point(&at, (&still, &unchanged), multipliers, &zeros);
-        let mut parts = Linearization::new(free);
+        let mut parts = free.empty_linearization();
         free.linearize(&point, Chart::Body, &mut parts);
         let size = free.layout().size();
         let mut residual = vec![0.0; size];

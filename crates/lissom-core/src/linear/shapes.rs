@@ -7,8 +7,8 @@ use num_complex::Complex64;
 
 use super::mode::Mode;
 use super::model::LinearModel;
+use crate::elements::contribution::CoordinateMass;
 use crate::kinematics::LOCKED;
-use crate::system::CoordinateMass;
 
 /// What a node does in a mode, in global axes.
 #[derive(Clone, Debug, PartialEq)]

@@ -23,7 +23,7 @@ use crate::analysis::initial::Initial;
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::{LOCKED, NodeMotion, Quantity};
 use crate::scaling::Representative;
-use crate::system::{Linearization, State, System};
+use crate::system::{State, System};
 
 /// Most corrections.
 const MOST: usize = 60;
@@ -82,7 +82,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
     refuse(system)?;
     let count = layout.coordinate_count();
     let time = state.kinematics.time;
-    let unloaded = Linearization::of_state(system, &state.kinematics);
+    let unloaded = system.linearization_at(&state.kinematics);
     let representative = Representative::of(system, &state.kinematics, &unloaded);
     let mut initial = Initial::new(system, &state, &representative, solver);
     initial.velocities(system, &mut state).map_err(|error| LinearError::Accelerations { time, error })?;
@@ -99,7 +99,7 @@ pub fn steady(system: &System, state: &State, solver: &SolverKind) -> Result<Sta
     let (mut start, mut violations) = (zeros.clone(), zeros.clone());
     system.violations(&state.kinematics, &mut start);
     state.multipliers.clone_from(&zeros);
-    let mut parts = Linearization::new(system);
+    let mut parts = system.empty_linearization();
     let mut shifted = ComplexShift::new(system, &representative);
     let mut residual = vec![0.0; layout.size()];
     let (mut last, mut right) = (f64::INFINITY, vec![Complex64::default(); layout.size()]);

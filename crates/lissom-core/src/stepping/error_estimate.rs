@@ -18,8 +18,9 @@
 //! The filter is that of [Hairer and Wanner 1996, IV.8]. The norm is the largest entry, lengths in ℓ_r. The reference is how
 //! far any node has moved or turned since the start, or a drive will have within the longest step, at most 1.
 
+use crate::elements::contribution::CoordinateMass;
 use crate::kinematics::{CoordinateId, Kinematics, LOCKED, Quantity};
-use crate::system::{CoordinateMass, Drive, System};
+use crate::system::{Drive, System};
 
 /// Order of an estimate in the step size.
 #[derive(Clone, Copy)]

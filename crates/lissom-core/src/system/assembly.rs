@@ -9,26 +9,26 @@
 use lissom_motion::WIDTH;
 
 use super::System;
-use super::batch::{scatter, scatter_lane};
-use super::linearization::{Linearization, Scratch};
-use super::receiver::{Place, Receiver};
-use super::threads::Threads;
+use crate::evaluation::batch::{scatter, scatter_lane};
+use crate::evaluation::linearization::{Linearization, Scratch};
+use crate::evaluation::tangent_assembler::{Slot, TangentAssembler};
+use crate::evaluation::threads::Threads;
 use crate::joints::blocks::{Results, Wanted};
 use crate::joints::derivatives::{Derivatives, LOCAL, OWN, TIP};
 use crate::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
 use crate::kinematics::{Kinematics, LOCKED, MotionChange};
 
-impl Linearization {
-    /// Room for the linearisation of `system`, all zero.
-    pub fn new(system: &System) -> Self {
-        Self::zeros(system.structure.pattern.entries())
+impl System {
+    /// Zeros for the linearised equations of motion.
+    pub fn empty_linearization(&self) -> Linearization {
+        Linearization::zeros(self.structure.pattern.entries())
     }
 
-    /// Of `system` as it stands: without increments of a step, multipliers or an augmented term.
-    pub fn of_state(system: &System, at: &Kinematics) -> Self {
+    /// The equations of motion linearised about a state: without increments of a step, multipliers or an augmented term.
+    pub fn linearization_at(&self, at: &Kinematics) -> Linearization {
         let still = vec![MotionChange::none(); at.nodes.len()];
         let unchanged = vec![0.0; at.coordinates.len()];
-        let zero = vec![0.0; system.layout.multiplier_count];
+        let zero = vec![0.0; self.layout.multiplier_count];
         let point = Point {
             at,
             stressed: at,
@@ -37,13 +37,11 @@ impl Linearization {
             violations: &zero,
             augmentation: Augmentation::none(),
         };
-        let mut linearization = Self::new(system);
-        system.linearize(&point, Chart::Body, &mut linearization);
+        let mut linearization = self.empty_linearization();
+        self.linearize(&point, Chart::Body, &mut linearization);
         linearization
     }
-}
 
-impl System {
     /// Residual at `point`: left-hand sides of the equations of motion in the rows of the coordinates,
     /// violations in the rows of the multipliers.
     pub fn residual(&self, point: &Point<'_>, out: &mut [f64]) {
@@ -115,7 +113,7 @@ impl System {
     /// Linearisation at `point` with respect to the unknowns of `chart`.
     pub fn linearize(&self, point: &Point<'_>, chart: Chart<'_>, out: &mut Linearization) {
         let mut scratch = out.scratch.take().unwrap_or_default();
-        self.hand_derivatives(point, chart, &mut scratch, &mut Receiver::Apart(out));
+        self.assemble_tangent(point, chart, &mut scratch, &mut TangentAssembler::Separate(out));
         out.scratch = Some(scratch);
     }
 
@@ -128,7 +126,7 @@ impl System {
         out: &mut Linearization,
     ) {
         let mut scratch = out.scratch.take().unwrap_or_default();
-        let mut receiver = Receiver::Apart(out);
+        let mut receiver = TangentAssembler::Separate(out);
         receiver.clear();
         for (batch, _) in self.batches.iter().zip(kinds).filter(|(_, is_chosen)| **is_chosen) {
             batch.linearize((point.at, point.stressed), chart, &mut scratch.local, &mut receiver);
@@ -143,12 +141,12 @@ impl System {
     }
 
     /// Hands the derivatives at `point` with respect to the unknowns of `chart` to `out`.
-    pub fn hand_derivatives(
+    pub fn assemble_tangent(
         &self,
         point: &Point<'_>,
         chart: Chart<'_>,
         scratch: &mut Scratch,
-        out: &mut Receiver<'_>,
+        out: &mut TangentAssembler<'_>,
     ) {
         out.clear();
         for batch in &self.batches {
@@ -163,7 +161,7 @@ impl System {
         point: &Point<'_>,
         chart: Chart<'_>,
         scratch: &mut Derivatives,
-        out: &mut Receiver<'_>,
+        out: &mut TangentAssembler<'_>,
     ) {
         for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
             batch.linearize(
@@ -173,7 +171,8 @@ impl System {
                 chart,
                 scratch,
                 &mut |index, derivatives| {
-                    let place = Place { rows: self.rows_of_joint(index), runs: self.joint_places.of(index) };
+                    let place =
+                        Slot { rows: self.rows_of_joint(index), segments: self.joint_places.of(index) };
                     out.add_joint(place, derivatives);
                 },
             );

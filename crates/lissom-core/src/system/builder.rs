@@ -16,16 +16,17 @@ use lissom_solver::{Pattern, Structure};
 
 pub use self::drawn::PlaceOnTip;
 use self::drawn::{joint_rotation, start_values};
-use self::rolling::Impulse;
-use super::batch::{AnyBatch, Batch};
 use super::constraints::{Constraints, Placed};
 use super::feedback::{Feedback, Target};
-use super::places::{Places, free_rows};
 use super::state::State;
-use super::{CoordinateMass, ElementId, System};
-use crate::elements::Element;
+use super::{ElementId, System};
+use crate::elements::contribution::{Contribution, CoordinateMass, Impulse};
 use crate::elements::creep_force::CreepForce;
 use crate::elements::inertia::{Gravity, Inertia};
+use crate::elements::initial_model::{Coordinate, InitialModel, Node};
+use crate::elements::{Attached, Element, ElementKind};
+use crate::evaluation::batch::{AnyBatch, AnyElement, Batch};
+use crate::evaluation::scatter_map::{ScatterMap, free_rows};
 use crate::joints::attached::AttachedJoint;
 use crate::joints::blocks::Batches;
 use crate::joints::derivatives::{LOCAL, OWN, TIP};
@@ -67,31 +68,13 @@ pub struct Placement {
     pub second_axis: Option<Vector3>,
 }
 
-struct Node {
-    name: String,
-    motion: NodeMotion,
-    freedoms: Freedoms,
-    mass: Option<Matrix6>,
-}
-
-struct Coordinate {
-    name: String,
-    /// At the start [m, rad].
-    value: f64,
-    /// Its rate at the start [m/s, rad/s].
-    rate: f64,
-    quantity: Quantity,
-}
-
 /// Collects the parts of a system.
 pub struct Builder {
-    nodes: Vec<Node>,
-    coordinates: Vec<Coordinate>,
+    model: InitialModel,
     batches: Vec<Box<dyn AnyBatch>>,
     constraints: Constraints,
     multipliers: Vec<(String, &'static str)>,
     multiplier_quantities: Vec<Quantity>,
-    gravity: Gravity,
     states: Vec<(CoordinateId, f64)>,
     impulses: Vec<Impulse>,
     coordinate_masses: Vec<CoordinateMass>,
@@ -101,10 +84,6 @@ pub struct Builder {
     functions: Vec<(String, Function)>,
     graph: Graph,
     targets: Vec<(Target, SignalId)>,
-    /// The signal that is the size of the loads being added.
-    driver: Option<SignalId>,
-    /// The element added last.
-    last: Option<ElementId>,
     /// Where parts are given approximately: the values of coordinates at the start that joints are given.
     start_values: Option<Vec<(CoordinateId, f64)>>,
 }
@@ -125,13 +104,15 @@ impl Builder {
             mass: None,
         };
         Self {
-            nodes: vec![ground],
-            coordinates: Vec::new(),
+            model: InitialModel {
+                nodes: vec![ground],
+                coordinates: Vec::new(),
+                gravity: Gravity::constant(Vector3::zeros()),
+            },
             batches: Vec::new(),
             constraints: Constraints::default(),
             multipliers: Vec::new(),
             multiplier_quantities: Vec::new(),
-            gravity: Gravity::constant(Vector3::zeros()),
             states: Vec::new(),
             impulses: Vec::new(),
             coordinate_masses: Vec::new(),
@@ -140,91 +121,116 @@ impl Builder {
             functions: Vec::new(),
             graph: Graph::default(),
             targets: Vec::new(),
-            driver: None,
-            last: None,
             start_values: None,
         }
     }
 
     /// Sets gravity [m/s²], in inertial axes.
     pub fn set_gravity(&mut self, gravity: Vector3) {
-        self.gravity.acceleration = gravity;
+        self.model.gravity.acceleration = gravity;
     }
 
     /// Lets gravity act by a factor that is a function of time.
     pub fn set_gravity_factor(&mut self, factor: Function) {
-        self.gravity.factor = Some(factor);
+        self.model.gravity.factor = Some(factor);
     }
 
     /// Adds a node with its place at the start.
     pub fn add_node(&mut self, name: &str, frame: Motion, freedoms: Freedoms) -> NodeId {
         let motion = NodeMotion::at_rest(frame);
-        self.nodes.push(Node { name: name.to_owned(), motion, freedoms, mass: None });
-        self.nodes.len() - 1
+        self.model.nodes.push(Node { name: name.to_owned(), motion, freedoms, mass: None });
+        self.model.nodes.len() - 1
     }
 
     /// Sets a node's twist at the start, in its body frame [m/s, rad/s]; locked freedoms stay at rest.
     pub fn set_twist(&mut self, node: NodeId, twist: Vector6) {
-        let freedoms = self.nodes[node].freedoms;
-        self.nodes[node].motion.twist =
+        let freedoms = self.model.nodes[node].freedoms;
+        self.model.nodes[node].motion.twist =
             Vector6::from_fn(|k, _| if freedoms.is_free(k) { twist[k] } else { 0.0 });
     }
 
     /// Locks all freedoms of a node: it stays where it is.
     pub fn lock(&mut self, node: NodeId) {
-        self.nodes[node].freedoms = Freedoms::Fixed;
-        self.nodes[node].motion.twist.fill(0.0);
+        self.model.nodes[node].freedoms = Freedoms::Fixed;
+        self.model.nodes[node].motion.twist.fill(0.0);
     }
 
-    /// Place of a node at the start.
+    /// Slot of a node at the start.
     pub fn initial_frame(&self, node: NodeId) -> Motion {
-        self.nodes[node].motion.frame
+        self.model.frame(node)
     }
 
     /// Which freedoms of a node are free.
     pub fn freedoms(&self, node: NodeId) -> Freedoms {
-        self.nodes[node].freedoms
+        self.model.nodes[node].freedoms
     }
 
-    /// Adds an algebraic coordinate that no joint has, at zero at the start.
-    pub(crate) fn add_coordinate(&mut self, name: &str, quantity: Quantity) -> CoordinateId {
-        self.coordinates.push(Coordinate { name: name.to_owned(), value: 0.0, rate: 0.0, quantity });
-        self.coordinates.len() - 1
-    }
-
-    /// Gravity and the part of it that acts.
-    pub(crate) fn gravity(&self) -> &Gravity {
-        &self.gravity
+    /// Nodes, coordinates and gravity as they are so far.
+    pub fn model(&self) -> &InitialModel {
+        &self.model
     }
 
     /// Adds to a node's mass matrix: 6x6, in the node's frame, about the node.
     pub fn add_inertia(&mut self, node: NodeId, mass: &Matrix6) {
-        *self.nodes[node].mass.get_or_insert_with(Matrix6::zeros) += mass;
+        *self.model.nodes[node].mass.get_or_insert_with(Matrix6::zeros) += mass;
     }
 
     /// Adds an element.
     pub fn add_element<E: Element>(&mut self, element: E) {
-        if let Some(signal) = self.driver {
-            self.targets.push((Target::Load(Box::new(element)), signal));
-            self.last = Some(ElementId { batch: None, item: self.targets.len() - 1 });
-            return;
-        }
-        for (index, batch) in self.batches.iter_mut().enumerate() {
-            if let Some(batch) = batch.as_any_mut().downcast_mut::<Batch<E>>() {
-                batch.push(element);
-                self.last = Some(ElementId { batch: Some(index), item: batch.len() - 1 });
-                return;
-            }
-        }
-        let mut batch = Batch::<E>::new();
-        batch.push(element);
-        self.last = Some(ElementId { batch: Some(self.batches.len()), item: 0 });
-        self.batches.push(Box::new(batch));
+        self.add(Contribution::of(&self.model, element));
     }
 
-    /// The element that was added last, if any since this was asked.
-    pub fn take_last_element(&mut self) -> Option<ElementId> {
-        self.last.take()
+    /// Adds what an entry of the model consists of; returns the element that its outputs refer to.
+    ///
+    /// # Panics
+    /// If it was made for another model, or for this one before other nodes or coordinates were added.
+    pub fn add(&mut self, contribution: Contribution) -> Option<ElementId> {
+        let batches = |builder: &mut Self, element: Box<dyn AnyElement>| element.join(&mut builder.batches);
+        self.add_each(contribution, batches)
+    }
+
+    /// Adds an entry of a kind of springs or loads; returns the element that its outputs refer to.
+    ///
+    /// # Errors
+    /// If a parameter is missing or makes no sense.
+    pub fn add_of_kind(
+        &mut self,
+        kind: &ElementKind,
+        attached: Attached,
+        parameters: &Parameters,
+    ) -> Result<Option<ElementId>, ParameterError> {
+        (kind.build)(&self.model, attached, parameters).map(|contribution| self.add(contribution))
+    }
+
+    /// Adds an entry whose elements are loads of size one, and multiplies them by a signal.
+    ///
+    /// # Panics
+    /// As [`Self::add`].
+    pub fn add_driven(&mut self, signal: SignalId, contribution: Contribution) -> Option<ElementId> {
+        self.add_each(contribution, |builder, element| {
+            builder.targets.push((Target::Load(element.into_load()), signal));
+            ElementId { batch: None, item: builder.targets.len() - 1 }
+        })
+    }
+
+    fn add_each(
+        &mut self,
+        contribution: Contribution,
+        mut add: impl FnMut(&mut Self, Box<dyn AnyElement>) -> ElementId,
+    ) -> Option<ElementId> {
+        assert!(contribution.fits(&self.model), "a contribution is added to the model that it was made for");
+        let Contribution { nodes, coordinates, inertias, states, impulses, latches, .. } = contribution;
+        self.model.nodes.extend(nodes);
+        self.model.coordinates.extend(coordinates);
+        for (node, mass) in inertias {
+            self.add_inertia(node, &mass);
+        }
+        self.states.extend(states);
+        self.impulses.extend(impulses);
+        self.latches.extend(latches);
+        self.coordinate_masses.extend(contribution.coordinate_masses);
+        let last = contribution.elements.into_iter().map(|element| add(self, element)).last();
+        last.filter(|_| contribution.has_outputs)
     }
 
     /// Adds a joint of a kind that stands between two nodes; gives its algebraic coordinates.
@@ -257,7 +263,7 @@ impl Builder {
             return Err(ParameterError::new("kind", "acts on another joint's coordinate"));
         };
         let base = Motion::new(joint_rotation(frames, placement)?, placement.at);
-        let tip = placement.at_tip.unwrap_or(self.nodes[placement.nodes[1]].motion.frame.position);
+        let tip = placement.at_tip.unwrap_or(self.model.nodes[placement.nodes[1]].motion.frame.position);
         let span = base.inverse_transform_point(&tip);
         let geometry = Geometry { span, planar: self.moves_in_plane(placement, &base), axes: base.rotation };
         let mut joint = build(parameters, &geometry)?;
@@ -281,20 +287,20 @@ impl Builder {
         let places = [base, on_tip.map_or(Ok(base), |place| place.frame(&base, placement))? * relative];
         let carried = [0, 1].map(|side| {
             let node = placement.nodes[side];
-            CarriedFrame { node, offset: places[side].relative_to(&self.nodes[node].motion.frame) }
+            CarriedFrame { node, offset: places[side].relative_to(&self.model.nodes[node].motion.frame) }
         });
         let coordinates: Vec<CoordinateId> = joint
             .coordinates()
             .iter()
             .enumerate()
             .map(|(k, coordinate)| {
-                self.coordinates.push(Coordinate {
+                self.model.coordinates.push(Coordinate {
                     name: format!("{name}.{}", coordinate.name),
                     value: values[k],
                     rate: 0.0,
                     quantity: coordinate.quantity,
                 });
-                self.coordinates.len() - 1
+                self.model.coordinates.len() - 1
             })
             .collect();
         if let Some(start) = &mut self.start_values {
@@ -309,7 +315,6 @@ impl Builder {
             joint.contact().map_or_else(Vec::new, |contact| self.add_rolling(name, carried, contact));
         if let (Some(contact), Some(law)) = (joint.rail_contact(), joint.creep()) {
             self.add_element(CreepForce::new(carried, first_multiplier, contact.clone(), law.clone()));
-            self.last = None;
         }
         self.constraints.joints.push(AttachedJoint {
             name: name.to_owned(),
@@ -326,8 +331,8 @@ impl Builder {
 
     /// Whether the tip can only move in the plane of the joint frame's first two axes.
     fn moves_in_plane(&self, placement: &Placement, base: &Motion) -> bool {
-        let Freedoms::Planar(a, b) = self.nodes[placement.nodes[1]].freedoms else { return false };
-        let frame = self.nodes[placement.nodes[1]].motion.frame;
+        let Freedoms::Planar(a, b) = self.model.nodes[placement.nodes[1]].freedoms else { return false };
+        let frame = self.model.nodes[placement.nodes[1]].motion.frame;
         let mut normal = Vector3::zeros();
         normal[3 - a - b] = 1.0;
         base.rotation.apply_inverse(&frame.rotation.apply(&normal)).z.abs() > 1.0 - 1e-12
@@ -335,29 +340,12 @@ impl Builder {
 
     /// Name of a coordinate.
     pub fn coordinate_name(&self, coordinate: CoordinateId) -> &str {
-        &self.coordinates[coordinate].name
+        self.model.coordinate_name(coordinate)
     }
 
-    /// Value of a coordinate at the start [m or rad].
-    pub(crate) fn coordinate_start(&self, coordinate: CoordinateId) -> f64 {
-        self.coordinates[coordinate].value
-    }
-
-    /// What a coordinate measures.
+    /// Quantity that a coordinate measures.
     pub fn coordinate_quantity(&self, coordinate: CoordinateId) -> Quantity {
-        self.coordinates[coordinate].quantity
-    }
-
-    /// Whether a coordinate measures what a drive or spring acts on.
-    pub(crate) fn check_quantity(
-        &self,
-        coordinate: CoordinateId,
-        wanted: Quantity,
-    ) -> Result<(), ParameterError> {
-        if self.coordinates[coordinate].quantity == wanted {
-            return Ok(());
-        }
-        Err(ParameterError::new("coordinate", format!("must be a relative {}", wanted.relative())))
+        self.model.coordinate_quantity(coordinate)
     }
 
     /// Numbers the unknowns and gives the system with its state at `time` [s]: places and twists as
@@ -371,10 +359,13 @@ impl Builder {
             return Err(BuildError::Empty);
         }
         let inertias: Vec<Inertia> = self
+            .model
             .nodes
             .iter()
             .enumerate()
-            .filter_map(|(node, spec)| spec.mass.map(|mass| Inertia::new(node, mass, self.gravity.clone())))
+            .filter_map(|(node, spec)| {
+                spec.mass.map(|mass| Inertia::new(node, mass, self.model.gravity.clone()))
+            })
             .collect();
         if !inertias.is_empty() {
             let mut batch = Batch::<Inertia>::new();
@@ -407,7 +398,7 @@ impl Builder {
             batch.locate(&pattern);
         }
         feedback.locate(&pattern);
-        let mut joint_places = Places::new();
+        let mut joint_places = ScatterMap::new();
         for rows in &joint_rows {
             joint_places.push(&pattern, rows, LOCAL);
         }
@@ -442,7 +433,7 @@ impl Builder {
             joint_starts,
             joint_rows: joint_rows.concat(),
             inertias,
-            gravity: self.gravity,
+            gravity: self.model.gravity,
             feedback,
             functions: self.functions,
         };
@@ -452,7 +443,7 @@ impl Builder {
     fn number(&mut self) -> Layout {
         let mut layout = Layout::default();
         let mut next = 0;
-        for node in &self.nodes {
+        for node in &self.model.nodes {
             layout.node_rows.push(std::array::from_fn(|k| {
                 if node.freedoms.is_free(k) {
                     next += 1;
@@ -463,7 +454,7 @@ impl Builder {
             }));
             layout.node_names.push(node.name.clone());
         }
-        for coordinate in &self.coordinates {
+        for coordinate in &self.model.coordinates {
             layout.coordinate_rows.push(next);
             layout.coordinate_names.push(coordinate.name.clone());
             next += 1;
@@ -473,7 +464,7 @@ impl Builder {
             (0..6).filter(|&k| rows[k] != LOCKED).map(quantity).collect::<Vec<_>>()
         };
         layout.quantities = layout.node_rows.iter().flat_map(of_node).collect();
-        layout.quantities.extend(self.coordinates.iter().map(|coordinate| coordinate.quantity));
+        layout.quantities.extend(self.model.coordinates.iter().map(|coordinate| coordinate.quantity));
         layout.quantities.append(&mut self.multiplier_quantities);
         layout.coordinate_count = next as usize;
         layout.multiplier_count = self.multipliers.len();
@@ -486,6 +477,7 @@ impl Builder {
     fn initial_state(&self, layout: &Layout, time: f64, held: Vec<f64>) -> State {
         let sees_multipliers = self.batches.iter().any(|batch| batch.sees_multipliers());
         let coordinates = self
+            .model
             .coordinates
             .iter()
             .map(|coordinate| CoordinateMotion {
@@ -498,7 +490,7 @@ impl Builder {
             kinematics: Kinematics {
                 time,
                 elapsed: 0.0,
-                nodes: self.nodes.iter().map(|node| node.motion).collect(),
+                nodes: self.model.nodes.iter().map(|node| node.motion).collect(),
                 coordinates,
                 held,
                 multipliers: if sees_multipliers { vec![0.0; layout.multiplier_count] } else { Vec::new() },
@@ -507,7 +499,7 @@ impl Builder {
             violations: vec![0.0; layout.multiplier_count],
             algorithmic: vec![0.0; layout.coordinate_count],
             time_remainder: 0.0,
-            position_remainders: vec![Vector3::zeros(); self.nodes.len()],
+            position_remainders: vec![Vector3::zeros(); self.model.nodes.len()],
             accumulated: Vec::new(),
         }
     }
@@ -544,4 +536,20 @@ fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
         Some(*end)
     });
     std::iter::once(0).chain(ends).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A contribution that was made before other coordinates were added would act on coordinates of others.
+    #[test]
+    #[should_panic(expected = "the model that it was made for")]
+    fn contributions_are_added_to_the_model_they_were_made_for() {
+        let mut builder = Builder::new();
+        let mut early = Contribution::to(builder.model());
+        early.add_state("early".to_owned(), 0.0, 1.0);
+        builder.add_state("late", 0.0, 1.0);
+        builder.add(early);
+    }
 }

@@ -2,10 +2,10 @@
 
 use lissom_solver::{Group, Pattern};
 
-use super::places::position_of;
-use super::receiver::Receiver;
-use super::scratch::with_scratch;
 use super::{StepPoint, System};
+use crate::evaluation::scatter_map::position_of;
+use crate::evaluation::scratch::with_scratch;
+use crate::evaluation::tangent_assembler::TangentAssembler;
 use crate::joints::Drive;
 use crate::joints::attached::AttachedJoint;
 use crate::joints::constraint::{Constraint, Port, Visit, ports_of};
@@ -256,7 +256,12 @@ impl System {
     }
 
     /// Hands their derivatives to `out`.
-    pub(super) fn linearize_others(&self, point: &Point<'_>, chart: Chart<'_>, out: &mut Receiver<'_>) {
+    pub(super) fn linearize_others(
+        &self,
+        point: &Point<'_>,
+        chart: Chart<'_>,
+        out: &mut TangentAssembler<'_>,
+    ) {
         if self.placed.is_empty() {
             return;
         }

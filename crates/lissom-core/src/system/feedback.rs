@@ -14,12 +14,12 @@ use std::sync::Arc;
 use lissom_solver::Pattern;
 
 use super::System;
-use super::batch::{AnyBatch, Changed, Mass, Owner, scatter, through};
-use super::places::{Places, free_rows};
-use super::receiver::{Place, Receiver};
-use super::threads::Threads;
-use super::work::{power, work};
 use crate::elements::{Element, Energy, LinearLimit, LinearRange, Tangents, USUAL_UNKNOWNS};
+use crate::evaluation::batch::{AnyBatch, Changed, Mass, Owner, scatter, through};
+use crate::evaluation::scatter_map::{ScatterMap, free_rows};
+use crate::evaluation::tangent_assembler::{Slot, TangentAssembler};
+use crate::evaluation::threads::Threads;
+use crate::evaluation::work::{power, work};
 use crate::joints::evaluation_point::Chart;
 use crate::kinematics::step_stages::StepStages;
 use crate::kinematics::{CoordinateId, Kinematics, Layout, NodeId};
@@ -157,7 +157,7 @@ impl Driven {
 pub(crate) struct Feedback {
     pub(crate) graph: Graph,
     driven: Vec<Driven>,
-    places: Places,
+    places: ScatterMap,
 }
 
 /// Too many unknowns are touched by one signal, of this name.
@@ -177,7 +177,7 @@ impl Feedback {
             Driven::new(target, signal, &graph, layout).ok_or_else(touches)
         });
         let driven = driven.collect::<Result<_, _>>()?;
-        Ok(Self { graph, driven, places: Places::new() })
+        Ok(Self { graph, driven, places: ScatterMap::new() })
     }
 
     pub(crate) fn is_empty(&self) -> bool {
@@ -209,7 +209,7 @@ impl Feedback {
     }
 
     pub(crate) fn locate(&mut self, pattern: &Pattern) {
-        self.places = Places::new();
+        self.places = ScatterMap::new();
         for driven in &self.driven {
             self.places.push_rows(pattern, &driven.rows, driven.own);
         }
@@ -260,18 +260,18 @@ impl Feedback {
         });
     }
 
-    fn hand_derivatives(
+    fn assemble_tangent(
         &self,
         at: &Kinematics,
         chart: Chart<'_>,
         scratch: &mut Tangents,
-        out: &mut Receiver<'_>,
+        out: &mut TangentAssembler<'_>,
     ) {
         self.graph.evaluate(at, |values| {
             for (index, driven) in self.driven.iter().enumerate() {
                 driven.linearize(&self.graph, at, values, scratch);
                 through(chart, driven.nodes.iter().copied(), scratch);
-                out.add_element(Place { rows: &driven.rows, runs: self.places.of(index) }, scratch);
+                out.add_element(Slot { rows: &driven.rows, segments: self.places.of(index) }, scratch);
             }
         });
     }
@@ -322,9 +322,9 @@ impl AnyBatch for Arc<Feedback> {
         (at, _): (&Kinematics, &Kinematics),
         chart: Chart<'_>,
         scratch: &mut Tangents,
-        out: &mut Receiver<'_>,
+        out: &mut TangentAssembler<'_>,
     ) {
-        self.hand_derivatives(at, chart, scratch, out);
+        self.assemble_tangent(at, chart, scratch, out);
     }
 
     fn stage_forces(&self, step: &StepStages<'_>, out: &mut [Vec<f64>]) {

@@ -1,39 +1,33 @@
 //! What is simulated: an immutable system, and the state that changes.
 
 mod assembly;
-mod batch;
 mod builder;
 mod constraints;
 mod feedback;
-mod linearization;
-pub(crate) mod places;
 mod reach;
-mod receiver;
-mod scratch;
 mod state;
 mod step_stages;
-mod threads;
-mod work;
 
 use std::sync::Arc;
 
+pub use crate::evaluation::batch::ElementId;
+pub(crate) use crate::evaluation::batch::{Mass, Owner};
+pub(crate) use crate::evaluation::threads::Threads;
+pub use crate::evaluation::{Blend, Linearization, Scratch, Sum, TangentAssembler, WORTH_WHILE};
 pub use crate::joints::Drive;
-pub(crate) use batch::Owner;
 pub use builder::{BuildError, Builder, PlaceOnTip, Placement};
-pub use linearization::{Linearization, Scratch};
 pub(crate) use reach::Reach;
-pub use receiver::{Blend, Receiver, Sum};
 pub use state::State;
 pub use step_stages::StepPoint;
-pub(crate) use threads::Threads;
-pub use threads::WORTH_WHILE;
 
 use lissom_motion::Vector3;
 use lissom_solver::Structure;
-use nalgebra::DMatrix;
 
+use crate::elements::contribution::CoordinateMass;
 use crate::elements::inertia::{Gravity, Inertia};
 use crate::elements::{Energy, LinearLimit, LinearRange};
+use crate::evaluation::batch::AnyBatch;
+use crate::evaluation::scatter_map::ScatterMap;
 use crate::joints::Constraint;
 use crate::joints::attached::AttachedJoint;
 use crate::joints::blocks::{Batches, JointBatch};
@@ -43,26 +37,9 @@ use crate::joints::starts::JointStarts;
 use crate::kinematics::{self, CoordinateId, HeldId, Kinematics, Layout, NodeId};
 use crate::registry::Function;
 use crate::signals::Graph;
-use batch::AnyBatch;
-pub(crate) use batch::Mass;
 pub(crate) use constraints::rows_of_port;
 use constraints::{Constraints, Placed};
 pub(crate) use feedback::Feedback;
-use places::Places;
-
-/// A mass matrix on coordinates, as elements bring it into the equations.
-pub(crate) struct CoordinateMass {
-    pub(crate) coordinates: Vec<CoordinateId>,
-    pub(crate) matrix: DMatrix<f64>,
-}
-
-/// Where an element is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ElementId {
-    /// None for what a signal drives.
-    batch: Option<usize>,
-    item: usize,
-}
 
 /// Nodes, elements and joints with their numbering. Does not change during a simulation and knows
 /// neither time nor state.
@@ -82,7 +59,7 @@ pub struct System {
     pub(crate) functions: Vec<(String, Function)>,
     pub(crate) structure: Structure,
     /// Where every joint's local matrix lies in the pattern.
-    pub(crate) joint_places: Places,
+    pub(crate) joint_places: ScatterMap,
     /// Rows of every joint's local unknowns and equations, all joints in a row, and where each joint's begin.
     pub(crate) joint_rows: Vec<u32>,
     pub(crate) joint_starts: Vec<usize>,

@@ -13,8 +13,8 @@
 use std::sync::Arc;
 
 use super::System;
-use super::batch::{AnyBatch, Changed};
 use crate::elements::is_same;
+use crate::evaluation::batch::{AnyBatch, Changed};
 use crate::kinematics::Kinematics;
 
 /// What differs between models of the same unknowns.

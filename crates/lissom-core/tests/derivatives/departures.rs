@@ -1,7 +1,7 @@
 //! Derivatives by departures from going on: `H(t) = H exp(t V) exp ψ̂(t)`, differentiated along the motion itself.
 
 use lissom_core::joints::evaluation_point::Chart;
-use lissom_core::system::{Linearization, System};
+use lissom_core::system::System;
 use lissom_motion::{Motion, Vector6, tangent};
 
 use crate::derivatives::configuration::{Configuration, Unknown, difference, unknown};
@@ -40,7 +40,7 @@ pub(crate) fn check(name: &str, system: &System, mut here: Configuration) {
     }
     let layout = system.layout();
     let pattern = system.pattern();
-    let mut linearization = Linearization::new(system);
+    let mut linearization = system.empty_linearization();
     system.linearize(&here.point(0.0), Chart::Departures(&here.at.nodes), &mut linearization);
     for column in 0..layout.coordinate_count() {
         let by = |order: usize| {

@@ -58,8 +58,7 @@ fn with_spring(
             Attached::Coordinate(joint.expect("valid")[0])
         }
     };
-    (kind.build)(&mut builder, attached, &parameters).expect("valid");
-    let element = builder.take_last_element();
+    let element = builder.add_of_kind(kind, attached, &parameters).expect("valid");
     let (system, state) = builder.build(0.0).expect("valid");
     (system, state, element)
 }

@@ -110,7 +110,8 @@ fn sizes_that_are_signals() {
             let last = graph(&mut builder, nodes, own, &mut random);
             let parameters = sample_parameters(kind.parameters, flag, &mut random)
                 .with(size.name, Value::Function(Arc::new(Constant(1.0))));
-            builder.add_driven(last, |builder| (kind.build)(builder, attached, &parameters)).expect("valid");
+            let load = (kind.build)(builder.model(), attached, &parameters).expect("valid");
+            builder.add_driven(last, load);
             let (system, state) = builder.build(0.0).expect("valid");
             check(kind.name, &system, &state, 0.4, &mut random);
         }
@@ -142,7 +143,7 @@ fn loads_are_in_proportion_to_their_size() {
             };
             let parameters =
                 sample_parameters(kind.parameters, false, &mut random).with(size.name, Value::Number(factor));
-            (kind.build)(&mut builder, attached, &parameters).expect("valid");
+            builder.add_of_kind(kind, attached, &parameters).expect("valid");
             let (system, state) = builder.build(0.0).expect("valid");
             let mut here = Configuration::random(&system, &state, 0.4, &mut random);
             here.multipliers.fill(0.0);

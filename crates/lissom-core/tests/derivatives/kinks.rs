@@ -72,7 +72,7 @@ fn loads_and_springs_report_the_kinks_of_their_functions() {
                     Attached::Coordinate(joint.expect("valid")[0])
                 }
             };
-            (kind.build)(&mut builder, attached, &parameters).expect("valid");
+            builder.add_of_kind(kind, attached, &parameters).expect("valid");
             assert_kinks(builder, kind.name, parameter);
             count += 1;
         }

@@ -21,7 +21,9 @@ use lissom_core::joints::slider::{CarriedPoint, Orientation};
 use lissom_core::joints::{self, Build, JointKind};
 use lissom_core::kinematics::{Freedoms, Quantity};
 use lissom_core::registry::{Parameters, Value};
-use lissom_core::system::{Blend, Builder, Linearization, Placement, Receiver, Scratch, State, Sum, System};
+use lissom_core::system::{
+    Blend, Builder, Linearization, Placement, Scratch, State, Sum, System, TangentAssembler,
+};
 use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
 
 /// Compares all blocks of the linearisation with differences of the residual.
@@ -32,12 +34,12 @@ fn check(name: &str, system: &System, state: &State, size: f64, random: &mut Ran
     let layout = system.layout();
     let pattern = system.pattern();
     for chart in [false, true] {
-        let mut linearization = Linearization::new(system);
+        let mut linearization = system.empty_linearization();
         let tangents: Vec<_> = here.node_increments.iter().map(IncrementTangent::new).collect();
         let unknowns = if chart { Chart::Increments(&tangents) } else { Chart::Body };
         system.linearize(&here.point(0.0), unknowns, &mut linearization);
         check_sum(name, &linearization, |receiver| {
-            system.hand_derivatives(&here.point(0.0), unknowns, &mut Scratch::default(), receiver);
+            system.assemble_tangent(&here.point(0.0), unknowns, &mut Scratch::default(), receiver);
         });
         for column in 0..layout.size() {
             let by_place =
@@ -85,10 +87,10 @@ fn check(name: &str, system: &System, state: &State, size: f64, random: &mut Ran
 }
 
 /// Derivatives summed at once are those kept apart, summed.
-fn check_sum(name: &str, apart: &Linearization, hand: impl Fn(&mut Receiver<'_>)) {
+fn check_sum(name: &str, apart: &Linearization, hand: impl Fn(&mut TangentAssembler<'_>)) {
     let blend = Blend { place: 0.7, rate: 1.9, acceleration: -0.6, augmented: 0.3, constraint: 1.3 };
     let mut values = vec![f64::NAN; apart.mass.len()];
-    hand(&mut Receiver::Real(Sum { blend, values: &mut values, stiffness: &mut [] }));
+    hand(&mut TangentAssembler::Real(Sum { blend, values: &mut values, stiffness: &mut [] }));
     for (k, found) in values.iter().enumerate() {
         let wanted = blend.place * apart.stiffness[k]
             + blend.rate * apart.damping[k]
@@ -197,7 +199,7 @@ fn springs_and_loads() {
                     Attached::Coordinate(coordinates[0])
                 }
             };
-            (kind.build)(&mut builder, attached, &parameters).expect("valid");
+            builder.add_of_kind(kind, attached, &parameters).expect("valid");
             let (system, state) = builder.build(0.0).expect("valid");
             check(kind.name, &system, &state, 0.4, &mut random);
         }

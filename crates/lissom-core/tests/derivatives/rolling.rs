@@ -39,7 +39,7 @@ fn wheels_that_yield_and_slip() {
             parameters.insert("slip_velocity", Value::Number(3.0));
         }
         let attached = Attached::TwoNodes([base, tip], [Vector3::zeros(); 2]);
-        (kind.build)(&mut builder, attached, &parameters).expect("valid");
+        builder.add_of_kind(kind, attached, &parameters).expect("valid");
         let (system, state) = builder.build(0.0).expect("valid");
         check("rolling_contact", &system, &state, 0.1, &mut random);
     }

@@ -3,7 +3,7 @@
 use lissom_core::elements::inertia::Gravity;
 use lissom_core::elements::superelement::{
     Damping, GeometricMatrices, InterfacePlace, ReducedMatrices, Shortening, Superelement,
-    SuperelementDescription, TurningMatrices, add_superelement,
+    SuperelementDescription, TurningMatrices, superelement,
 };
 use lissom_core::elements::{Element, LinearLimit};
 use lissom_core::kinematics::Freedoms;
@@ -320,7 +320,8 @@ fn a_steady_translation_changes_no_force() {
         floating: 1,
         matrices: matrices.check(&places).expect("good matrices"),
     };
-    add_superelement(&mut builder, &description).expect("small enough");
+    let (contribution, _) = superelement(builder.model(), &description).expect("small enough");
+    builder.add(contribution);
     let (system, state) = builder.build(0.0).expect("valid");
     let here = Configuration::random(&system, &state, 0.2, &mut random);
     let mut moved = Configuration::random(&system, &state, 0.2, &mut Random::new(9));
@@ -409,7 +410,8 @@ fn a_single_interface_is_a_rigid_body() {
         floating: 0,
         matrices: matrices.check(&places).expect("good matrices"),
     };
-    add_superelement(&mut builder, &description).expect("small enough");
+    let (contribution, _) = superelement(builder.model(), &description).expect("small enough");
+    builder.add(contribution);
     let (system, mut state) = builder.build(0.0).expect("valid");
     state.kinematics.nodes[1].twist[4] = 3.0;
     let kinetic = system.energy(&state.kinematics).kinetic;
@@ -433,7 +435,8 @@ fn modal_coordinates_have_the_mass_of_the_part() {
         floating: 0,
         matrices: matrices.check(&places).expect("good matrices"),
     };
-    let unknowns = add_superelement(&mut builder, &description).expect("small enough");
+    let (contribution, unknowns) = superelement(builder.model(), &description).expect("small enough");
+    builder.add(contribution);
     let coordinates: Vec<_> = unknowns.coordinates().collect();
     let (system, mut state) = builder.build(0.0).expect("valid");
     assert_eq!(system.layout().coordinate_name(coordinates[0]), "part.mode1");

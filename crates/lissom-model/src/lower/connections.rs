@@ -181,9 +181,10 @@ fn friction(component: &Component, builder: &mut Builder, names: &mut Names) -> 
     else {
         return Err(Problem::error(friction.span, format!("joint `{name}` can have no friction")));
     };
-    (kind.build)(builder, Attached::Coordinate(*coordinate), &friction.value)
+    let element = builder
+        .add_of_kind(kind, Attached::Coordinate(*coordinate), &friction.value)
         .map_err(|error| Problem::error(friction.span, format!("friction of joint `{name}`: {error}")))?;
-    names.powers.extend(builder.take_last_element().map(|element| (name.clone(), element)));
+    names.powers.extend(element.map(|element| (name.clone(), element)));
     Ok(())
 }
 
@@ -327,17 +328,17 @@ fn element(
     let parameters = ramped.as_ref().unwrap_or(&component.parameters);
     let with_inputs = with_inputs(kind, parameters, component, names)?;
     let parameters = with_inputs.as_ref().unwrap_or(parameters);
-    let build = |builder: &mut Builder| (kind.build)(builder, attached, parameters);
-    let built = match &component.signal {
-        None => build(builder),
+    let fault = |error| parameter_problem(component, &error);
+    let element = match &component.signal {
+        None => builder.add_of_kind(kind, attached, parameters).map_err(fault)?,
         Some((key, formula)) => {
             let name = format!("`{key}` of load `{}`", component.name.value);
             let signal = super::signals::add_formula(document, builder, names, &name, formula)?;
-            builder.add_driven(signal, build)
+            let load = (kind.build)(builder.model(), attached, parameters).map_err(fault)?;
+            builder.add_driven(signal, load)
         }
     };
     let is_spring = SPRINGS.iter().any(|spring| spring.name == kind.name);
-    let element = builder.take_last_element();
     names.powers.extend(element.map(|element| (component.name.value.clone(), element)));
     if let Some(element) = element.filter(|_| is_spring) {
         let quantity = match kind.attachment {
@@ -346,7 +347,7 @@ fn element(
         };
         names.springs.insert(component.name.value.clone(), (element, quantity));
     }
-    built.map_err(|error| parameter_problem(component, &error))
+    Ok(())
 }
 
 /// The parameters with inputs in the place of their names; none where no input is named.

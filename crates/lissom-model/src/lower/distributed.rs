@@ -56,7 +56,8 @@ pub(super) fn add(
                     .with("scale", Value::Function(scale))
                     .with("follower", Value::Flag(distributed.axes.is_none()));
                 let attached = Attached::OneNode(line.nodes[k], line.offsets[k].position);
-                (force::KIND.build)(builder, attached, &parameters)
+                builder
+                    .add_of_kind(&force::KIND, attached, &parameters)
                     .map_err(|error| Problem::error(distributed.span, error.to_string()))?;
             }
         }

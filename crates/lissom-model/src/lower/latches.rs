@@ -62,8 +62,7 @@ pub(super) fn add(
     let engaged = builder.add_held(&format!("{name}, latched"), start);
     let fault = |error| Problem::error(span, format!("latch of joint `{name}`: {error}"));
     let parameters = Parameters::new().with("engaged", Value::Input(engaged));
-    (kind.build)(builder, Attached::Coordinate(coordinate), &parameters).map_err(fault)?;
-    builder.take_last_element();
+    builder.add_of_kind(kind, Attached::Coordinate(coordinate), &parameters).map_err(fault)?;
     // A latch that has let go does not engage again: its coordinate leaves the place from where it was held.
     let released = builder.add_held(&format!("{name}, released"), 0.0);
     let becomes = |builder: &mut Builder, function: Arc<dyn SignalFunction>| {

@@ -1,7 +1,7 @@
 //! Bodies, point masses and beams as nodes with mass and elements.
 
 use lissom_core::elements::beam::SectionLaw;
-use lissom_core::elements::beam::line::{BeamLineDescription, add_beam_line};
+use lissom_core::elements::beam::line::{BeamLineDescription, beam_line};
 use lissom_core::elements::inertia::Inertia;
 use lissom_core::kinematics::{Freedoms, Kinematics, LOCKED, NodeId};
 use lissom_core::system::{Builder, System};
@@ -154,8 +154,8 @@ fn add_beam(
     };
     let ends = [end(&beam.shared_start), end(&beam.shared_end)];
     let properties = |s: f64| beam.properties(document, s);
-    let line = add_beam_line(
-        builder,
+    let (contribution, line) = beam_line(
+        builder.model(),
         &BeamLineDescription {
             name: &beam.name.value,
             elements: beam.elements.value,
@@ -170,6 +170,7 @@ fn add_beam(
             ends,
         },
     );
+    builder.add(contribution);
     if let Err(problem) = super::distributed::add(document, beam, &line, builder) {
         problems.push(problem);
     }

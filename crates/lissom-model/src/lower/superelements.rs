@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use lissom_core::elements::superelement::{InterfacePlace, SuperelementDescription, add_superelement};
+use lissom_core::elements::superelement::{InterfacePlace, SuperelementDescription, superelement};
 use lissom_core::kinematics::NodeId;
 use lissom_core::system::Builder;
 use lissom_motion::{Motion, Rotation};
@@ -33,8 +33,9 @@ pub(super) fn add(
             floating: element.floating,
             matrices: element.matrices.clone(),
         };
-        match add_superelement(builder, &description) {
-            Ok(unknowns) => {
+        match superelement(builder.model(), &description) {
+            Ok((contribution, unknowns)) => {
+                builder.add(contribution);
                 let nodes = unknowns.nodes().to_vec();
                 let own: Vec<NodeId> = nodes.clone();
                 let deformed = Deformed { unknowns: Arc::new(unknowns), recovery: element.recovery.clone() };

@@ -16,7 +16,7 @@ use super::columns::Columns;
 use super::groups::Groups;
 use super::{Gap, WORTH_TELLING, gap};
 use crate::kinematics::{CoordinateId, Kinematics, Quantity};
-use crate::system::{Linearization, System};
+use crate::system::System;
 
 const MOST_ITERATIONS: usize = 200;
 /// Coordinates of joints follow the parts: their weight only makes them unique.
@@ -153,7 +153,7 @@ impl<'a> Closing<'a> {
         damping: f64,
     ) -> Option<Vec<f64>> {
         self.place_own(pose);
-        let linearization = Linearization::of_state(self.columns.system, &self.at);
+        let linearization = self.columns.system.linearization_at(&self.at);
         let mut values = vec![0.0; self.pattern.entries()];
         let pattern = &self.pattern;
         let mut add = |row: usize, column: usize, value: f64| {

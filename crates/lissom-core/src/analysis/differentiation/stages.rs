@@ -55,7 +55,7 @@ impl Stages {
         let at = AtStage { place: rows.clone(), rate: rows.clone(), acceleration: rows };
         Self {
             moving: (0..layout.node_count()).filter(is_moving).collect(),
-            parts: Linearization::new(system),
+            parts: system.empty_linearization(),
             products: vec![Products::default(); count],
             maps: vec![Vec::new(); count],
             explicit: vec![all.clone(); count],

@@ -19,7 +19,7 @@ use crate::newton::{Correction, Equations, Failure};
 use crate::numbers::{Number, Numbers};
 use crate::scaling::{Representative, Scaled};
 use crate::schemes::Weights;
-use crate::system::{Linearization, Receiver, Scratch, State, Sum, System};
+use crate::system::{Scratch, State, Sum, System, TangentAssembler};
 
 /// Corrections larger than this are cut short [-, rad].
 const LARGEST_CORRECTION: f64 = 0.5;
@@ -97,7 +97,7 @@ impl PathWork {
         let layout = loaded.layout();
         let (size, count) = (layout.size(), layout.coordinate_count());
         let entries = loaded.structure().pattern.entries();
-        let linearization = Linearization::of_state(unloaded, &state.kinematics);
+        let linearization = unloaded.linearization_at(&state.kinematics);
         let representative = Representative::of(unloaded, &state.kinematics, &linearization);
         let sizes = sizes(layout, &representative);
         let violation_size = |quantity: &Quantity| match quantity {
@@ -344,8 +344,8 @@ impl PathEquations<'_> {
         let Some(system) = system else { return Err(FactorError::NotFinite { unknown: 0 }) };
         let point = self.point(stressed_at_start);
         let mut hand = |system: &System, values: &mut [f64]| {
-            let mut receiver = Receiver::Real(Sum { blend, values, stiffness: &mut [] });
-            system.hand_derivatives(&point, Chart::Body, &mut scratch, &mut receiver);
+            let mut receiver = TangentAssembler::Real(Sum { blend, values, stiffness: &mut [] });
+            system.assemble_tangent(&point, Chart::Body, &mut scratch, &mut receiver);
         };
         hand(&system, &mut values);
         let has_loads = if let PathSystems::Loads([unloaded, _]) = &*self.systems {

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use lissom_motion::{Matrix6, Motion, Vector6};
 
 use super::{Beam, SectionLaw};
+use crate::elements::contribution::Contribution;
+use crate::elements::initial_model::InitialModel;
 use crate::elements::quadrature::gauss_lobatto;
 use crate::kinematics::{Freedoms, Kinematics, NodeId};
-use crate::system::Builder;
 
 /// Motion and section forces anywhere in a beam element, for outputs.
 pub trait BeamProbe: Send + Sync {
@@ -83,16 +84,17 @@ impl BeamLine {
     }
 }
 
-/// Adds a line of beam elements to a system.
-pub fn add_beam_line(builder: &mut Builder, description: &BeamLineDescription<'_>) -> BeamLine {
+/// A line of beam elements.
+pub fn beam_line(model: &InitialModel, description: &BeamLineDescription<'_>) -> (Contribution, BeamLine) {
     match description.order {
-        1 => add::<2>(builder, description),
-        2 => add::<3>(builder, description),
-        _ => add::<4>(builder, description),
+        1 => build::<2>(model, description),
+        2 => build::<3>(model, description),
+        _ => build::<4>(model, description),
     }
 }
 
-fn add<const N: usize>(builder: &mut Builder, line: &BeamLineDescription<'_>) -> BeamLine {
+fn build<const N: usize>(model: &InitialModel, line: &BeamLineDescription<'_>) -> (Contribution, BeamLine) {
+    let mut contribution = Contribution::to(model);
     let rule = gauss_lobatto(N);
     let last = line.elements * (N - 1);
     // s of node k: end points of elements exact, so that equal meshes give equal numbers.
@@ -112,14 +114,14 @@ fn add<const N: usize>(builder: &mut Builder, line: &BeamLineDescription<'_>) ->
         };
         if let Some(node) = shared {
             nodes.push(node);
-            offsets.push(frames[k].relative_to(&builder.initial_frame(node)));
+            offsets.push(frames[k].relative_to(&model.frame(node)));
         } else {
             let name = match k {
                 0 => format!("{}.start", line.name),
                 _ if k == last => format!("{}.end", line.name),
                 _ => format!("{}@{:.4}", line.name, places[k]),
             };
-            nodes.push(builder.add_node(&name, frames[k], Freedoms::Full));
+            nodes.push(contribution.add_node(&name, frames[k], Freedoms::Full));
             offsets.push(Motion::identity());
         }
     }
@@ -138,10 +140,10 @@ fn add<const N: usize>(builder: &mut Builder, line: &BeamLineDescription<'_>) ->
             let k = first + i;
             let mass = (weight * beam.length_per_xi(xi)) * (line.mass)(places[k]);
             let adjoint = offsets[k].inverse().adjoint();
-            builder.add_inertia(nodes[k], &(adjoint.transpose() * mass * adjoint));
+            contribution.add_inertia(nodes[k], adjoint.transpose() * mass * adjoint);
         }
         elements.push(Arc::new(beam.clone()));
-        builder.add_element(beam);
+        contribution = contribution.with(beam);
     }
-    BeamLine { nodes, places, offsets, order: N - 1, elements }
+    (contribution, BeamLine { nodes, places, offsets, order: N - 1, elements })
 }

@@ -6,9 +6,10 @@ use nalgebra::DMatrix;
 use super::deformation::Deformation;
 use super::matrices::{Damping, rigid_motion};
 use super::{LARGEST_SPIN, LARGEST_SPIN_KNOWN, ReducedMatrices, Superelement};
+use crate::elements::contribution::Contribution;
+use crate::elements::initial_model::InitialModel;
 use crate::kinematics::{CoordinateId, Freedoms, NodeId, Quantity};
 use crate::registry::ParameterError;
-use crate::system::Builder;
 
 /// Most unknowns of a superelement.
 const MOST: usize = 255;
@@ -37,15 +38,15 @@ pub struct SuperelementDescription<'a> {
     pub matrices: ReducedMatrices,
 }
 
-/// Adds a superelement; gives where its unknowns are found. Modal coordinates are measured so that each has the mass of
+/// A superelement, with its unknowns. Modal coordinates are measured so that each has the mass of
 /// the part: then they are of the size of displacements.
 ///
 /// # Errors
 /// If it has too many unknowns.
-pub fn add_superelement(
-    builder: &mut Builder,
+pub fn superelement(
+    model: &InitialModel,
     description: &SuperelementDescription<'_>,
-) -> Result<Deformation, ParameterError> {
+) -> Result<(Contribution, Deformation), ParameterError> {
     let SuperelementDescription { name, frame, interfaces, floating, matrices } = description;
     let (size, first) = (matrices.mass.nrows(), 6 * interfaces.len());
     if size > MOST {
@@ -53,15 +54,16 @@ pub fn add_superelement(
             format!("has {size} rows: a superelement has at most {MOST}; leave out interfaces or modes");
         return Err(ParameterError::new("mass", words));
     }
+    let mut contribution = Contribution::to(model);
     let nodes: Vec<NodeId> = interfaces
         .iter()
         .map(|interface| {
             let place = Motion::new(frame.rotation, frame.transform_point(&interface.place));
-            builder.add_node(&interface.name, place, Freedoms::Full)
+            contribution.add_node(&interface.name, place, Freedoms::Full)
         })
         .collect();
     let coordinates: Vec<CoordinateId> = (1..=size - first)
-        .map(|k| builder.add_coordinate(&format!("{name}.mode{k}"), Quantity::Length))
+        .map(|k| contribution.add_coordinate(format!("{name}.mode{k}"), 0.0, Quantity::Length))
         .collect();
     let places: Vec<Vector3> = interfaces.iter().map(|interface| interface.place).collect();
     let total = rigid_motion(&matrices.mass, &places).total;
@@ -81,11 +83,11 @@ pub fn add_superelement(
         geometric: matrices.geometric.as_ref().map(|own| Box::new(own.scaled(factor))),
     };
     let most = if matrices.geometric.is_some() { LARGEST_SPIN_KNOWN } else { LARGEST_SPIN };
-    let gravity = builder.gravity().clone();
+    let gravity = model.gravity.clone();
     let spin = matrices.first_frequency_held(*floating).map(|rate| most * rate);
     let element =
         Superelement::new((nodes.clone(), coordinates.clone()), (*floating, &places), scaled, gravity);
-    builder.add_element(element.believed_up_to(spin));
+    let contribution = contribution.with(element.believed_up_to(spin));
     let modes = coordinates.into_iter().enumerate().map(|(k, own)| (own, factor(first + k))).collect();
-    Ok(Deformation { nodes, floating: *floating, places, modes })
+    Ok((contribution, Deformation { nodes, floating: *floating, places, modes }))
 }

@@ -46,7 +46,7 @@ use std::cell::RefCell;
 
 use lissom_motion::Vector3;
 
-pub use self::build::{InterfacePlace, SuperelementDescription, add_superelement};
+pub use self::build::{InterfacePlace, SuperelementDescription, superelement};
 use self::centre::{Centre, Derivatives};
 pub use self::deformation::Deformation;
 pub(crate) use self::geometric::PAIRS;

@@ -1,14 +1,12 @@
 //! Adds drives of coordinates, and relations between coordinates.
 
-use nalgebra::DMatrix;
-
-use super::{Builder, Coordinate};
+use super::Builder;
+use crate::elements::initial_model::Coordinate;
 use crate::joints::coupling::{Coupling, MOST_COUPLED, Relation, RelationPoint};
 use crate::joints::prescribed::Prescribed;
 use crate::joints::{Build, Drive, JointKind};
 use crate::kinematics::{CoordinateId, Quantity};
 use crate::registry::{ParameterError, Parameters};
-use crate::system::CoordinateMass;
 
 impl Builder {
     /// Prescribes a coordinate, with a drive of a kind that acts on one.
@@ -25,7 +23,7 @@ impl Builder {
         let Build::Coordinate(wanted, build) = kind.build else {
             return Err(ParameterError::new("kind", "stands between two nodes"));
         };
-        self.check_quantity(coordinate, wanted)?;
+        self.model.check_quantity(coordinate, wanted)?;
         let prescribed = Prescribed { coordinate, value: build(parameters)? };
         self.constraints.drives.push(Drive {
             name: name.to_owned(),
@@ -52,23 +50,17 @@ impl Builder {
             return Err(ParameterError::new("kind", "has no coordinates of its own"));
         };
         let free = build(parameters)?;
-        let first = self.coordinates.len();
+        let first = self.model.coordinates.len();
         let numbered = |k: usize| if free.len() > 1 { (k + 1).to_string() } else { String::new() };
-        self.coordinates.extend(free.iter().enumerate().map(|(k, own)| Coordinate {
+        self.model.coordinates.extend(free.iter().enumerate().map(|(k, own)| Coordinate {
             name: format!("{name}.{}{}", own.coordinate.name, numbered(k)),
             value: own.value,
             rate: own.rate,
             quantity: own.coordinate.quantity,
         }));
-        let added = first..self.coordinates.len();
+        let added = first..self.model.coordinates.len();
         self.free_coordinates.extend(added.clone());
         Ok(added.collect())
-    }
-
-    /// Says that coordinates have a mass matrix, which an element of theirs brings into the equations.
-    pub(crate) fn note_coordinate_mass(&mut self, coordinates: &[CoordinateId], matrix: &DMatrix<f64>) {
-        let coordinates = coordinates.to_vec();
-        self.coordinate_masses.push(CoordinateMass { coordinates, matrix: matrix.clone() });
     }
 
     /// Relates coordinates, with a relation of a kind that does; they are those of the relation, in its order.
@@ -94,9 +86,10 @@ impl Builder {
         if (1..count).any(|k| coordinates[..k].contains(&coordinates[k])) {
             return Err(ParameterError::new("other", "names the same coordinate as `joint`"));
         }
-        let start: Vec<f64> = coordinates.iter().map(|&k| self.coordinates[k].value).collect();
+        let start: Vec<f64> = coordinates.iter().map(|&k| self.model.coordinates[k].value).collect();
         let relation = build(parameters, &start)?;
-        let quantities: Vec<Quantity> = coordinates.iter().map(|&k| self.coordinates[k].quantity).collect();
+        let quantities: Vec<Quantity> =
+            coordinates.iter().map(|&k| self.model.coordinates[k].quantity).collect();
         let quantity =
             if quantities.contains(&Quantity::Length) { Quantity::Length } else { Quantity::Angle };
         let largest = largest_slope(&*relation, &start, |k| quantities[k] == quantity);

@@ -3,16 +3,16 @@
 use lissom_solver::Group;
 
 use super::Builder;
-use super::rolling::Impulse;
+use crate::elements::contribution::Impulse;
+use crate::evaluation::scatter_map::free_rows;
 use crate::kinematics::Layout;
 use crate::system::constraints::group_of;
-use crate::system::places::free_rows;
 
 impl Builder {
     /// One group per node and per coordinate, then one per constraint, after all that it acts on.
     pub(super) fn groups(&self, layout: &Layout) -> Vec<Group> {
         let mut groups = Vec::new();
-        let mut of_node = vec![None; self.nodes.len()];
+        let mut of_node = vec![None; self.model.nodes.len()];
         for (node, rows) in layout.node_rows.iter().enumerate() {
             let unknowns = free_rows(rows);
             if !unknowns.is_empty() {

@@ -1,7 +1,8 @@
 //! Adds held values, first-order states, measurements, signals and events, and loads whose size is a signal.
 
-use super::{Builder, Coordinate};
-use crate::kinematics::{CoordinateId, Quantity};
+use super::Builder;
+use crate::elements::Contribution;
+use crate::kinematics::CoordinateId;
 use crate::registry::ParameterError;
 use crate::signals::event::Event;
 use crate::signals::measurement::Measurement;
@@ -18,14 +19,10 @@ impl Builder {
     /// Adds a first-order state with its value at the start and its usual magnitude. Its derivative is given with
     /// [`drive_state`](Self::drive_state).
     pub fn add_state(&mut self, name: &str, value: f64, magnitude: f64) -> CoordinateId {
-        self.coordinates.push(Coordinate {
-            name: name.to_owned(),
-            value,
-            rate: 0.0,
-            quantity: Quantity::State,
-        });
-        self.states.push((self.coordinates.len() - 1, magnitude));
-        self.coordinates.len() - 1
+        let mut contribution = Contribution::to(&self.model);
+        let state = contribution.add_state(name.to_owned(), value, magnitude);
+        self.add(contribution);
+        state
     }
 
     /// Adds a measurement.
@@ -74,20 +71,5 @@ impl Builder {
         }
         self.graph.events.push(event);
         Ok(())
-    }
-
-    /// Adds with `build` a load of size one whose size is a signal.
-    ///
-    /// # Errors
-    /// As `build`.
-    pub fn add_driven<T, E>(
-        &mut self,
-        signal: SignalId,
-        build: impl FnOnce(&mut Self) -> Result<T, E>,
-    ) -> Result<T, E> {
-        self.driver = Some(signal);
-        let built = build(self);
-        self.driver = None;
-        built
     }
 }

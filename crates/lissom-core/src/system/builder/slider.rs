@@ -2,7 +2,8 @@
 
 use lissom_motion::Vector3;
 
-use super::{Builder, Coordinate};
+use super::Builder;
+use crate::elements::initial_model::Coordinate;
 use crate::joints::alignment::{Across, Alignment};
 use crate::joints::centerline::{Centerline, Support};
 use crate::joints::slider::{CarriedPoint, Orientation, Slider};
@@ -36,7 +37,8 @@ impl Builder {
         let Some(line) = Centerline::new(knots) else {
             return Err(unusable("must lead from node to node: some stand at one place"));
         };
-        let at = |node: usize| self.nodes[nodes[node].node].motion.frame.transform_point(&nodes[node].point);
+        let at =
+            |node: usize| self.model.nodes[nodes[node].node].motion.frame.transform_point(&nodes[node].point);
         let value = line.nearest(&place, at);
         let on_line = line.at(value).sum(0, at);
         let distance = (on_line - place).norm();
@@ -51,15 +53,15 @@ impl Builder {
             return Err(ParameterError::new("at", problem));
         }
         let own = if is_drawn { place } else { on_line };
-        let point = self.nodes[tip].motion.frame.inverse_transform_point(&own);
+        let point = self.model.nodes[tip].motion.frame.inverse_transform_point(&own);
         let alignments = self.alignments((&nodes, &line.at(value)), tip, orientation)?;
-        self.coordinates.push(Coordinate {
+        self.model.coordinates.push(Coordinate {
             name: format!("{name}.displacement"),
             value,
             rate: 0.0,
             quantity: Quantity::Length,
         });
-        let coordinate = self.coordinates.len() - 1;
+        let coordinate = self.model.coordinates.len() - 1;
         let first_multiplier = self.multipliers.len();
         for direction in ["force along x", "force along y", "force along z"] {
             self.multipliers.push((name.to_owned(), direction));
@@ -93,12 +95,12 @@ impl Builder {
         if *orientation == Orientation::Free {
             return Ok(Vec::new());
         }
-        if self.nodes[tip].freedoms != Freedoms::Full {
+        if self.model.nodes[tip].freedoms != Freedoms::Full {
             return fault(
                 "needs a tip that can turn freely in space: a body, and no point mass or planar model",
             );
         }
-        let frame = |node: NodeId| &self.nodes[node].motion.frame;
+        let frame = |node: NodeId| &self.model.nodes[node].motion.frame;
         let tangent = support.sum(1, |k| frame(nodes[k].node).transform_point(&nodes[k].point));
         let mut alignments = Vec::new();
         let mut across = |direction: &Vector3, what: Across| {

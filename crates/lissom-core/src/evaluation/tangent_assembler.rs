@@ -5,7 +5,7 @@ use lissom_solver::Scalar;
 use num_complex::Complex64;
 
 use super::linearization::Linearization;
-use super::places::Run;
+use super::scatter_map::Segment;
 use crate::elements::Tangents;
 use crate::joints::derivatives::{Derivatives, OWN, TIP};
 
@@ -37,9 +37,9 @@ pub struct Sum<'a, T> {
 
 /// What takes the derivatives.
 #[derive(Debug)]
-pub enum Receiver<'a> {
+pub enum TangentAssembler<'a> {
     /// Each on its own.
-    Apart(&'a mut Linearization),
+    Separate(&'a mut Linearization),
     /// Their sum with real factors.
     Real(Sum<'a, f64>),
     /// Their sum with complex factors.
@@ -48,28 +48,28 @@ pub enum Receiver<'a> {
 
 /// An element's or joint's place in the system.
 #[derive(Clone, Copy)]
-pub(super) struct Place<'a> {
+pub(crate) struct Slot<'a> {
     /// Row of each local unknown, or locked.
-    pub(super) rows: &'a [u32],
+    pub(crate) rows: &'a [u32],
     /// Where its local matrix lies.
-    pub(super) runs: &'a [Run],
+    pub(crate) segments: &'a [Segment],
 }
 
-impl Receiver<'_> {
+impl TangentAssembler<'_> {
     /// Sets everything to zero.
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         match self {
-            Self::Apart(linearization) => linearization.clear(),
+            Self::Separate(linearization) => linearization.clear(),
             Self::Real(sum) => sum.clear(),
             Self::Complex(sum) => sum.clear(),
         }
     }
 
     /// Adds an element's derivatives.
-    pub(super) fn add_element(&mut self, place: Place<'_>, local: &Tangents) {
+    pub(crate) fn add_element(&mut self, place: Slot<'_>, local: &Tangents) {
         match self {
-            Self::Apart(out) => {
-                for (position, i, j) in place.runs.iter().flat_map(|run| run.entries()) {
+            Self::Separate(out) => {
+                for (position, i, j) in place.segments.iter().flat_map(|run| run.entries()) {
                     let entry = i * local.size() + j;
                     if j >= local.first_multiplier() {
                         out.by_multiplier[position] += local.stiffness[entry];
@@ -86,15 +86,15 @@ impl Receiver<'_> {
     }
 
     /// Adds a joint's derivatives.
-    pub(super) fn add_joint(&mut self, place: Place<'_>, joint: &mut Derivatives) {
+    pub(crate) fn add_joint(&mut self, place: Slot<'_>, joint: &mut Derivatives) {
         match self {
-            Self::Apart(out) => {
+            Self::Separate(out) => {
                 let Linearization { stiffness, gram, constraint, .. } = &mut **out;
                 for (values, [place_, augmented, constraint]) in
                     [(stiffness, [1.0, 0.0, 0.0]), (gram, [0.0, 1.0, 0.0]), (constraint, [0.0, 0.0, 1.0])]
                 {
                     joint.sum(place_, augmented, constraint);
-                    scatter(place.runs, joint, values);
+                    scatter(place.segments, joint, values);
                 }
             }
             Self::Real(sum) => sum.add_joint(place, joint),
@@ -103,9 +103,9 @@ impl Receiver<'_> {
     }
 
     /// Adds stiffness, BᵀWB and constraint at one position.
-    pub(super) fn add_constraint_entry(&mut self, position: usize, [place, augmented, constraint]: [f64; 3]) {
+    pub(crate) fn add_constraint_entry(&mut self, position: usize, [place, augmented, constraint]: [f64; 3]) {
         match self {
-            Self::Apart(out) => {
+            Self::Separate(out) => {
                 out.stiffness[position] += place;
                 out.gram[position] += augmented;
                 out.constraint[position] += constraint;
@@ -122,10 +122,10 @@ impl<T: Scalar> Sum<'_, T> {
         self.stiffness.fill(0.0);
     }
 
-    fn add_element(&mut self, place: Place<'_>, local: &Tangents) {
+    fn add_element(&mut self, place: Slot<'_>, local: &Tangents) {
         let (size, blend) = (local.size(), self.blend);
-        let Place { rows, runs } = place;
-        for run in runs {
+        let Slot { rows, segments } = place;
+        for run in segments {
             let first = usize::from(run.row) * size + usize::from(run.column);
             let is_multiplier = usize::from(run.column) >= local.first_multiplier();
             let place = if is_multiplier { blend.constraint } else { blend.place };
@@ -144,9 +144,9 @@ impl<T: Scalar> Sum<'_, T> {
         }
     }
 
-    fn add_joint(&mut self, place: Place<'_>, joint: &mut Derivatives) {
+    fn add_joint(&mut self, place: Slot<'_>, joint: &mut Derivatives) {
         joint.sum(self.blend.place, self.blend.augmented, self.blend.constraint);
-        scatter(place.runs, joint, self.values);
+        scatter(place.segments, joint, self.values);
         for i in (0..3).chain(TIP..TIP + 3).chain(OWN..TIP + 8) {
             if let Some(sum) = self.stiffness.get_mut(place.rows[i] as usize) {
                 *sum += joint.stiffness(i);
@@ -160,8 +160,8 @@ impl<T: Scalar> Sum<'_, T> {
     }
 }
 
-fn scatter<T: Scalar>(runs: &[Run], joint: &Derivatives, values: &mut [T]) {
-    for run in runs {
+fn scatter<T: Scalar>(segments: &[Segment], joint: &Derivatives, values: &mut [T]) {
+    for run in segments {
         let row = usize::from(run.row);
         let own = &joint.column(usize::from(run.column))[row..row + usize::from(run.length)];
         let values = &mut values[run.positions()];

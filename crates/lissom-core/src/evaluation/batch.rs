@@ -6,9 +6,9 @@ use std::ops::Range;
 use lissom_motion::{Block, Matrix6, Vector3, WIDTH, lie_bracket_matrix};
 use lissom_solver::Pattern;
 
-use super::places::{Places, free_rows};
-use super::receiver::{Place, Receiver};
+use super::scatter_map::{ScatterMap, free_rows};
 use super::scratch::with_scratch;
+use super::tangent_assembler::{Slot, TangentAssembler};
 use super::threads::Threads;
 use super::work::{power, work};
 use crate::elements::blocks::Blocks;
@@ -28,7 +28,7 @@ pub(crate) struct Batch<E> {
     /// Where each item's rows begin.
     starts: Vec<usize>,
     /// Where each item's local matrix lies in the pattern.
-    places: Places,
+    places: ScatterMap,
     /// The items laid out for evaluation several at a time, for kinds that are.
     blocks: Option<Box<dyn Blocks>>,
     processor: pulp::Arch,
@@ -53,7 +53,7 @@ pub(crate) trait AnyBatch: Send + Sync {
         at_stressed: (&Kinematics, &Kinematics),
         chart: Chart<'_>,
         scratch: &mut Tangents,
-        out: &mut Receiver<'_>,
+        out: &mut TangentAssembler<'_>,
     );
     fn stage_forces(&self, step: &StepStages<'_>, out: &mut [Vec<f64>]);
     fn energy(&self, at: &Kinematics) -> Energy;
@@ -96,6 +96,39 @@ pub(crate) trait AnyBatch: Send + Sync {
     fn forces_of(&self, items: &[usize], at: &Kinematics, out: &mut [f64]);
     fn as_any(&self) -> &dyn Any;
     fn as_any_mut(&mut self) -> &mut dyn Any;
+}
+
+/// The number of an element in its system.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ElementId {
+    /// Its batch; none where a signal drives it.
+    pub(crate) batch: Option<usize>,
+    pub(crate) item: usize,
+}
+
+/// An element of any kind that is not in a batch yet.
+pub(crate) trait AnyElement: Send + Sync {
+    /// Joins the batch of its kind, or begins one.
+    fn join(self: Box<Self>, batches: &mut Vec<Box<dyn AnyBatch>>) -> ElementId;
+    /// The same as a load of size one, which a signal multiplies.
+    fn into_load(self: Box<Self>) -> Box<dyn Element>;
+}
+
+impl<E: Element> AnyElement for E {
+    fn join(self: Box<Self>, batches: &mut Vec<Box<dyn AnyBatch>>) -> ElementId {
+        let find = |batch: &mut Box<dyn AnyBatch>| batch.as_any_mut().is::<Batch<E>>();
+        let index = batches.iter_mut().position(find).unwrap_or_else(|| {
+            batches.push(Box::new(Batch::<E>::new()));
+            batches.len() - 1
+        });
+        let own = batches[index].as_any_mut().downcast_mut::<Batch<E>>().expect("found or made above");
+        own.push(*self);
+        ElementId { batch: Some(index), item: own.items.len() - 1 }
+    }
+
+    fn into_load(self: Box<Self>) -> Box<dyn Element> {
+        self
+    }
 }
 
 /// What of the elements of a kind differs between two models.
@@ -143,7 +176,7 @@ impl<E: Element> Batch<E> {
             items: Vec::new(),
             rows: Vec::new(),
             starts: Vec::new(),
-            places: Places::new(),
+            places: ScatterMap::new(),
             blocks: None,
             processor: pulp::Arch::new(),
         }
@@ -153,12 +186,18 @@ impl<E: Element> Batch<E> {
         self.items.push(item);
     }
 
-    fn place(&self, item: usize) -> Place<'_> {
-        Place { rows: self.item_rows(item), runs: self.places.of(item) }
+    fn place(&self, item: usize) -> Slot<'_> {
+        Slot { rows: self.item_rows(item), segments: self.places.of(item) }
     }
 
     /// Takes an item's derivatives through the chart and hands them over.
-    fn receive(&self, index: usize, chart: Chart<'_>, scratch: &mut Tangents, out: &mut Receiver<'_>) {
+    fn receive(
+        &self,
+        index: usize,
+        chart: Chart<'_>,
+        scratch: &mut Tangents,
+        out: &mut TangentAssembler<'_>,
+    ) {
         let nodes = self.items[index].nodes().iter();
         through(chart, nodes.enumerate().map(|(k, &node)| (node, 6 * k)), scratch);
         out.add_element(self.place(index), scratch);
@@ -202,7 +241,7 @@ impl<E: Element> AnyBatch for Batch<E> {
     }
 
     fn locate(&mut self, pattern: &Pattern) {
-        self.places = Places::new();
+        self.places = ScatterMap::new();
         for item in 0..self.items.len() {
             let rows = &self.rows[self.starts[item]..self.starts[item + 1]];
             self.places.push(pattern, rows, rows.len());
@@ -279,7 +318,7 @@ impl<E: Element> AnyBatch for Batch<E> {
         (at, stressed): (&Kinematics, &Kinematics),
         chart: Chart<'_>,
         scratch: &mut Tangents,
-        out: &mut Receiver<'_>,
+        out: &mut TangentAssembler<'_>,
     ) {
         if let Some(blocks) = &self.blocks {
             let range = 0..self.items.len().div_ceil(WIDTH);
@@ -453,7 +492,7 @@ impl<E: Element> AnyBatch for Batch<E> {
 }
 
 /// Takes local derivatives through the chart, for nodes whose six columns begin as given.
-pub(super) fn through(
+pub(crate) fn through(
     chart: Chart<'_>,
     nodes: impl Iterator<Item = (NodeId, usize)>,
     scratch: &mut Tangents,
@@ -476,7 +515,7 @@ pub(super) fn through(
 }
 
 /// Adds local values to the rows that are free.
-pub(super) fn scatter(rows: &[u32], local: &[f64], out: &mut [f64]) {
+pub(crate) fn scatter(rows: &[u32], local: &[f64], out: &mut [f64]) {
     for (&row, value) in rows.iter().zip(local) {
         if row != LOCKED {
             out[row as usize] += value;
@@ -486,7 +525,7 @@ pub(super) fn scatter(rows: &[u32], local: &[f64], out: &mut [f64]) {
 
 /// Adds one lane of a block's forces to the rows that are free, six of a node after six of another.
 #[inline]
-pub(super) fn scatter_lane(rows: &[u32], forces: &[Block], lane: usize, out: &mut [f64]) {
+pub(crate) fn scatter_lane(rows: &[u32], forces: &[Block], lane: usize, out: &mut [f64]) {
     for (rows, forces) in rows.chunks(6).zip(forces.chunks(6)) {
         // Most nodes have all their freedoms, six rows in a row.
         if let (&[first, .., last], [a, b, c, d, e, f]) = (rows, forces)

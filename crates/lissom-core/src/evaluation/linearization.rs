@@ -18,14 +18,14 @@ pub struct Linearization {
     pub constraint: Vec<f64>,
     /// Derivatives of elements' forces by multipliers, in the multipliers' columns.
     pub by_multiplier: Vec<f64>,
-    pub(super) scratch: Option<Box<Scratch>>,
+    pub(crate) scratch: Option<Box<Scratch>>,
 }
 
 /// Room for derivatives of one element or joint after the other.
 #[derive(Clone, Debug)]
 pub struct Scratch {
-    pub(super) local: Tangents,
-    pub(super) joint: Derivatives,
+    pub(crate) local: Tangents,
+    pub(crate) joint: Derivatives,
 }
 
 impl Default for Scratch {
@@ -36,7 +36,7 @@ impl Default for Scratch {
 
 impl Linearization {
     /// Zeros, so many for each matrix.
-    pub(super) fn zeros(entries: usize) -> Self {
+    pub(crate) fn zeros(entries: usize) -> Self {
         let zeros = vec![0.0; entries];
         Self {
             stiffness: zeros.clone(),
@@ -56,7 +56,7 @@ impl Linearization {
         }
     }
 
-    pub(super) fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         for values in [
             &mut self.stiffness,
             &mut self.damping,

@@ -9,7 +9,7 @@ use crate::kinematics::work::along;
 
 /// Work of an element's forces on its nodes and coordinates between two configurations, times `factors` there: forces in
 /// inertial axes over the way of their nodes, moments over the turn between, forces on coordinates over their change.
-pub(super) fn work<E: Element + ?Sized>(
+pub(crate) fn work<E: Element + ?Sized>(
     element: &E,
     (from, to): (&Kinematics, &Kinematics),
     factors: [f64; 2],
@@ -61,7 +61,7 @@ fn work_along<E: Element + ?Sized>(
 }
 
 /// Power of an element's forces on its nodes and coordinates [W].
-pub(super) fn power<E: Element + ?Sized>(element: &E, at: &Kinematics) -> f64 {
+pub(crate) fn power<E: Element + ?Sized>(element: &E, at: &Kinematics) -> f64 {
     let size = 6 * element.nodes().len() + element.coordinates().len();
     with_scratch(size, |forces| {
         element.forces(at, forces);

@@ -1,4 +1,4 @@
-//! Where dense local matrices lie in the tangent's pattern: as runs of entries that follow each other in a column.
+//! Where dense local matrices lie in the tangent's pattern: as segments of entries that follow each other in a column.
 
 use lissom_solver::Pattern;
 
@@ -6,7 +6,7 @@ use crate::kinematics::LOCKED;
 
 /// Entries of a local column that follow each other in the pattern.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Run {
+pub(crate) struct Segment {
     /// Local column.
     pub(crate) column: u8,
     /// First local row.
@@ -17,7 +17,7 @@ pub(crate) struct Run {
     position: u32,
 }
 
-impl Run {
+impl Segment {
     /// Positions in the pattern.
     pub(crate) fn positions(self) -> std::ops::Range<usize> {
         self.position as usize..self.position as usize + usize::from(self.length)
@@ -32,15 +32,15 @@ impl Run {
 
 /// Runs of several local matrices, one after the other.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Places {
-    runs: Vec<Run>,
+pub(crate) struct ScatterMap {
+    segments: Vec<Segment>,
     starts: Vec<u32>,
 }
 
-impl Places {
+impl ScatterMap {
     /// None yet.
     pub(crate) fn new() -> Self {
-        Self { runs: Vec::new(), starts: vec![0] }
+        Self { segments: Vec::new(), starts: vec![0] }
     }
 
     /// Adds the local matrix over `rows`, [`LOCKED`] where there is none. The square of the rows from `filled` on is
@@ -50,7 +50,7 @@ impl Places {
             let seen = if j < filled { rows } else { &rows[..filled] };
             self.push_column(pattern, seen, (j, column));
         }
-        self.starts.push(self.runs.len() as u32);
+        self.starts.push(self.segments.len() as u32);
     }
 
     /// Adds the first `count` rows of the local matrix over `rows`; the others stay zero.
@@ -58,7 +58,7 @@ impl Places {
         for (j, &column) in rows.iter().enumerate().filter(|&(_, &column)| column != LOCKED) {
             self.push_column(pattern, &rows[..count], (j, column));
         }
-        self.starts.push(self.runs.len() as u32);
+        self.starts.push(self.segments.len() as u32);
     }
 
     /// Adds the entries of local column `j`, which is the unknown `column`, in these rows.
@@ -70,9 +70,9 @@ impl Places {
                 continue;
             }
             let position = position_of(pattern, row as usize, column as usize) as u32;
-            match self.runs.last_mut() {
+            match self.segments.last_mut() {
                 Some(run) if last != LOCKED && position == last + 1 => run.length += 1,
-                _ => self.runs.push(Run { column: j as u8, row: i as u8, length: 1, position }),
+                _ => self.segments.push(Segment { column: j as u8, row: i as u8, length: 1, position }),
             }
             last = position;
         }
@@ -80,13 +80,13 @@ impl Places {
 
     /// Gives back room that was not needed.
     pub(crate) fn shrink(&mut self) {
-        self.runs.shrink_to_fit();
+        self.segments.shrink_to_fit();
         self.starts.shrink_to_fit();
     }
 
     /// Runs of a local matrix.
-    pub(crate) fn of(&self, item: usize) -> &[Run] {
-        &self.runs[self.starts[item] as usize..self.starts[item + 1] as usize]
+    pub(crate) fn of(&self, item: usize) -> &[Segment] {
+        &self.segments[self.starts[item] as usize..self.starts[item + 1] as usize]
     }
 }
 

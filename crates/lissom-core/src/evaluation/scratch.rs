@@ -11,7 +11,7 @@ thread_local! {
 }
 
 /// Calls `work` with so many zeros. Only the first large element of a thread allocates.
-pub(super) fn with_scratch<R>(size: usize, work: impl FnOnce(&mut [f64]) -> R) -> R {
+pub(crate) fn with_scratch<R>(size: usize, work: impl FnOnce(&mut [f64]) -> R) -> R {
     if size <= STAGES * USUAL_UNKNOWNS {
         return work(&mut [0.0; STAGES * USUAL_UNKNOWNS][..size]);
     }
