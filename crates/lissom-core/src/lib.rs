@@ -3,29 +3,23 @@
 //!
 //! This crate opens no file, prints nothing and reads no clock.
 
+pub use lissom_mechanics::{
+    contact, elements, evaluation, instants, joints, kinematics, registry, relation, signals,
+};
+pub use lissom_system as system;
+
 pub mod analysis;
-pub mod contact;
-mod dual;
-pub mod elements;
 pub(crate) mod equilibration;
-pub mod evaluation;
-pub mod instants;
 pub mod interrupt;
-pub mod joints;
 pub mod judge;
-pub mod kinematics;
 pub mod linear;
 pub mod mechanisms;
 pub mod newton;
 mod node_motion;
 pub mod numbers;
-pub mod registry;
-pub mod relation;
 pub mod scaling;
 pub mod schemes;
-pub mod signals;
 pub mod stepping;
-pub mod system;
 
 /// The linear solvers, by name.
 pub mod solvers {

@@ -15,8 +15,11 @@ const OF_THE_TEXT: &str = "house_rules";
 /// All tests but those of the chores.
 const ALL: [&str; 3] = ["--lib", "--test", "*"];
 /// Settings of cargo.
-const INCREMENTAL: [&str; 2] =
-    ["profile.release.incremental=true", "profile.release.package.lissom-core.codegen-units=64"];
+const INCREMENTAL: [&str; 3] = [
+    "profile.release.incremental=true",
+    "profile.release.package.lissom-core.codegen-units=64",
+    "profile.release.package.lissom-mechanics.codegen-units=64",
+];
 /// Lines of the compiler that are shown.
 const SHOWN: usize = 40;
 

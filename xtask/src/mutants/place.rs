@@ -13,8 +13,8 @@ use super::replacement;
 
 /// Folders and files that are broken: elements, joints, schemes, lowering, outputs, sections.
 const BROKEN: [&str; 8] = [
-    "crates/lissom-core/src/elements",
-    "crates/lissom-core/src/joints",
+    "crates/lissom-mechanics/src/elements",
+    "crates/lissom-mechanics/src/joints",
     "crates/lissom-core/src/schemes",
     "crates/lissom-model/src/lower",
     "crates/lissom-model/src/output",

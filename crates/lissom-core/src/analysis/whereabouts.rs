@@ -72,13 +72,6 @@ impl InitialError {
     }
 }
 
-impl crate::signals::SignalError {
-    /// Name of the signal, or of the load or joint that it belongs to, without the marks around it.
-    pub fn part(&self) -> &str {
-        self.name.rsplit('`').nth(1).unwrap_or(&self.name)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,0 +1,156 @@
+//! Profiles of wheels and rails: lines in the plane across the track.
+
+use crate::dual::Number;
+use crate::registry::Function;
+
+/// Part of an argument over which a second derivative is compared for a third one.
+const APART: f64 = 1e-4;
+
+/// Value and three derivatives of a function that is given; its third derivative is a difference of the second.
+fn given(function: &Function, at: f64, length: f64) -> [f64; 4] {
+    let step = APART * length;
+    let third = function.second_derivative(at + step) - function.second_derivative(at - step);
+    [function.value(at), function.first_derivative(at), function.second_derivative(at), third / (2.0 * step)]
+}
+
+/// The radius of a wheel beyond its nominal one, over the place along its axis from the nominal circle on.
+#[derive(Clone, Debug)]
+pub enum WheelProfile {
+    /// A cone, by its slope.
+    Cone(f64),
+    /// A function, and a length over which it changes [m].
+    Given(Function, f64),
+}
+
+impl WheelProfile {
+    /// f, f' and f'' at a place.
+    pub(super) fn at<T: Number>(&self, place: T) -> [T; 3] {
+        let [value, first, second, third] = match self {
+            Self::Cone(slope) => [slope * place.value(), *slope, 0.0, 0.0],
+            Self::Given(function, length) => given(function, place.value(), *length),
+        };
+        [place.composed(value, first), place.composed(first, second), place.composed(second, third)]
+    }
+}
+
+/// The head of a rail over the place u along it, which is 0 at the nominal place of contact.
+#[derive(Clone, Debug)]
+pub enum RailProfile {
+    /// A circle of this radius [m], whose tangent at u = 0 rises outwards by this angle [rad]; u is the length of the arc.
+    Circle {
+        /// Radius [m].
+        radius: f64,
+        /// Angle [rad].
+        cant: f64,
+    },
+    /// Height over the lateral place u, and a length over which it changes [m].
+    Given(Function, f64),
+}
+
+impl RailProfile {
+    /// The point (outwards, upwards) [m].
+    pub(crate) fn point<T: Number>(&self, u: T) -> [T; 2] {
+        match self {
+            Self::Circle { radius, cant } => {
+                let (sine, cosine) = u.scaled(radius.recip()).plus(-cant).sine_cosine();
+                [sine.plus(cant.sin()).scaled(*radius), cosine.plus(-cant.cos()).scaled(*radius)]
+            }
+            Self::Given(function, length) => {
+                let [value, first, ..] = given(function, u.value(), *length);
+                [u, u.composed(value, first)]
+            }
+        }
+    }
+
+    /// The normal (outwards, upwards), of length one.
+    pub(super) fn normal<T: Number>(&self, u: T) -> [T; 2] {
+        match self {
+            Self::Circle { radius, cant } => {
+                let (sine, cosine) = u.scaled(radius.recip()).plus(-cant).sine_cosine();
+                [sine, cosine]
+            }
+            Self::Given(function, length) => {
+                let [_, first, second, _] = given(function, u.value(), *length);
+                let slope = u.composed(first, second);
+                let size = (slope * slope).plus(1.0).square_root();
+                [-slope / size, T::constant(1.0) / size]
+            }
+        }
+    }
+
+    /// Curvature [1/m], positive where the head is convex.
+    pub(crate) fn curvature<T: Number>(&self, u: T) -> T {
+        match self {
+            Self::Circle { radius, .. } => T::constant(radius.recip()),
+            Self::Given(function, length) => {
+                let [_, first, second, third] = given(function, u.value(), *length);
+                let (slope, bend) = (u.composed(first, second), u.composed(second, third));
+                -bend * (slope * slope).plus(1.0).power(-1.5)
+            }
+        }
+    }
+
+    /// Radius of the circle that fits it at the nominal place of contact, and the angle of its tangent there.
+    pub(super) fn osculating(&self) -> (f64, f64) {
+        match self {
+            Self::Circle { radius, cant } => (*radius, *cant),
+            Self::Given(function, _) => (self.curvature(0.0).recip(), function.first_derivative(0.0).atan()),
+        }
+    }
+
+    /// How far a point (outwards, upwards) is over the head, roughly, and the place u below it.
+    pub(super) fn clearance(&self, [outwards, upwards]: [f64; 2]) -> (f64, f64) {
+        match self {
+            Self::Circle { radius, cant } => {
+                let across = outwards - radius * cant.sin();
+                let up = upwards + radius * cant.cos();
+                (across.hypot(up) - radius, radius * (across.atan2(up) + cant))
+            }
+            Self::Given(function, _) => {
+                let slope = function.first_derivative(outwards);
+                ((upwards - function.value(outwards)) / slope.hypot(1.0), outwards)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::registry::TimeFunction;
+
+    /// -y²/(2 R) + y/50.
+    #[derive(Debug)]
+    struct Head(f64);
+
+    impl TimeFunction for Head {
+        fn value(&self, y: f64) -> f64 {
+            0.02 * y - 0.5 * y * y / self.0
+        }
+        fn first_derivative(&self, y: f64) -> f64 {
+            0.02 - y / self.0
+        }
+        fn second_derivative(&self, _: f64) -> f64 {
+            -1.0 / self.0
+        }
+    }
+
+    /// A point that stands off a place along the normal is so far over it, and under it where it stands in.
+    #[test]
+    fn clearances_are_distances_along_the_normal() {
+        let circle = RailProfile::Circle { radius: 0.3, cant: 0.05 };
+        let given = RailProfile::Given(Arc::new(Head(0.3)), 0.05);
+        for (rail, error) in [(circle, 1e-14), (given, 2e-6)] {
+            for place in [-0.02, 0.0, 0.015] {
+                for off in [1e-3, 0.0, -1e-3] {
+                    let ([x, y], [across, up]) = (rail.point(place), rail.normal(place));
+                    let (clearance, under) = rail.clearance([x + off * across, y + off * up]);
+                    assert!((clearance - off).abs() < error, "{rail:?} {place} {off}: {clearance}");
+                    assert!((under - place).abs() < 1e-4, "{rail:?} {place} {off}: {under}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! The point in which a wheel touches a plane, and the velocity there.
+//!
+//! Legend as in [`super::rolling`], and T_k = Rᵀe_k the plane's axes in the tip's axes, p the point of contact from the
+//! wheel's centre, (v, w) twist of the wheel relative to the plane, both in the tip's axes.
+//!
+//! ```text
+//! p = r (u a - N)/S - ρ N,      s_k = T_k·(v + w × p) = b_k·(v, w),      b_k = (T_k, p × T_k)
+//! ∂N/∂η_θ = Ñ,      ∂p/∂N = r [(a aᵀ - I)/S + (u a - N) u aᵀ/S³] - ρ I
+//! ```
+
+use lissom_motion::{Matrix3, Matrix6, Real, Vector3, Vector6, screw, skew};
+
+use crate::kinematics::split;
+
+/// Added to S², so that S never vanishes.
+const NEVER_ZERO: f64 = 1e-14;
+
+/// Directions in which the contact may slide.
+pub const DIRECTIONS: usize = 2;
+
+/// Sine S of the angle between the wheel's axis and the normal, from its cosine.
+#[expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+#[inline(always)]
+pub(crate) fn upright<R: Real>(cosine: R) -> R {
+    cosine.like(1.0 + NEVER_ZERO).minus_product(cosine, cosine).square_root()
+}
+
+/// A wheel on a plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Axis of the wheel in the tip's joint frame.
+    pub axis: Vector3,
+    /// 1 where the wheel is on the side of the plane to which the base's third axis points, else -1.
+    pub side: f64,
+    /// Radius [m].
+    pub radius: f64,
+    /// Radius of the rounding of the rim [m].
+    pub rim: f64,
+    /// Coefficient of friction; infinite where there is no limit.
+    pub friction: f64,
+    /// Sliding velocity per force [m/(N s)]; 0 where nothing slides.
+    pub creep: f64,
+}
+
+/// What the contact is at a relative rotation, in the tip's axes.
+struct Touch {
+    /// N.
+    normal: Vector3,
+    /// T_k.
+    along: [Vector3; DIRECTIONS],
+    /// p [m].
+    point: Vector3,
+    cosine: f64,
+    upright: f64,
+}
+
+impl Contact {
+    fn touch(&self, rotation: &Matrix3) -> Touch {
+        let row = |k: usize| rotation.row(k).transpose();
+        let normal = self.side * row(2);
+        let cosine = normal.dot(&self.axis);
+        let upright = upright(cosine);
+        let down = (cosine * self.axis - normal) / upright;
+        let point = self.radius * down - self.rim * normal;
+        Touch { normal, along: [row(0), row(1)], point, cosine, upright }
+    }
+
+    /// Direction from the wheel's centre to the middle of the rim at the point of contact, in the plane's axes.
+    pub fn down(&self, rotation: &Matrix3) -> Vector3 {
+        let Touch { normal, cosine, upright, .. } = self.touch(rotation);
+        rotation * ((cosine * self.axis - normal) / upright)
+    }
+
+    /// b_k: derivatives of the sliding velocities by the relative twist, in the tip's joint frame.
+    pub fn rows(&self, rotation: &Matrix3) -> [Vector6; DIRECTIONS] {
+        let touch = self.touch(rotation);
+        touch.along.map(|along| screw(&along, &touch.point.cross(&along)))
+    }
+
+    /// ∂(Σ f_k b_k)/∂η, and the rows ∂(b_k·(v, w))/∂η at a constant relative twist.
+    pub fn derivatives(
+        &self,
+        rotation: &Matrix3,
+        forces: &[f64; DIRECTIONS],
+        twist: &Vector6,
+    ) -> (Matrix6, [Vector6; DIRECTIONS]) {
+        let touch = self.touch(rotation);
+        let by_turn = self.point_by_normal(&touch) * skew(&touch.normal);
+        let force = forces[0] * touch.along[0] + forces[1] * touch.along[1];
+        let arm = skew(&touch.point);
+        let mut wrench = Matrix6::zeros();
+        wrench.fixed_view_mut::<3, 3>(0, 3).copy_from(&skew(&force));
+        let moment = arm * skew(&force) - skew(&force) * by_turn;
+        wrench.fixed_view_mut::<3, 3>(3, 3).copy_from(&moment);
+        let (linear, angular) = split(twist);
+        let rows = touch.along.map(|along| {
+            let turned = skew(&along);
+            let row = turned.tr_mul(&linear) + (arm * turned - turned * by_turn).tr_mul(&angular);
+            screw(&Vector3::zeros(), &row)
+        });
+        (wrench, rows)
+    }
+
+    /// Gap between wheel and plane [m], and its derivative by η.
+    pub fn gap(&self, rotation: &Matrix3, position: &Vector3) -> (f64, Vector6) {
+        let touch = self.touch(rotation);
+        let gap = self.side * position.z - self.radius * touch.upright - self.rim;
+        let lever = self.radius * touch.cosine / touch.upright;
+        (gap, screw(&touch.normal, &(lever * self.axis.cross(&touch.normal))))
+    }
+
+    /// Second derivative of the gap by η.
+    pub(crate) fn gap_hessian(&self, rotation: &Matrix3) -> Matrix6 {
+        let Touch { normal, cosine, upright, .. } = self.touch(rotation);
+        let turned = skew(&normal);
+        // d(u/S)/du = 1/S³ but for the round-off that S is kept away from zero with.
+        let slope = (1.0 + cosine * cosine / (upright * upright)) / upright;
+        let tilting = slope * self.axis.cross(&normal) * (self.axis.transpose() * turned)
+            + cosine / upright * skew(&self.axis) * turned;
+        let mut hessian = Matrix6::zeros();
+        hessian.fixed_view_mut::<3, 3>(0, 3).copy_from(&turned);
+        hessian.fixed_view_mut::<3, 3>(3, 3).copy_from(&(self.radius * tilting));
+        hessian
+    }
+
+    /// ∂p/∂N.
+    fn point_by_normal(&self, touch: &Touch) -> Matrix3 {
+        let Touch { normal, cosine, upright, .. } = touch;
+        let axis = self.axis;
+        let down = *cosine * axis - normal;
+        let ring = (axis * axis.transpose() - Matrix3::identity()) / *upright
+            + down * axis.transpose() * (cosine / upright.powi(3));
+        self.radius * ring - self.rim * Matrix3::identity()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use lissom_motion::Rotation;
+
+    use super::*;
+
+    /// Rims as many spheres, at so many angles about the axis.
+    const SPHERES: usize = 20_000;
+
+    /// Least height of the rim over the plane, and the place from the wheel's centre, in the tip's axes, that is lowest.
+    fn lowest(contact: &Contact, rotation: &Matrix3, position: &Vector3) -> (f64, Vector3) {
+        let up = contact.side * rotation.row(2).transpose();
+        let across = contact.axis.cross(&up).normalize();
+        let along = across.cross(&contact.axis);
+        let spheres = (0..SPHERES).map(|k| {
+            let (sine, cosine) = (TAU * k as f64 / SPHERES as f64).sin_cos();
+            let place = contact.radius * (cosine * across + sine * along) - contact.rim * up;
+            (contact.side * position.z + up.dot(&place), place)
+        });
+        spheres.min_by(|one, other| one.0.total_cmp(&other.0)).expect("there are some")
+    }
+
+    /// A wheel that leans, on both sides of the plane: gap, its derivative, and sliding velocities are those of the lowest point.
+    #[test]
+    fn the_gap_is_that_of_the_lowest_point_of_the_rim() {
+        let turn = Rotation::exponential(&Vector3::new(0.3, -0.2, 0.5)).matrix();
+        let axis = Vector3::new(0.2, 0.9, -0.4).normalize();
+        for (side, radius, rim) in [(1.0, 0.4, 0.0), (1.0, 0.4, 0.15), (-1.0, 0.3, 0.1)] {
+            let contact = Contact { axis, side, radius, rim, friction: f64::INFINITY, creep: 0.0 };
+            let position = Vector3::new(0.1, -0.3, side * 0.7);
+            let (gap, by) = contact.gap(&turn, &position);
+            let (wanted, place) = lowest(&contact, &turn, &position);
+            assert!((gap - wanted).abs() < 1e-7 && gap > 0.1, "{side} {rim}: {gap}, lowest {wanted}");
+            for k in 0..6 {
+                let moved = |step: f64| {
+                    let mut change = [Vector3::zeros(); 2];
+                    change[k / 3][k % 3] = step;
+                    let rotation = turn * Rotation::exponential(&change[1]).matrix();
+                    contact.gap(&rotation, &(position + turn * change[0])).0
+                };
+                let slope = (moved(1e-5) - moved(-1e-5)) / 2e-5;
+                assert!((by[k] - slope).abs() < 1e-9, "{side} {rim}, {k}: {} and {slope}", by[k]);
+            }
+            let (linear, angular) = (Vector3::new(0.5, -0.7, 0.2), Vector3::new(1.1, 0.6, -0.8));
+            let there = turn * (linear + angular.cross(&place));
+            for (k, row) in contact.rows(&turn).iter().enumerate() {
+                let sliding = row.dot(&screw(&linear, &angular));
+                assert!((sliding - there[k]).abs() < 1e-3, "{side} {rim}, {k}: {sliding} and {}", there[k]);
+            }
+        }
+    }
+}

@@ -1,0 +1,574 @@
+//! Where a wheel touches a rail: the place at which both surfaces have one normal.
+//!
+//! Legend: base's axes e₁ outwards across the track, e₂ up, e₃ along the rail; x tip's origin, a axis of the wheel, ξ place along it from the
+//! nominal circle on, b distance of that from the tip's origin; r(ξ) radius; p, q directions across the axis, down and along; ψ shift
+//! angle from p to q; u place on the rail's head with point Q, normal N and tangent t.
+//!
+//! ```text
+//! p = a × e₃/C,   q = (e₃ - a₃ a)/C,   C² = 1 - a₃²,      d = cos ψ p + sin ψ q,   sin ψ = r' a₃/C
+//! P = x + (b + ξ) a + r d,      n = d - r' a,      n·t = 0,   (P - Q)·t = 0,      gap g = (P - Q)·N
+//! ```
+//!
+//! A rail is the same all along, so that the common normal has no part along e₃; this gives ψ at once, and the rest is a
+//! problem of the plane for ξ and u. For a cone on a circle P goes along a straight line, and ξ and u are known outright:
+//! the foot of the circle's centre on it. Other profiles start from the sample of smallest clearance, and Newton's method
+//! goes on from there: the answer depends on the configuration alone. The gap does not change with ξ, ψ and u to first
+//! order, so that its gradient is N at the wheel's point of contact. Derivatives of ξ and u are those of the implicit
+//! function.
+
+use lissom_motion::{Matrix3, Vector3};
+
+use super::profile::{RailProfile, WheelProfile};
+use crate::dual::{Dual, Number, Three, cross, dot, sum, times};
+
+/// Added to C², so that it never vanishes.
+const NEVER_ZERO: f64 = 1e-14;
+/// Samples of a profile that is given.
+const SAMPLES: usize = 64;
+/// Iterations after which the place of contact counts as not found.
+const MOST_ITERATIONS: usize = 40;
+/// Cosine of the angle from the top of the head up to which a place of contact is on its tread.
+const STEEPEST: f64 = 0.5;
+/// Clearances below this part of the wheel's radius are contacts.
+const NEARLY_TOUCHING: f64 = 1e-6;
+/// Changes below this part of the wheel's radius are round-off.
+const ROUND_OFF: f64 = 1e-15;
+
+/// A wheel and a rail.
+#[derive(Clone, Debug)]
+pub struct RailContact {
+    /// Axis of the wheel in the tip's joint frame, outwards.
+    pub axis: Vector3,
+    /// 1 where the second axis of the base's joint frame points to the wheel, else -1.
+    pub side: f64,
+    /// Distance of the nominal circle from the tip's origin along the axis [m].
+    pub offset: f64,
+    /// Nominal radius [m].
+    pub radius: f64,
+    /// Profile of the wheel.
+    pub wheel: WheelProfile,
+    /// Profile of the rail.
+    pub rail: RailProfile,
+    /// Places along the axis at which the wheel's profile is that of the tread [m].
+    pub tread: [f64; 2],
+}
+
+/// Where a wheel touches its rail, and what acts there.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RailContactValues {
+    /// Place along the wheel's axis, outwards from the nominal circle [m].
+    pub on_wheel: f64,
+    /// Place on the rail from its nominal place of contact: length of the arc of a circle, lateral place of other profiles [m].
+    pub on_rail: f64,
+    /// Angle from the lowest spoke to that of the contact [rad].
+    pub shift_angle: f64,
+    /// Normal force; negative where the rail pulls [N].
+    pub normal_force: f64,
+    /// Creep forces on the wheel along and across the direction of rolling [N].
+    pub forces: [f64; 2],
+    /// Longitudinal and lateral creepage [-], and spin [1/m].
+    pub creepages: [f64; 3],
+}
+
+/// Pose of the tip's joint frame in the base's.
+#[derive(Clone, Copy, Debug)]
+pub struct Pose<T> {
+    /// Rows of the rotation matrix.
+    pub rows: [Three<T>; 3],
+    /// Position of the wheel in the frame of the rail [m].
+    pub position: Three<T>,
+}
+
+impl Pose<f64> {
+    /// From a rotation matrix and a position [m].
+    pub fn new(rotation: &Matrix3, position: &Vector3) -> Self {
+        let rows = std::array::from_fn(|i| std::array::from_fn(|j| rotation[(i, j)]));
+        Self { rows, position: (*position).into() }
+    }
+
+    /// With derivatives along the tip's body variation, whose six directions are the first ones.
+    pub fn varied<const N: usize>(&self) -> Pose<Dual<N>> {
+        let constant = |value: &f64| Dual::constant(*value);
+        let mut out = Pose {
+            rows: self.rows.map(|row| row.each_ref().map(constant)),
+            position: self.position.each_ref().map(constant),
+        };
+        for (i, row) in self.rows.iter().enumerate() {
+            for k in 0..3 {
+                out.position[i].by[k] = row[k];
+                // δR = R η̃: column k + 2 grows by column k + 1 times η_k, column k + 1 falls by column k + 2.
+                let (a, b) = ((k + 1) % 3, (k + 2) % 3);
+                out.rows[i][b].by[3 + k] = -row[a];
+                out.rows[i][a].by[3 + k] = row[b];
+            }
+        }
+        out
+    }
+}
+
+impl<T: Number> Pose<T> {
+    /// A vector of the tip's axes in the base's.
+    pub fn apply(&self, v: Three<T>) -> Three<T> {
+        self.rows.map(|row| dot(row, v))
+    }
+
+    /// A vector of the base's axes in the tip's.
+    pub fn apply_inverse(&self, v: Three<T>) -> Three<T> {
+        std::array::from_fn(|k| self.rows[0][k] * v[0] + self.rows[1][k] * v[1] + self.rows[2][k] * v[2])
+    }
+}
+
+/// A place on the wheel where its normal lies across the rail.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct WheelPoint<T> {
+    /// a, in the base's axes.
+    pub axis: Three<T>,
+    /// P - x, in the base's axes [m].
+    pub arm: Three<T>,
+    /// Radius r [m], r' and r''.
+    pub radius: [T; 3],
+    /// d, in the base's axes.
+    spoke: Three<T>,
+    /// P, outwards and up [m].
+    point: [T; 2],
+    /// n, likewise.
+    normal: [T; 2],
+}
+
+/// Where a wheel touches a rail.
+#[derive(Clone, Copy, Debug)]
+pub struct Place<T> {
+    /// ξ [m].
+    pub along: T,
+    /// u [m].
+    pub on_rail: T,
+}
+
+/// A place of contact, and whether it is one.
+#[derive(Clone, Copy, Debug)]
+pub struct Found {
+    /// The point of contact.
+    pub place: Place<f64>,
+    pub(crate) is_common_normal: bool,
+}
+
+impl RailContact {
+    /// The wheel at a place along its axis.
+    pub(crate) fn wheel_point<T: Number>(&self, pose: &Pose<T>, along: T) -> WheelPoint<T> {
+        let axis = pose.apply([self.axis.x, self.axis.y, self.axis.z].map(T::constant));
+        let [first, second, third] = axis;
+        let size = (T::constant(1.0 + NEVER_ZERO) - third * third).square_root();
+        let zero = T::constant(0.0);
+        let down = [second / size, -first / size, zero].map(|value| value.scaled(self.side));
+        let forward =
+            [-third * first / size, -third * second / size, (T::constant(1.0) - third * third) / size];
+        let [profile, slope, bend] = self.wheel.at(along);
+        let radius = profile.plus(self.radius);
+        let shift = slope * third / size;
+        // Beyond there is no common normal; numbers stay finite, so that the search says so.
+        let square = T::constant(1.0) - shift * shift;
+        let cosine = if square.value() > 0.0 { square.square_root() } else { T::constant(0.0) };
+        let spoke = sum(times(down, cosine), times(forward, shift));
+        let arm = sum(times(axis, along.plus(self.offset)), times(spoke, radius));
+        let normal = sum(spoke, times(axis, -slope));
+        WheelPoint {
+            axis,
+            arm,
+            radius: [radius, slope, bend],
+            spoke,
+            point: [pose.position[0] + arm[0], (pose.position[1] + arm[1]).scaled(self.side)],
+            normal: [normal[0], normal[1].scaled(self.side)],
+        }
+    }
+
+    /// n·t and (P - Q)·t, in that order, and the gap.
+    fn equations<T: Number>(&self, pose: &Pose<T>, place: &Place<T>) -> ([T; 2], T) {
+        let of_wheel = self.wheel_point(pose, place.along);
+        let point = self.rail.point(place.on_rail);
+        let normal = self.rail.normal(place.on_rail);
+        let tangent = [normal[1], -normal[0]];
+        let across = |v: [T; 2], w: [T; 2]| v[0] * w[0] + v[1] * w[1];
+        let apart = [of_wheel.point[0] - point[0], of_wheel.point[1] - point[1]];
+        ([across(of_wheel.normal, tangent), across(apart, tangent)], across(apart, normal))
+    }
+
+    /// Values of the equations and their derivatives by ξ and u.
+    fn linearized(&self, pose: &Pose<f64>, place: &Place<f64>) -> [Dual<2>; 2] {
+        let constant = |value: &f64| Dual::constant(*value);
+        let fixed = Pose {
+            rows: pose.rows.each_ref().map(|row| row.each_ref().map(constant)),
+            position: pose.position.each_ref().map(constant),
+        };
+        let varied =
+            Place { along: Dual::variable(place.along, 0), on_rail: Dual::variable(place.on_rail, 1) };
+        self.equations(&fixed, &varied).0
+    }
+
+    /// Where they touch, or are nearest.
+    pub fn place(&self, pose: &Pose<f64>) -> Found {
+        let mut place = self.first_place(pose);
+        let size = |rows: &[f64; 2]| rows[0].hypot(rows[1] / self.radius);
+        let mut rows = self.linearized(pose, &place);
+        let mut before = size(&rows.map(Number::value));
+        for _ in 0..MOST_ITERATIONS {
+            let [along, on_rail] = solved(&rows, &rows.map(Number::value));
+            let mut share = 1.0;
+            let (next, next_rows, after) = loop {
+                let next =
+                    Place { along: place.along - share * along, on_rail: place.on_rail - share * on_rail };
+                let next_rows = self.linearized(pose, &next);
+                let after = size(&next_rows.map(Number::value));
+                if after <= before || share < 1e-3 || before <= ROUND_OFF {
+                    break (next, next_rows, after);
+                }
+                share *= 0.5;
+            };
+            let is_round_off = share * along.hypot(on_rail) <= 4.0 * ROUND_OFF * self.radius;
+            if is_round_off || (before < 1e-13 && after >= before) {
+                return Found { place, is_common_normal: true };
+            }
+            (place, rows, before) = (next, next_rows, after);
+        }
+        Found { place, is_common_normal: before < 1e-9 }
+    }
+
+    /// Where the iteration begins.
+    fn first_place(&self, pose: &Pose<f64>) -> Place<f64> {
+        if let (WheelProfile::Cone(_), RailProfile::Circle { .. }) = (&self.wheel, &self.rail) {
+            return self.foot(pose);
+        }
+        let [low, high] = self.tread;
+        let samples = (0..=SAMPLES).map(|k| low + (high - low) * k as f64 / SAMPLES as f64);
+        let cleared = samples.map(|along| {
+            let (clearance, on_rail) = self.rail.clearance(self.wheel_point(pose, along).point);
+            (clearance, Place { along, on_rail })
+        });
+        let least = cleared.reduce(|least, own| if own.0 < least.0 { own } else { least });
+        least.map_or_else(|| self.foot(pose), |(_, place)| place)
+    }
+
+    /// The foot of the centre of the rail's circle on the line of a cone, for those that fit at the nominal circle.
+    fn foot(&self, pose: &Pose<f64>) -> Place<f64> {
+        let [from, to] = [0.0, self.radius].map(|along| self.wheel_point(pose, along).point);
+        let (radius, cant) = self.rail.osculating();
+        let line = [(to[0] - from[0]) / self.radius, (to[1] - from[1]) / self.radius];
+        let centre = [radius * cant.sin(), -radius * cant.cos()];
+        let square = line[0] * line[0] + line[1] * line[1];
+        let along = ((centre[0] - from[0]) * line[0] + (centre[1] - from[1]) * line[1]) / square;
+        let point = [from[0] + along * line[0], from[1] + along * line[1]];
+        let angle = (point[0] - centre[0]).atan2(point[1] - centre[1]);
+        let on_rail = match self.rail {
+            RailProfile::Circle { .. } => radius * (angle + cant),
+            RailProfile::Given(..) => point[0],
+        };
+        Place { along, on_rail }
+    }
+
+    /// Angle of the spoke at a place from the lowest one, along the rail [rad].
+    pub fn shift_angle(&self, pose: &Pose<f64>, along: f64) -> f64 {
+        let WheelPoint { axis: [first, second, third], spoke, .. } = self.wheel_point(pose, along);
+        let up = second * self.side;
+        let down =
+            [up * first, up * second - self.side, up * third].map(|value| value / (1.0 - up * up).sqrt());
+        let forward = [-third, 0.0, first].map(|value| value / first.hypot(third));
+        dot(spoke, forward).atan2(dot(spoke, down))
+    }
+
+    /// Gap [m], of surfaces that are apart positive.
+    pub fn gap(&self, pose: &Pose<f64>) -> f64 {
+        self.equations(pose, &self.place(pose).place).1
+    }
+
+    /// Place of contact with its derivatives, those of the implicit function.
+    pub(crate) fn varied_place<const N: usize>(
+        &self,
+        pose: &Pose<f64>,
+        varied: &Pose<Dual<N>>,
+    ) -> Place<Dual<N>> {
+        let place = self.place(pose).place;
+        let rows = self.linearized(pose, &place);
+        let constant = Place { along: Dual::constant(place.along), on_rail: Dual::constant(place.on_rail) };
+        let (changes, _) = self.equations(varied, &constant);
+        let mut out = constant;
+        for k in 0..N {
+            let [along, on_rail] = solved(&rows, &[changes[0].by[k], changes[1].by[k]]);
+            out.along.by[k] = -along;
+            out.on_rail.by[k] = -on_rail;
+        }
+        out
+    }
+
+    /// E and g of Hertz's ellipse for the curvatures at a pose.
+    pub(crate) fn hertz_ellipse(&self, pose: &Pose<f64>) -> [f64; 2] {
+        let place = self.place(pose).place;
+        let [along, across] = self.curvatures(&place, self.wheel_point(pose, place.along).radius);
+        hertz_ellipse(along, across)
+    }
+
+    /// Half the sums of curvatures of both surfaces along and across the rail [1/m].
+    pub fn curvatures<T: Number>(&self, place: &Place<T>, [radius, slope, bend]: [T; 3]) -> [T; 2] {
+        let steep = (slope * slope).plus(1.0);
+        let of_wheel = bend * steep.power(-1.5);
+        let across = (self.rail.curvature(place.on_rail) - of_wheel).scaled(0.5);
+        [T::constant(0.5) / (radius * steep.square_root()), across]
+    }
+
+    /// The rail's normal, from the rail to the wheel, in the base's axes.
+    pub fn normal<T: Number>(&self, place: &Place<T>) -> Three<T> {
+        let [outwards, upwards] = self.rail.normal(place.on_rail);
+        [outwards, upwards.scaled(self.side), T::constant(0.0)]
+    }
+
+    /// Derivative of the gap by the body variation of the tip's joint frame.
+    pub fn row<T: Number>(&self, pose: &Pose<T>, place: &Place<T>) -> [T; 6] {
+        let normal = pose.apply_inverse(self.normal(place));
+        let arm = pose.apply_inverse(self.wheel_point(pose, place.along).arm);
+        let moment = cross(arm, normal);
+        [normal[0], normal[1], normal[2], moment[0], moment[1], moment[2]]
+    }
+}
+
+impl RailContact {
+    /// What is in doubt about the place of contact, in words that follow the wheel's name.
+    pub fn doubt(&self, pose: &Pose<f64>) -> Option<String> {
+        let Found { place, is_common_normal } = self.place(pose);
+        if !is_common_normal {
+            return Some(
+                "touches its rail nowhere with a common normal: it is turned too far across the track"
+                    .to_owned(),
+            );
+        }
+        let [low, high] = self.tread;
+        if place.along < low || place.along > high {
+            let at = place.along;
+            return Some(format!(
+                "touches {at:.5} m from its nominal circle, beyond its tread, which ends at {low:.5} and {high:.5} m: its flange, \
+                 or nothing, would carry it there"
+            ));
+        }
+        let angle = self.rail.normal(place.on_rail);
+        if angle[1] < STEEPEST {
+            let angle = angle[0].abs().atan2(angle[1]).to_degrees();
+            return Some(format!("touches its rail on the flank, at {angle:.0} degrees from the top"));
+        }
+        self.second_place(pose, place.along).map(|second| {
+            format!(
+                "touches its rail at two places at once, {:.5} and {second:.5} m from its nominal circle: one constraint holds one",
+                place.along
+            )
+        })
+    }
+
+    /// Another place along the axis where the clearance is least and nearly zero, for profiles that are given.
+    fn second_place(&self, pose: &Pose<f64>, first: f64) -> Option<f64> {
+        if let (WheelProfile::Cone(_), RailProfile::Circle { .. }) = (&self.wheel, &self.rail) {
+            return None;
+        }
+        let [low, high] = self.tread;
+        let apart = (high - low) / SAMPLES as f64;
+        let clearance = |along: f64| self.rail.clearance(self.wheel_point(pose, along).point).0;
+        let samples: Vec<f64> = (0..=SAMPLES).map(|k| clearance(low + apart * k as f64)).collect();
+        let is_least = |k: &usize| {
+            let neighbours = [k.checked_sub(1), Some(k + 1)];
+            neighbours.iter().flatten().filter_map(|&at| samples.get(at)).all(|other| samples[*k] <= *other)
+        };
+        (0..=SAMPLES)
+            .filter(is_least)
+            .filter(|&k| samples[k] < NEARLY_TOUCHING * self.radius)
+            .map(|k| low + apart * k as f64)
+            .find(|along| (along - first).abs() > 2.0 * apart)
+    }
+}
+
+/// The solution of two linear equations with these derivatives.
+fn solved(rows: &[Dual<2>; 2], right: &[f64; 2]) -> [f64; 2] {
+    let [[a, b], [c, d]] = [rows[0].by, rows[1].by];
+    let determinant = a * d - b * c;
+    [(d * right[0] - b * right[1]) / determinant, (a * right[1] - c * right[0]) / determinant]
+}
+
+/// Elliptic integral E and ratio g = b/a of the half axes for half sums of curvatures A and B [Hertz 1882; Johnson 1985]:
+///
+/// ```text
+/// max(A, B)/min(A, B) = (E/g² - K)/(K - E),      K and E of the modulus (1 - g²)^½
+/// ```
+fn hertz_ellipse(along: f64, across: f64) -> [f64; 2] {
+    let wanted = (along / across).max(across / along);
+    if !wanted.is_finite() || wanted <= 1.0 + 1e-9 {
+        return [std::f64::consts::FRAC_PI_2, 1.0];
+    }
+    let (mut low, mut high) = (1e-6_f64, 1.0_f64);
+    for _ in 0..200 {
+        let ratio = 0.5 * (low + high);
+        let [first, second] = elliptic_integrals(ratio);
+        if (second / (ratio * ratio) - first) / (first - second) > wanted {
+            low = ratio;
+        } else {
+            high = ratio;
+        }
+    }
+    let ratio = 0.5 * (low + high);
+    [elliptic_integrals(ratio)[1], ratio]
+}
+
+/// K and E of the complementary modulus `ratio`, by the arithmetic-geometric mean.
+fn elliptic_integrals(ratio: f64) -> [f64; 2] {
+    let (mut mean, mut root) = (1.0_f64, ratio);
+    let mut sum = 0.5 * (1.0 - ratio * ratio);
+    let mut weight = 0.5;
+    while (mean - root).abs() > 1e-15 * mean {
+        let difference = 0.5 * (mean - root);
+        (mean, root) = (0.5 * (mean + root), (mean * root).sqrt());
+        weight *= 2.0;
+        sum += weight * difference * difference;
+    }
+    let first = std::f64::consts::FRAC_PI_2 / mean;
+    [first, first * (1.0 - sum)]
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+    use std::sync::Arc;
+
+    use lissom_motion::Rotation;
+
+    use super::*;
+    use crate::registry::TimeFunction;
+
+    /// A wave with a drift, of amplitude and length [m] and slope: several places of a wheel come near to its rail.
+    #[derive(Debug)]
+    struct Waves(f64, f64, f64);
+
+    impl TimeFunction for Waves {
+        fn value(&self, y: f64) -> f64 {
+            self.2 * y + self.0 * (TAU * y / self.1).cos()
+        }
+        fn first_derivative(&self, y: f64) -> f64 {
+            self.2 - self.0 * TAU / self.1 * (TAU * y / self.1).sin()
+        }
+        fn second_derivative(&self, y: f64) -> f64 {
+            -self.0 * (TAU / self.1).powi(2) * (TAU * y / self.1).cos()
+        }
+    }
+
+    /// -y²/(2 R).
+    #[derive(Debug)]
+    struct Head(f64);
+
+    impl TimeFunction for Head {
+        fn value(&self, y: f64) -> f64 {
+            -0.5 * y * y / self.0
+        }
+        fn first_derivative(&self, y: f64) -> f64 {
+            -y / self.0
+        }
+        fn second_derivative(&self, _: f64) -> f64 {
+            -1.0 / self.0
+        }
+    }
+
+    /// A waved wheel on a rounded rail, on both sides, rolled and shifted: the place of contact is the one of all its places that
+    /// comes nearest to the rail.
+    #[test]
+    fn given_profiles_touch_where_they_are_nearest() {
+        let mut places = Vec::new();
+        // Parabolas, and a circle of 1 m whose tangent at u = 0 rises by 0.02 rad.
+        let circle = RailProfile::Circle { radius: 1.0, cant: 0.02 };
+        let over_circle = |x: f64, y: f64| (x - 0.02_f64.sin()).hypot(y + 0.02_f64.cos()) - 1.0;
+        for (side, drift, is_circle) in [
+            (1.0, 0.023, false),
+            (1.0, -0.023, false),
+            (-1.0, 0.023, false),
+            (-1.0, -0.023, false),
+            (1.0, 0.023, true),
+            (-1.0, -0.023, true),
+        ] {
+            let parabola = RailProfile::Given(Arc::new(Head(1.0)), 0.1);
+            let contact = RailContact {
+                axis: Vector3::x(),
+                side,
+                offset: 0.1,
+                radius: 0.5,
+                wheel: WheelProfile::Given(Arc::new(Waves(4e-4, 0.02, drift)), 0.1),
+                rail: if is_circle { circle.clone() } else { parabola },
+                tread: [-0.09, 0.07],
+            };
+            for (roll, shift) in [(0.0, 0.0), (0.012, 0.003), (-0.018, -0.004)] {
+                let turn = Rotation::exponential(&Vector3::new(0.0, 0.0, roll)).matrix();
+                let position = Vector3::new(shift - 0.1, side * 0.503, 0.2);
+                let pose = Pose::new(&turn, &position);
+                let [low, high] = contact.tread;
+                let cleared = (0..=100_000).map(|k| {
+                    let along = low + (high - low) * f64::from(k) / 1e5;
+                    let radius = 0.5 + Waves(4e-4, 0.02, drift).value(along);
+                    let place = position + turn * Vector3::new(0.1 + along, -side * radius, 0.0);
+                    let (x, y) = (place.x, side * place.y);
+                    (if is_circle { over_circle(x, y) } else { y + 0.5 * x * x }, along)
+                });
+                let (_, wanted) =
+                    cleared.min_by(|one, other| one.0.total_cmp(&other.0)).expect("there are some");
+                let Found { place, is_common_normal } = contact.place(&pose);
+                assert!(is_common_normal, "{side} {drift} {roll}");
+                places.push((place.along, wanted));
+            }
+        }
+        for (found, wanted) in &places {
+            assert!((found - wanted).abs() < 5e-5, "{found}, nearest {wanted}");
+        }
+        // Several places have been found.
+        let is_there = |low: f64, high: f64| places.iter().any(|(found, _)| (low..high).contains(found));
+        assert!(is_there(-0.05, -0.03) && is_there(-0.01, 0.01) && is_there(0.05, 0.07), "{places:?}");
+    }
+
+    /// K and E by Simpson's rule.
+    fn integrals(ratio: f64) -> [f64; 2] {
+        const PARTS: usize = 2000;
+        let square = |angle: f64| (1.0 - (1.0 - ratio * ratio) * angle.sin().powi(2)).sqrt();
+        let width = 0.25 * TAU / PARTS as f64;
+        let simpson = |of: &dyn Fn(f64) -> f64| {
+            let part = |k: usize| {
+                let [a, b] = [k, k + 1].map(|k| width * k as f64);
+                width / 6.0 * (of(a) + 4.0 * of(0.5 * (a + b)) + of(b))
+            };
+            (0..PARTS).map(part).sum::<f64>()
+        };
+        [simpson(&|angle| square(angle).recip()), simpson(&square)]
+    }
+
+    /// Curvatures that belong to a known ellipse give it back, whichever of them is larger.
+    #[test]
+    fn hertzs_ellipse_has_the_curvatures_that_it_belongs_to() {
+        for ratio in [0.05, 0.3, 0.711_521_8, 0.99] {
+            let [first, second] = integrals(ratio);
+            let curvatures = (second / (ratio * ratio) - first) / (first - second);
+            for found in [hertz_ellipse(2.0 * curvatures, 2.0), hertz_ellipse(0.5, 0.5 * curvatures)] {
+                let error = (found[0] / second - 1.0).abs().max((found[1] / ratio - 1.0).abs());
+                assert!(error < 1e-9, "{ratio}: {found:?}, E {second}");
+            }
+        }
+        assert_eq!(hertz_ellipse(3.0, 3.0), [0.25 * TAU, 1.0]);
+    }
+
+    /// A cone on a circle needs no iteration: there both normals agree at once, and no way along the tangent is left.
+    #[test]
+    fn a_cone_touches_a_circle_at_the_foot_of_its_centre() {
+        for (side, cone_angle, cant) in [(1.0, 0.1, 0.1), (1.0, 0.4, 0.2), (-1.0, -0.3, 0.0)] {
+            let contact = RailContact {
+                axis: Vector3::new(0.99, 0.1, -0.05).normalize(),
+                side,
+                offset: 0.7,
+                radius: 0.4,
+                wheel: WheelProfile::Cone(-f64::tan(cone_angle)),
+                rail: RailProfile::Circle { radius: 0.3, cant },
+                tread: [-0.2, 0.2],
+            };
+            for turn in [Vector3::zeros(), Vector3::new(0.3, 0.1, -0.05), Vector3::new(-0.2, -0.15, 0.1)] {
+                let turn = Rotation::exponential(&turn).matrix();
+                let pose = Pose::new(&turn, &Vector3::new(-0.7, side * 0.45, 0.1));
+                let (away, _) = contact.equations(&pose, &contact.foot(&pose));
+                assert!(away.iter().all(|value| value.abs() < 1e-14), "{side} {cone_angle} {cant}: {away:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,101 @@
+//! Forces of rolling contact between wheel and rail, by the law of [`CreepLaw`]. The normal force is the multiplier of the joint that keeps
+//! wheel and rail together.
+
+use lissom_motion::{Matrix6, Vector6, lie_bracket_matrix};
+
+use super::frame_pair::{FramePair, RelativeMotion};
+use super::{Element, Energy, Tangents};
+use crate::contact::CreepLaw;
+use crate::contact::creep_law::Creep;
+use crate::contact::wheel_on_rail::{Pose, RailContact};
+use crate::dual::Dual;
+use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
+
+/// Derivatives of a force: by the tip's variation, its twist relative to the base, and the normal force.
+const DIRECTIONS: usize = 13;
+
+/// A wheel that creeps on a rail.
+#[derive(Clone, Debug)]
+pub struct CreepForce {
+    frames: FramePair,
+    multipliers: [usize; 1],
+    contact: RailContact,
+    law: CreepLaw,
+}
+
+impl CreepForce {
+    /// Between a joint's frames, with the joint's multiplier.
+    pub fn new(frames: [CarriedFrame; 2], multiplier: usize, contact: RailContact, law: CreepLaw) -> Self {
+        Self { frames: FramePair::new(frames), multipliers: [multiplier], contact, law }
+    }
+
+    /// What acts at this normal force.
+    pub fn creep(&self, at: &Kinematics, normal_force: f64) -> Creep<f64> {
+        self.creep_of(&self.frames.motion(at), normal_force)
+    }
+
+    /// Wrench on the tip in the tip's joint frame [N, N m].
+    pub fn wrench(&self, at: &Kinematics, normal_force: f64) -> Vector6 {
+        Vector6::from_column_slice(&self.creep(at, normal_force).wrench)
+    }
+
+    fn creep_of(&self, motion: &RelativeMotion, normal_force: f64) -> Creep<f64> {
+        let pose = Pose::new(&motion.rotation, &motion.position);
+        let place = self.contact.place(&pose).place;
+        self.law.creep(&self.contact, (&pose, &place), &motion.twist.into(), normal_force)
+    }
+
+    /// The multiplier is the force that pulls the wheel to the rail.
+    fn normal_force(&self, at: &Kinematics) -> f64 {
+        at.multipliers.get(self.multipliers[0]).map_or(0.0, |pull| -pull)
+    }
+}
+
+impl Element for CreepForce {
+    fn nodes(&self) -> &[NodeId] {
+        &self.frames.nodes
+    }
+
+    fn multipliers(&self) -> &[usize] {
+        &self.multipliers
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        let motion = self.frames.motion(at);
+        let creep = self.creep_of(&motion, self.normal_force(at));
+        self.frames.add_wrench(&motion, &-Vector6::from_column_slice(&creep.wrench), out);
+    }
+
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        let motion = self.frames.motion(at);
+        let normal_force = self.normal_force(at);
+        if normal_force <= 0.0 {
+            return;
+        }
+        let pose = Pose::new(&motion.rotation, &motion.position);
+        let varied = pose.varied::<DIRECTIONS>();
+        let place = self.contact.varied_place(&pose, &varied);
+        let twist: [Dual<DIRECTIONS>; 6] = std::array::from_fn(|k| Dual::variable(motion.twist[k], 6 + k));
+        let pressed = Dual::variable(normal_force, 12);
+        // On the left-hand side.
+        let wrench =
+            self.law.creep(&self.contact, (&varied, &place), &twist, pressed).wrench.map(|value| -value);
+        let by_rate = Matrix6::from_fn(|i, j| wrench[i].by[6 + j]);
+        // Changes of the relative twist at fixed twists of the nodes: δη̇ = -ad(A V_base) η.
+        let by_place =
+            Matrix6::from_fn(|i, j| wrench[i].by[j]) - by_rate * lie_bracket_matrix(&motion.carried);
+        let values = Vector6::from_fn(|i, _| wrench[i].value);
+        self.frames.add_derivatives(&motion, &values, (&by_place, &by_rate), out);
+        let mut column = [0.0; 12];
+        self.frames.add_wrench(&motion, &Vector6::from_fn(|i, _| -wrench[i].by[12]), &mut column);
+        out.add_by_multiplier(&column);
+    }
+
+    fn energy(&self, _: &Kinematics) -> Energy {
+        Energy::default()
+    }
+
+    fn is_load(&self) -> bool {
+        true
+    }
+}

@@ -1,0 +1,77 @@
+//! Nodes, coordinates and gravity of a model under construction: what kinds of elements read of it.
+
+use lissom_motion::{Matrix6, Motion};
+
+use super::inertia::Gravity;
+use crate::kinematics::{CoordinateId, Freedoms, NodeId, NodeMotion, Quantity};
+use crate::registry::ParameterError;
+
+/// A node at the start.
+#[derive(Clone, Debug)]
+pub struct Node {
+    /// Name in messages and outputs.
+    pub name: String,
+    /// Pose and twist.
+    pub motion: NodeMotion,
+    /// Degrees of freedom that are not locked.
+    pub freedoms: Freedoms,
+    /// 6x6, in the node's frame, about the node.
+    pub mass: Option<Matrix6>,
+}
+
+/// A coordinate at the start.
+#[derive(Clone, Debug)]
+pub struct Coordinate {
+    /// Name in messages and outputs.
+    pub name: String,
+    /// [m, rad].
+    pub value: f64,
+    /// [m/s, rad/s].
+    pub rate: f64,
+    /// Quantity that it measures.
+    pub quantity: Quantity,
+}
+
+/// The part of a model under construction that later entries refer to.
+#[derive(Clone, Debug)]
+pub struct InitialModel {
+    /// Nodes; the ground is the first.
+    pub nodes: Vec<Node>,
+    /// Coordinates of joints, states and impulses.
+    pub coordinates: Vec<Coordinate>,
+    /// Gravity.
+    pub gravity: Gravity,
+}
+
+impl InitialModel {
+    /// Pose of a node.
+    pub fn frame(&self, node: NodeId) -> Motion {
+        self.nodes[node].motion.frame
+    }
+
+    /// Name of a coordinate.
+    pub fn coordinate_name(&self, coordinate: CoordinateId) -> &str {
+        &self.coordinates[coordinate].name
+    }
+
+    /// Value of a coordinate [m or rad].
+    pub fn coordinate_value(&self, coordinate: CoordinateId) -> f64 {
+        self.coordinates[coordinate].value
+    }
+
+    /// Quantity that a coordinate measures.
+    pub fn coordinate_quantity(&self, coordinate: CoordinateId) -> Quantity {
+        self.coordinates[coordinate].quantity
+    }
+
+    /// Checks that a coordinate measures the quantity that a drive or spring acts on.
+    ///
+    /// # Errors
+    /// If it measures another one.
+    pub fn check_quantity(&self, coordinate: CoordinateId, wanted: Quantity) -> Result<(), ParameterError> {
+        if self.coordinates[coordinate].quantity == wanted {
+            return Ok(());
+        }
+        Err(ParameterError::new("coordinate", format!("must be a relative {}", wanted.relative())))
+    }
+}

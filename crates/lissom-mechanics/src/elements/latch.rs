@@ -1,0 +1,126 @@
+//! A latch: holds a coordinate of a joint where it is while an input is set, and leaves it free otherwise.
+//!
+//! Legend: q the coordinate, Λ an impulse, a coordinate without mass whose rate is the force of the latch, see `rolling`.
+//!
+//! ```text
+//! row of q: Λ̇       row of Λ: q̇ = 0 where it holds,   Λ̇ = 0 where it does not
+//! ```
+//!
+//! What it does at the instant of latching, an impact without rebound, is a matter of `Simulation::change_held_values`.
+
+use super::contribution::Contribution;
+use super::initial_model::InitialModel;
+use super::kind::{Attached, Attachment, ElementKind};
+use super::{Element, Energy, Tangents};
+use crate::kinematics::{CoordinateId, HeldId, Kinematics, NodeId, Quantity};
+use crate::registry::{COORDINATE, Parameter, ParameterError, ParameterType, Parameters};
+
+/// An input above this holds.
+const HOLDS: f64 = 0.5;
+
+const PARAMETERS: &[Parameter] = &[
+    COORDINATE,
+    Parameter::required(
+        "engaged",
+        ParameterType::Input,
+        "",
+        "The input that engages it: above 0.5 it holds, otherwise it is free; events set it.",
+    ),
+];
+
+/// Registry entry for displacements.
+pub const AXIAL: ElementKind = ElementKind {
+    name: "axial_latch",
+    summary: "Holds a joint's relative displacement where it is while an input is set: latches and releases.",
+    sample: "engaged = \"my_input\"",
+    parameters: PARAMETERS,
+    attachment: Attachment::Coordinate(Quantity::Length),
+    build,
+};
+
+/// Registry entry for rotations.
+pub const TORSIONAL: ElementKind = ElementKind {
+    name: "torsional_latch",
+    summary: "Holds a joint's relative rotation where it is while an input is set: latches and releases.",
+    attachment: Attachment::Coordinate(Quantity::Angle),
+    ..AXIAL
+};
+
+/// A latch on a coordinate.
+#[derive(Clone, Copy, Debug)]
+pub struct Latch {
+    /// The joint's, and the impulse.
+    coordinates: [CoordinateId; 2],
+    engaged: HeldId,
+}
+
+fn build(
+    model: &InitialModel,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<Contribution, ParameterError> {
+    let coordinate = attached.coordinate()?;
+    let engaged = parameters.input("engaged")?;
+    let mut contribution = Contribution::to(model);
+    let name = format!("{}, latched", model.coordinate_name(coordinate));
+    let impulse = contribution.add_impulse(name, Vec::new(), vec![coordinate]);
+    contribution.latches.push(engaged);
+    Ok(contribution.with(Latch { coordinates: [coordinate, impulse], engaged }))
+}
+
+/// Whether an input of this value lets a latch hold.
+pub fn holds(input: f64) -> bool {
+    input > HOLDS
+}
+
+impl Latch {
+    fn holds(&self, at: &Kinematics) -> bool {
+        at.held.get(self.engaged).is_some_and(|&input| holds(input))
+    }
+}
+
+impl Element for Latch {
+    fn nodes(&self) -> &[NodeId] {
+        &[]
+    }
+
+    fn coordinates(&self) -> &[CoordinateId] {
+        &self.coordinates
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        let [own, impulse] = self.coordinates.map(|coordinate| at.coordinates[coordinate].rate);
+        out[0] += impulse;
+        out[1] += if self.holds(at) { own } else { impulse };
+    }
+
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        let [by_own, by_impulse] = if self.holds(at) { [1.0, 0.0] } else { [0.0, 1.0] };
+        out.damping[1] += 1.0;
+        out.damping[2] += by_own;
+        out.damping[3] += by_impulse;
+    }
+
+    fn energy(&self, _: &Kinematics) -> Energy {
+        Energy::default()
+    }
+
+    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
+        let [own, impulse] = self.coordinates.map(|coordinate| at.coordinates[coordinate]);
+        Some([own.value, own.rate, impulse.rate])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::holds;
+
+    #[test]
+    fn inputs_above_one_half_hold() {
+        for (input, wanted) in
+            [(0.0, false), (0.5, false), (0.5_f64.next_up(), true), (1.0, true), (f64::NAN, false)]
+        {
+            assert_eq!(holds(input), wanted, "{input}");
+        }
+    }
+}

@@ -1,0 +1,305 @@
+//! A wheel on a plane that yields and slips: a one-sided normal force, and friction by a law over the sliding velocity.
+//!
+//! Legend: as in `joints::rolling` and `contact::wheel_on_plane`; g gap between wheel and plane, δ = -g penetration, V relative twist, η
+//! its variation of place, b_n = ∂g/∂η, s_k = b_k·V sliding velocities, σ = |s|, μ(σ) coefficient of friction.
+//!
+//! ```text
+//! g = ±x₃ - r S - ρ,     N = k δ max(0, 1 + a δ̇) for δ > 0,     wrench on the tip N b_n - N μ(σ) Σ s_k/σ b_k
+//! ```
+//!
+//! The normal force is that of Hunt and Crossley 1975. Without `traction` the law is μ(σ) = μ₀ tanh(σ/v_s).
+
+use lissom_motion::{Matrix6, Motion, Rotation, Vector3, Vector6, lie_bracket_matrix};
+
+use super::contribution::Contribution;
+use super::frame_pair::{FramePair, RelativeMotion};
+use super::initial_model::InitialModel;
+use super::kind::{Attached, Attachment, ElementKind};
+use super::sides::{Sides, is_above};
+use super::{Element, Energy, Tangents};
+use crate::contact::wheel_on_plane::{Contact, DIRECTIONS};
+use crate::kinematics::{CarriedFrame, Kinematics, NodeId};
+use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters};
+
+/// Sliding velocities below are those of rolling, where the law is linear [m/s].
+const STILL: f64 = 1e-9;
+
+/// Registry entry.
+pub const KIND: ElementKind = ElementKind {
+    name: "rolling_contact",
+    summary: "A wheel, disc or ball on a plane that yields and slips: it may lift, and slides where friction ends.",
+    sample: "normal = [0.0, 0.0, 1.0]\nwheel_axis = [0.0, 1.0, 0.0]\nradius = 0.3\nstiffness = 1e6\nfriction_coefficient = 0.8",
+    parameters: &[
+        Parameter::required(
+            "normal",
+            ParameterType::Direction,
+            "",
+            "Normal of the plane, which the base carries, at the start, global axes; `at_base` is a point of the plane.",
+        ),
+        Parameter::required(
+            "wheel_axis",
+            ParameterType::Direction,
+            "",
+            "Axis of the wheel at the start, global axes; `at_tip` is the wheel's centre.",
+        ),
+        Parameter::optional(
+            "radius",
+            ParameterType::NotNegative,
+            "m",
+            "Radius of the wheel, without the rounding of its rim; default: so that it touches the plane at the start. 0 \
+             makes a ball of radius `rim`.",
+        ),
+        Parameter::optional(
+            "rim",
+            ParameterType::NotNegative,
+            "m",
+            "Radius of the rounding of the rim; default 0.",
+        ),
+        Parameter::required("stiffness", ParameterType::Positive, "N/m", "Normal force per penetration."),
+        Parameter::optional(
+            "dissipation",
+            ParameterType::NotNegative,
+            "s/m",
+            "Increase of the normal force per velocity of penetration, relative to it; default 0.",
+        ),
+        Parameter::optional(
+            "friction_coefficient",
+            ParameterType::NotNegative,
+            "",
+            "Friction over normal force of a wheel that slides; default 0.",
+        ),
+        Parameter::optional(
+            "slip_velocity",
+            ParameterType::Positive,
+            "m/s",
+            "Velocity v_s of the law μ tanh(v/v_s): below it the wheel creeps; default 0.01.",
+        ),
+        Parameter::optional(
+            "traction",
+            ParameterType::FunctionOf("slip"),
+            "",
+            "Coefficient of friction over the sliding velocity `slip` [m/s], in place of the law of `friction_coefficient`.",
+        ),
+    ],
+    attachment: Attachment::TwoNodes,
+    build,
+};
+
+/// A wheel on a plane.
+#[derive(Clone, Debug)]
+pub struct RollingContact {
+    frames: FramePair,
+    contact: Contact,
+    stiffness: f64,
+    dissipation: f64,
+    traction: Traction,
+    sides: Sides,
+}
+
+/// μ(σ).
+#[derive(Clone, Debug)]
+enum Traction {
+    Saturated { coefficient: f64, velocity: f64 },
+    Given(Function),
+}
+
+impl Traction {
+    /// μ(σ)/σ, and the derivative of that by σ over σ.
+    fn per_velocity(&self, sliding: f64) -> (f64, f64) {
+        let at = sliding.max(STILL);
+        let (value, slope) = match self {
+            Self::Saturated { coefficient, velocity } => {
+                let value = (at / velocity).tanh();
+                (coefficient * value, coefficient * (1.0 - value * value) / velocity)
+            }
+            Self::Given(function) => (function.value(at), function.first_derivative(at)),
+        };
+        let ratio = value / at;
+        if sliding > STILL { (ratio, (slope - ratio) / (at * at)) } else { (ratio, 0.0) }
+    }
+}
+
+fn build(
+    model: &InitialModel,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<Contribution, ParameterError> {
+    let (nodes, points) = attached.two_nodes()?;
+    let normal = parameters.vector("normal")?;
+    let axes = axes_of(&normal).ok_or_else(|| ParameterError::new("normal", "has no direction"))?;
+    let frames = [0, 1].map(|side| {
+        let node = model.frame(nodes[side]);
+        let place = Motion::new(axes, node.transform_point(&points[side]));
+        CarriedFrame { node: nodes[side], offset: place.relative_to(&node) }
+    });
+    let [plane, centre] = [0, 1].map(|side| model.frame(nodes[side]).transform_point(&points[side]));
+    let height = axes.apply_inverse(&(centre - plane)).z;
+    if height.abs() <= 0.0 {
+        return Err(ParameterError::new("at_tip", "lies in the plane: it must be the centre of the wheel"));
+    }
+    let axis = axes.apply_inverse(&parameters.vector("wheel_axis")?);
+    let axis =
+        axis.try_normalize(0.0).ok_or_else(|| ParameterError::new("wheel_axis", "has no direction"))?;
+    if axis.z.abs() > 1.0 - 1e-6 {
+        let problem = "is across the plane: the wheel lies flat on it, and cannot roll";
+        return Err(ParameterError::new("wheel_axis", problem));
+    }
+    let rim = parameters.number_or("rim", 0.0)?;
+    let radius = parameters.number_or("radius", (height.abs() - rim) / (1.0 - axis.z * axis.z).sqrt())?;
+    if radius < 0.0 || radius + rim <= 0.0 {
+        let problem = format!("is {radius} m with a rim of {rim} m: there is no wheel to roll");
+        return Err(ParameterError::new("radius", problem));
+    }
+    let contact = Contact { axis, side: height.signum(), radius, rim, friction: f64::INFINITY, creep: 0.0 };
+    Ok(Contribution::of(
+        model,
+        RollingContact {
+            frames: FramePair::new(frames),
+            contact,
+            stiffness: parameters.number("stiffness")?,
+            dissipation: parameters.number_or("dissipation", 0.0)?,
+            traction: traction(parameters)?,
+            sides: Sides::default(),
+        },
+    ))
+}
+
+/// Axes with the third along a direction.
+fn axes_of(normal: &Vector3) -> Option<Rotation> {
+    let third = normal.try_normalize(0.0)?;
+    let mut across = Vector3::zeros();
+    across[third.iamin()] = 1.0;
+    let first = (across - third * third.dot(&across)).normalize();
+    Rotation::from_columns(&first, &third.cross(&first), &third)
+}
+
+fn traction(parameters: &Parameters) -> Result<Traction, ParameterError> {
+    let wrong = |problem: String| Err(ParameterError::new("traction", problem));
+    if !parameters.has("traction") {
+        return Ok(Traction::Saturated {
+            coefficient: parameters.number_or("friction_coefficient", 0.0)?,
+            velocity: parameters.number_or("slip_velocity", 0.01)?,
+        });
+    }
+    for other in ["friction_coefficient", "slip_velocity"] {
+        if parameters.has(other) {
+            return wrong(format!("stands in place of the law with `{other}`: leave one of them out"));
+        }
+    }
+    let function = parameters.function("traction")?;
+    let at_rest = function.value(0.0);
+    if at_rest.is_nan() || at_rest.abs() > 1e-12 {
+        return wrong(format!("is {at_rest} without sliding: it must be zero there"));
+    }
+    for exponent in -30..=20 {
+        let slip = 10.0_f64.powf(0.1 * f64::from(exponent));
+        let value = function.value(slip);
+        if value.is_nan() || value < 0.0 {
+            return wrong(format!("is {value} at a slip of {slip:.3} m/s: negative friction would drive"));
+        }
+    }
+    Ok(Traction::Given(function))
+}
+
+/// What acts between wheel and plane.
+struct Touch {
+    motion: RelativeMotion,
+    /// b_n.
+    normal_row: Vector6,
+    rows: [Vector6; DIRECTIONS],
+    gap: f64,
+    gap_rate: f64,
+    sliding: [f64; DIRECTIONS],
+    /// N with its derivatives by gap and rate.
+    normal: [f64; 3],
+    /// μ/σ, and its derivative by σ over σ.
+    traction: (f64, f64),
+    /// On the left-hand side, on the tip's frame.
+    wrench: Vector6,
+}
+
+impl RollingContact {
+    fn touch(&self, at: &Kinematics) -> Touch {
+        let motion = self.frames.motion(at);
+        let (gap, normal_row) = self.contact.gap(&motion.rotation, &motion.position);
+        let rows = self.contact.rows(&motion.rotation);
+        let gap_rate = normal_row.dot(&motion.twist);
+        let sliding = rows.map(|row| row.dot(&motion.twist));
+        let factor = 1.0 - self.dissipation * gap_rate;
+        let is_touching = is_above(self.sides.of(at).first(), -gap) && factor > 0.0;
+        let normal = if is_touching {
+            let elastic = -self.stiffness * gap;
+            [elastic * factor, -self.stiffness * factor, -elastic * self.dissipation]
+        } else {
+            [0.0; 3]
+        };
+        let traction = self.traction.per_velocity(sliding[0].hypot(sliding[1]));
+        let friction = normal[0] * traction.0;
+        let wrench =
+            -normal[0] * normal_row + friction * sliding[0] * rows[0] + friction * sliding[1] * rows[1];
+        Touch { motion, normal_row, rows, gap, gap_rate, sliding, normal, traction, wrench }
+    }
+}
+
+impl Element for RollingContact {
+    fn nodes(&self) -> &[NodeId] {
+        &self.frames.nodes
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        let touch = self.touch(at);
+        self.frames.add_wrench(&touch.motion, &touch.wrench, out);
+    }
+
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        let touch = self.touch(at);
+        let Touch { motion, normal_row, rows, sliding, normal, .. } = &touch;
+        let ([force, by_gap, by_gap_rate], (ratio, bend)) = (*normal, touch.traction);
+        let frictions = sliding.map(|own| force * ratio * own);
+        let (mut by_place, turns) = self.contact.derivatives(&motion.rotation, &frictions, &motion.twist);
+        let hessian = self.contact.gap_hessian(&motion.rotation);
+        by_place -= force * hessian;
+        // Changes of rates at fixed twists of the nodes: δη̇ = -ad(A V_base) η.
+        let bracket = lie_bracket_matrix(&motion.carried);
+        let slides = [0, 1].map(|k| turns[k] - bracket.tr_mul(&rows[k]));
+        let closing = hessian.tr_mul(&motion.twist) - bracket.tr_mul(normal_row);
+        let force_by_place = by_gap * normal_row + by_gap_rate * closing;
+        let force_by_rate = by_gap_rate * normal_row;
+        let direction = -normal_row + ratio * (sliding[0] * rows[0] + sliding[1] * rows[1]);
+        by_place += direction * force_by_place.transpose();
+        let mut by_rate: Matrix6 = direction * force_by_rate.transpose();
+        for k in 0..DIRECTIONS {
+            for l in 0..DIRECTIONS {
+                let same = if k == l { ratio } else { 0.0 };
+                let slope = force * (same + bend * sliding[k] * sliding[l]);
+                by_place += slope * rows[k] * slides[l].transpose();
+                by_rate += slope * rows[k] * rows[l].transpose();
+            }
+        }
+        self.frames.add_derivatives(motion, &touch.wrench, (&by_place, &by_rate), out);
+    }
+
+    fn energy(&self, at: &Kinematics) -> Energy {
+        let touch = self.touch(at);
+        let depth = if touch.normal[0] > 0.0 || touch.gap < 0.0 { touch.gap } else { 0.0 };
+        Energy { strain: 0.5 * self.stiffness * depth * depth, ..Energy::default() }
+    }
+
+    fn switch_count(&self) -> usize {
+        1
+    }
+
+    fn hold_sides(&mut self, sides: Sides) {
+        self.sides = sides;
+    }
+
+    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+        out.push(-self.touch(at).gap);
+    }
+
+    /// Gap, its rate and the normal force.
+    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
+        let touch = self.touch(at);
+        Some([touch.gap, touch.gap_rate, touch.normal[0]])
+    }
+}

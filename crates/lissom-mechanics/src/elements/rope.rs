@@ -1,0 +1,419 @@
+//! A rope over pulleys: a spring and damper without compression along the line through several places, over which it slides
+//! without friction, so that its tension is the same all along. Pulleys have no radius. Drums pay it out.
+//!
+//! Legend: x_p places, Δ_i = x_{i+1} - x_i with length ℓ_i and direction u_i, L free length, L₀(t) as given, q_d coordinates of drums
+//! that are q_d0 at the start, r_d what they pay out per unit.
+//!
+//! ```text
+//! e = Σ ℓ_i - L,   ė = Σ u_i·Δ̇_i - L̇,   L = L₀(t) + Σ r_d (q_d - q_d0),   T = max(0, k e + c ė) or another law for e > 0
+//! T times ∂e:   at places  g_p = ∂Σℓ/∂x_p = u_{p-1} - u_p,   at drums  ∂e/∂q_d = -r_d
+//! ```
+
+use lissom_motion::{Matrix3, Vector3, skew};
+use nalgebra::SMatrix;
+
+use super::contribution::Contribution;
+use super::force_law::{ForceLaw, Response};
+use super::initial_model::InitialModel;
+use super::kind::{Attached, Attachment, ElementKind};
+use super::point_spring::Point;
+use super::sides::Sides;
+use super::{Element, Energy, Tangents, add_block};
+use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
+use crate::kinematics::{CoordinateId, GROUND, Kinematics, NodeId};
+use crate::registry::{Function, Parameter, ParameterError, ParameterType, Parameters, Value};
+
+/// Registry entry.
+pub const KIND: ElementKind = ElementKind {
+    name: "rope",
+    summary: "Rope that slides over several places without friction: reeving over pulleys, and hoists by its length.",
+    sample: "stiffness = 1e4\ndamping = 10.0\nlength = \"3 - 0.1*t\"",
+    parameters: &[
+        Parameter::optional(
+            "stiffness",
+            ParameterType::NotNegative,
+            "N/m",
+            "Stiffness of the whole rope; default 0.",
+        ),
+        Parameter::optional(
+            "damping",
+            ParameterType::NotNegative,
+            "N s/m",
+            "Damping of the whole rope; default 0.",
+        ),
+        Parameter::optional(
+            "force",
+            ParameterType::Force(&["elongation", "rate"]),
+            "N",
+            "Tension over `elongation` and `rate`, in addition to `stiffness`; a table is over `elongation`.",
+        ),
+        Parameter::optional(
+            "damper_force",
+            ParameterType::Force(&["rate", "elongation"]),
+            "N",
+            "Tension over `rate` and `elongation`, in addition to `damping`; a table is over `rate`.",
+        ),
+        Parameter::optional("limits", ParameterType::Range, "N", "Least and greatest tension; default none."),
+        Parameter::optional(
+            "length",
+            ParameterType::Function,
+            "m",
+            "Free length of the whole rope, over time where a winch changes it; default: the length at the start.",
+        ),
+        Parameter::optional(
+            "drum_radii",
+            ParameterType::Numbers,
+            "m",
+            "Rope that `drums` pay out, each per rad or m of its coordinate; negative where it winds the rope up.",
+        ),
+    ],
+    attachment: Attachment::Places,
+    build,
+};
+
+/// Nodes a rope may lead over, besides the ground.
+const MOST_NODES: usize = 4;
+/// Drums it may have: one at each end.
+const MOST_DRUMS: usize = 2;
+/// Local unknowns of so many nodes and drums.
+const MOST: usize = 6 * MOST_NODES + MOST_DRUMS;
+/// Places a rope may lead over.
+const MOST_PLACES: usize = 16;
+
+/// A rope over pulleys.
+#[derive(Clone, Debug)]
+pub struct Rope {
+    /// Those that it leads over, each once, without the ground.
+    nodes: Vec<NodeId>,
+    /// Places in their order along the rope: which of the nodes, none for the ground, and where on it.
+    places: Vec<(Option<usize>, Vector3)>,
+    /// Coordinates of drums, and of each what it pays out per unit and its value at the start.
+    drums: Vec<CoordinateId>,
+    pays_out: Vec<[f64; 2]>,
+    law: ForceLaw,
+    length: Function,
+    sides: Sides,
+}
+
+/// What drums pay out per unit of their coordinates, and where these are at the start.
+fn drums(
+    model: &InitialModel,
+    drums: &[CoordinateId],
+    parameters: &Parameters,
+) -> Result<Vec<[f64; 2]>, ParameterError> {
+    let radii = if parameters.has("drum_radii") { parameters.numbers("drum_radii")? } else { &[] };
+    let fault = |problem: String| Err(ParameterError::new("drum_radii", problem));
+    if radii.len() != drums.len() {
+        return fault(format!("must be as many as `drums`: {} for {}", radii.len(), drums.len()));
+    }
+    if drums.len() > MOST_DRUMS {
+        return fault("belong to more than two drums: a rope has two ends".to_owned());
+    }
+    if radii.contains(&0.0) {
+        return fault("must not be zero: such a drum pays nothing out".to_owned());
+    }
+    Ok(radii.iter().zip(drums).map(|(radius, drum)| [*radius, model.coordinate_value(*drum)]).collect())
+}
+
+fn build(
+    model: &InitialModel,
+    attached: Attached,
+    parameters: &Parameters,
+) -> Result<Contribution, ParameterError> {
+    let (along, winding) = attached.places()?;
+    let points: Vec<Vector3> =
+        along.iter().map(|(node, place)| model.frame(*node).transform_point(place)).collect();
+    let fault = |problem: &str| Err(ParameterError::new("along", problem));
+    if points.len() < 2 {
+        return fault("needs two places at least");
+    }
+    if points.len() > MOST_PLACES {
+        return fault("has more than 16 places: tie two ropes to a part between");
+    }
+    let lengths = points.windows(2).map(|pair| (pair[1] - pair[0]).norm());
+    if let Some(index) = lengths.clone().position(|length| length == 0.0) {
+        let problem =
+            format!("has the places {} and {} at one point: the rope has no direction", index + 1, index + 2);
+        return fault(&problem);
+    }
+    let at_start: f64 = lengths.sum();
+    let mut nodes: Vec<NodeId> = Vec::new();
+    let mut places = Vec::new();
+    for (node, place) in along {
+        if node == GROUND {
+            places.push((None, model.frame(node).transform_point(&place)));
+            continue;
+        }
+        let known = nodes.iter().position(|known| *known == node).unwrap_or_else(|| {
+            nodes.push(node);
+            nodes.len() - 1
+        });
+        places.push((Some(known), place));
+    }
+    match nodes.len() {
+        0 => return fault("is all on the ground, which does not move"),
+        1..=MOST_NODES => {}
+        _ => {
+            return fault(
+                "leads over more than four parts besides the ground: tie two ropes to a part between",
+            );
+        }
+    }
+    let pays_out = drums(model, &winding, parameters)?;
+    // It cannot push.
+    let pulls = parameters.clone().with("side", Value::Text("tension".to_owned()));
+    Ok(Contribution::of(
+        model,
+        Rope {
+            nodes,
+            places,
+            drums: winding,
+            pays_out,
+            law: ForceLaw::new(&pulls, ["force", "damper_force"])?,
+            length: parameters.function_or("length", at_start)?,
+            sides: Sides::default(),
+        },
+    ))
+}
+
+/// A straight part of the rope.
+#[derive(Clone, Copy, Default)]
+struct Segment {
+    direction: Vector3,
+    length: f64,
+    speed: Vector3,
+}
+
+/// The rope at one instant.
+struct Shape {
+    points: [Point; MOST_PLACES],
+    segments: [Segment; MOST_PLACES],
+    /// Number of places.
+    count: usize,
+    /// Elongation of the whole and its rate [m, m/s].
+    elongation: f64,
+    rate: f64,
+}
+
+impl Shape {
+    fn segments(&self) -> &[Segment] {
+        &self.segments[..self.count - 1]
+    }
+
+    /// Difference of what belongs to the parts before and after the place `index`.
+    fn difference(&self, index: usize, of: impl Fn(&Segment) -> Vector3) -> Vector3 {
+        let before = index.checked_sub(1).map_or_else(Vector3::zeros, |before| of(&self.segments[before]));
+        before - self.segments().get(index).map_or_else(Vector3::zeros, of)
+    }
+
+    /// Derivative of the whole length by the place `index`.
+    fn pull(&self, index: usize) -> Vector3 {
+        self.difference(index, |segment| segment.direction)
+    }
+}
+
+impl Rope {
+    fn shape(&self, at: &Kinematics) -> Shape {
+        let count = self.places.len();
+        let points = std::array::from_fn(|index| match self.places.get(index) {
+            Some((Some(node), place)) => Point::new(&at.nodes[self.nodes[*node]], place),
+            Some((None, place)) => Point::fixed(place),
+            None => Point::fixed(&Vector3::zeros()),
+        });
+        let mut segments = [Segment::default(); MOST_PLACES];
+        for (segment, pair) in segments.iter_mut().zip(points[..count].windows(2)) {
+            let pair: &[Point] = pair;
+            let span = pair[1].position - pair[0].position;
+            let length = span.norm();
+            *segment =
+                Segment { direction: span / length, length, speed: pair[1].velocity - pair[0].velocity };
+        }
+        let length: f64 = segments[..count - 1].iter().map(|own| own.length).sum();
+        let rate: f64 = segments[..count - 1].iter().map(|own| own.direction.dot(&own.speed)).sum();
+        Shape {
+            points,
+            segments,
+            count,
+            elongation: length - self.free(at)[0],
+            rate: rate - self.free(at)[1],
+        }
+    }
+
+    /// Free length and its rate [m, m/s].
+    fn free(&self, at: &Kinematics) -> [f64; 2] {
+        let mut free = [self.length.value(at.time), self.length.first_derivative(at.time)];
+        for (&drum, [radius, start]) in self.drums.iter().zip(&self.pays_out) {
+            free[0] += radius * (at.coordinates[drum].value - start);
+            free[1] += radius * at.coordinates[drum].rate;
+        }
+        free
+    }
+
+    /// Adds the forces of a tension on drums.
+    fn add_winding(&self, tension: f64, out: &mut [f64]) {
+        for (k, [radius, _]) in self.pays_out.iter().enumerate() {
+            out[6 * self.nodes.len() + k] -= radius * tension;
+        }
+    }
+
+    fn tension(&self, shape: &Shape, at: &Kinematics) -> Response {
+        self.law.evaluate(shape.elongation, shape.rate, self.sides.of(at))
+    }
+
+    /// Adds the forces of pulls on all places [N, inertial axes].
+    fn add_pulls(&self, shape: &Shape, pull: impl Fn(usize) -> Vector3, out: &mut [f64]) {
+        for (index, (node, _)) in self.places.iter().enumerate() {
+            let Some(node) = node else { continue };
+            let point = &shape.points[index];
+            let local = point.rotation.tr_mul(&pull(index));
+            let moment = point.offset.cross(&local);
+            for k in 0..3 {
+                out[6 * node + k] += local[k];
+                out[6 * node + 3 + k] += moment[k];
+            }
+        }
+    }
+}
+
+impl Element for Rope {
+    fn nodes(&self) -> &[NodeId] {
+        &self.nodes
+    }
+
+    fn coordinates(&self) -> &[CoordinateId] {
+        &self.drums
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        let shape = self.shape(at);
+        let tension = self.tension(&shape, at).force;
+        self.add_pulls(&shape, |index| tension * shape.pull(index), out);
+        self.add_winding(tension, out);
+    }
+
+    /// The length is integrated; what that misses is put back along the relative velocities of the places.
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [&mut [f64]; STAGES]) {
+        let start = self.shape(step.start);
+        let mut moves = [Vector3::zeros(); MOST_PLACES];
+        for ((moved, point), (node, _)) in moves.iter_mut().zip(&start.points).zip(&self.places) {
+            let Some(node) = node else { continue };
+            let change = &step.changes[self.nodes[*node]];
+            *moved = point.rotation * (change.shift + change.turn * point.offset);
+        }
+        let longer: f64 = (start.segments().iter().zip(moves.windows(2)))
+            .map(|(segment, moves)| {
+                let (before, change) = (segment.length * segment.direction, moves[1] - moves[0]);
+                change.dot(&(2.0 * before + change)) / (segment.length + (before + change).norm())
+            })
+            .sum();
+        let shapes = step.stages.map(|at| self.shape(at));
+        // Of the places alone: what a winch does is known exactly, and so are coordinates.
+        let frees = step.stages.map(|at| self.free(at));
+        let places = [0, 1].map(|j| shapes[j].rate + frees[j][1]);
+        let square = |shape: &Shape| shape.segments().iter().map(|own| own.speed.norm_squared()).sum::<f64>();
+        let (inverse, shares) = step.shares([square(&shapes[0]), square(&shapes[1])]);
+        let missed = longer - step.whole(places);
+        let round_off = 16.0 * f64::EPSILON * moves.iter().map(Vector3::norm).sum::<f64>();
+        let missed = missed * above_round_off(missed.abs(), round_off);
+        let rates = [0, 1].map(|j| places[j] + shares[j] * missed);
+        let lengths = step.at_stages(start.elongation + self.free(step.start)[0], rates);
+        for j in 0..STAGES {
+            let (elongation, rate) = (lengths[j] - frees[j][0], rates[j] - frees[j][1]);
+            let tension = self.law.evaluate(elongation, rate, self.sides.of(step.stages[j])).force;
+            let shape = &shapes[j];
+            let along = |segment: &Segment| segment.direction + missed * inverse * segment.speed;
+            self.add_pulls(shape, |index| tension * shape.difference(index, along), out[j]);
+            self.add_winding(tension, out[j]);
+        }
+    }
+
+    /// With the gradients G of the length and R of its rate by places: δ(T G) = G (k G + c R)ᵀ δq + c G Gᵀ δv + T δG.
+    fn linearize(&self, at: &Kinematics, out: &mut Tangents) {
+        let shape = self.shape(at);
+        let response = self.tension(&shape, at);
+        let first_drum = 6 * self.nodes.len();
+        let size = first_drum + self.drums.len();
+        let gradients = shape.points.each_ref().map(Point::gradient);
+        let mut by_length = [0.0; MOST];
+        let mut by_rate = [0.0; MOST];
+        let add = |sum: &mut [f64; MOST], node: usize, row: &SMatrix<f64, 1, 6>| {
+            for k in 0..6 {
+                sum[6 * node + k] += row[k];
+            }
+        };
+        for (index, (node, _)) in self.places.iter().enumerate() {
+            let Some(node) = *node else { continue };
+            let (point, pull) = (&shape.points[index], shape.pull(index));
+            add(&mut by_length, node, &(pull.transpose() * gradients[index]));
+            // The velocity turns with the node: δ(R v) = -R ṽ δθ.
+            let turning = -pull.transpose() * (point.rotation * skew(&point.local_velocity));
+            for k in 0..3 {
+                by_rate[6 * node + 3 + k] += turning[k];
+            }
+            // The force seen from the turning node: δ(Rᵀ f) = (Rᵀ f)~ δθ.
+            let local = skew(&point.rotation.tr_mul(&(response.force * pull)));
+            add_block(&mut out.stiffness, size, (6 * node, 6 * node + 3), &local);
+            add_block(&mut out.stiffness, size, (6 * node + 3, 6 * node + 3), &(skew(&point.offset) * local));
+        }
+        for (index, segment) in shape.segments().iter().enumerate() {
+            let u = segment.direction;
+            let across = (Matrix3::identity() - u * u.transpose()) / segment.length;
+            let turned = (across * segment.speed).transpose();
+            let ends = [(index, -1.0), (index + 1, 1.0)];
+            for (a, sign) in ends {
+                let Some(row) = self.places[a].0 else { continue };
+                add(&mut by_rate, row, &(sign * turned * gradients[a]));
+                for (b, other) in ends {
+                    let Some(column) = self.places[b].0 else { continue };
+                    let block =
+                        gradients[a].transpose() * (response.force * sign * other * across) * gradients[b];
+                    add_block(&mut out.stiffness, size, (6 * row, 6 * column), &block);
+                }
+            }
+        }
+        for (k, [radius, _]) in self.pays_out.iter().enumerate() {
+            by_length[first_drum + k] = -radius;
+        }
+        for i in 0..size {
+            for j in 0..size {
+                let along = response.stiffness * by_length[j] + response.damping * by_rate[j];
+                out.stiffness[i * size + j] += by_length[i] * along;
+                out.damping[i * size + j] += response.damping * by_length[i] * by_length[j];
+            }
+        }
+    }
+
+    fn energy(&self, at: &Kinematics) -> Energy {
+        if self.is_load() {
+            return Energy::default();
+        }
+        Energy { strain: self.law.energy(self.shape(at).elongation), ..Energy::default() }
+    }
+
+    /// A winch puts energy in: then all of its work is counted.
+    fn is_load(&self) -> bool {
+        self.law.is_active() || !self.length.is_constant()
+    }
+
+    fn kinks(&self) -> Vec<f64> {
+        self.length.kinks()
+    }
+
+    fn switch_count(&self) -> usize {
+        self.law.switch_count()
+    }
+
+    fn hold_sides(&mut self, sides: Sides) {
+        self.sides = sides;
+    }
+
+    fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+        let shape = self.shape(at);
+        self.law.switches(shape.elongation, shape.rate, self.sides.of(at), out);
+    }
+
+    fn spring_motion(&self, at: &Kinematics) -> Option<[f64; 3]> {
+        let shape = self.shape(at);
+        Some([shape.elongation, shape.rate, self.tension(&shape, at).force])
+    }
+}

@@ -1,0 +1,14 @@
+//! Evaluation of elements in batches of one kind, and the positions of local forces and derivatives in the equations of
+//! the system. Knows no system, no scheme and no step size.
+
+pub mod batch;
+pub mod linearization;
+pub mod scatter_map;
+pub mod scratch;
+pub mod tangent_assembler;
+pub mod threads;
+pub mod work;
+
+pub use linearization::{Linearization, Scratch};
+pub use tangent_assembler::{Blend, Sum, TangentAssembler};
+pub use threads::WORTH_WHILE;

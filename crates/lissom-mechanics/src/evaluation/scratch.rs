@@ -1,0 +1,24 @@
+//! Zeroed scratch vectors for the local forces of elements.
+
+use std::cell::RefCell;
+
+use crate::elements::USUAL_UNKNOWNS;
+use crate::kinematics::step_stages::STAGES;
+
+thread_local! {
+    /// Scratch of elements with more unknowns than usual.
+    static MORE_ROOM: RefCell<Vec<f64>> = const { RefCell::new(Vec::new()) };
+}
+
+/// Calls `work` with so many zeros. Only the first large element of a thread allocates.
+pub fn with_scratch<R>(size: usize, work: impl FnOnce(&mut [f64]) -> R) -> R {
+    if size <= STAGES * USUAL_UNKNOWNS {
+        return work(&mut [0.0; STAGES * USUAL_UNKNOWNS][..size]);
+    }
+    let mut room = MORE_ROOM.take();
+    room.clear();
+    room.resize(size, 0.0);
+    let result = work(&mut room);
+    MORE_ROOM.set(room);
+    result
+}

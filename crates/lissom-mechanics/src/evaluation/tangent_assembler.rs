@@ -1,0 +1,187 @@
+//! What takes the derivatives of elements and joints: each kind of derivative on its own, or their weighted sum, the
+//! tangent, at once. Knows no scheme: the weights are somebody else's.
+
+use lissom_solver::Scalar;
+use num_complex::Complex64;
+
+use super::linearization::Linearization;
+use super::scatter_map::Segment;
+use crate::elements::Tangents;
+use crate::joints::derivatives::{Derivatives, OWN, TIP};
+
+/// Factors of the derivatives in a tangent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Blend<T> {
+    /// Of ∂/∂ place.
+    pub place: f64,
+    /// Of ∂/∂ twist.
+    pub rate: T,
+    /// Of ∂/∂ acceleration.
+    pub acceleration: T,
+    /// Of BᵀWB.
+    pub augmented: f64,
+    /// Of B and Bᵀ, and of derivatives of elements' forces by multipliers.
+    pub constraint: f64,
+}
+
+/// A tangent in the making.
+#[derive(Debug)]
+pub struct Sum<'a, T> {
+    /// Factors of the derivatives.
+    pub blend: Blend<T>,
+    /// The tangent, on its pattern.
+    pub values: &'a mut [T],
+    /// Takes the diagonal of ∂/∂ place by row, of translations at least; may have no room.
+    pub stiffness: &'a mut [f64],
+}
+
+/// What takes the derivatives.
+#[derive(Debug)]
+pub enum TangentAssembler<'a> {
+    /// Each on its own.
+    Separate(&'a mut Linearization),
+    /// Their sum with real factors.
+    Real(Sum<'a, f64>),
+    /// Their sum with complex factors.
+    Complex(Sum<'a, Complex64>),
+}
+
+/// An element's or joint's place in the system.
+#[derive(Clone, Copy)]
+pub struct Slot<'a> {
+    /// Row of each local unknown, or locked.
+    pub rows: &'a [u32],
+    /// Where its local matrix lies.
+    pub segments: &'a [Segment],
+}
+
+impl TangentAssembler<'_> {
+    /// Sets everything to zero.
+    pub fn clear(&mut self) {
+        match self {
+            Self::Separate(linearization) => linearization.clear(),
+            Self::Real(sum) => sum.clear(),
+            Self::Complex(sum) => sum.clear(),
+        }
+    }
+
+    /// Adds an element's derivatives.
+    pub fn add_element(&mut self, place: Slot<'_>, local: &Tangents) {
+        match self {
+            Self::Separate(out) => {
+                for (position, i, j) in place.segments.iter().flat_map(|run| run.entries()) {
+                    let entry = i * local.size() + j;
+                    if j >= local.first_multiplier() {
+                        out.by_multiplier[position] += local.stiffness[entry];
+                        continue;
+                    }
+                    out.stiffness[position] += local.stiffness[entry];
+                    out.damping[position] += local.damping[entry];
+                    out.mass[position] += local.mass[entry];
+                }
+            }
+            Self::Real(sum) => sum.add_element(place, local),
+            Self::Complex(sum) => sum.add_element(place, local),
+        }
+    }
+
+    /// Adds a joint's derivatives.
+    pub fn add_joint(&mut self, place: Slot<'_>, joint: &mut Derivatives) {
+        match self {
+            Self::Separate(out) => {
+                let Linearization { stiffness, gram, constraint, .. } = &mut **out;
+                for (values, [place_, augmented, constraint]) in
+                    [(stiffness, [1.0, 0.0, 0.0]), (gram, [0.0, 1.0, 0.0]), (constraint, [0.0, 0.0, 1.0])]
+                {
+                    joint.sum(place_, augmented, constraint);
+                    scatter(place.segments, joint, values);
+                }
+            }
+            Self::Real(sum) => sum.add_joint(place, joint),
+            Self::Complex(sum) => sum.add_joint(place, joint),
+        }
+    }
+
+    /// Adds stiffness, BᵀWB and constraint at one position.
+    pub fn add_constraint_entry(&mut self, position: usize, [place, augmented, constraint]: [f64; 3]) {
+        match self {
+            Self::Separate(out) => {
+                out.stiffness[position] += place;
+                out.gram[position] += augmented;
+                out.constraint[position] += constraint;
+            }
+            Self::Real(sum) => sum.add_constraint_entry(position, [place, augmented, constraint]),
+            Self::Complex(sum) => sum.add_constraint_entry(position, [place, augmented, constraint]),
+        }
+    }
+}
+
+impl<T: Scalar> Sum<'_, T> {
+    fn clear(&mut self) {
+        self.values.fill(T::zero());
+        self.stiffness.fill(0.0);
+    }
+
+    fn add_element(&mut self, place: Slot<'_>, local: &Tangents) {
+        let (size, blend) = (local.size(), self.blend);
+        let Slot { rows, segments } = place;
+        for run in segments {
+            let first = usize::from(run.row) * size + usize::from(run.column);
+            let is_multiplier = usize::from(run.column) >= local.first_multiplier();
+            let place = if is_multiplier { blend.constraint } else { blend.place };
+            for (k, value) in self.values[run.positions()].iter_mut().enumerate() {
+                let entry = first + k * size;
+                *value += T::from_real(place * local.stiffness[entry])
+                    + blend.rate * T::from_real(local.damping[entry])
+                    + blend.acceleration * T::from_real(local.mass[entry]);
+            }
+        }
+        for (i, &row) in rows.iter().enumerate() {
+            // Locked rows are beyond all.
+            if let Some(sum) = self.stiffness.get_mut(row as usize) {
+                *sum += local.stiffness[i * size + i];
+            }
+        }
+    }
+
+    fn add_joint(&mut self, place: Slot<'_>, joint: &mut Derivatives) {
+        joint.sum(self.blend.place, self.blend.augmented, self.blend.constraint);
+        scatter(place.segments, joint, self.values);
+        for i in (0..3).chain(TIP..TIP + 3).chain(OWN..TIP + 8) {
+            if let Some(sum) = self.stiffness.get_mut(place.rows[i] as usize) {
+                *sum += joint.stiffness(i);
+            }
+        }
+    }
+
+    fn add_constraint_entry(&mut self, position: usize, [place, augmented, constraint]: [f64; 3]) {
+        let Blend { place: p, augmented: a, constraint: c, .. } = self.blend;
+        self.values[position] += T::from_real(p * place + a * augmented + c * constraint);
+    }
+}
+
+fn scatter<T: Scalar>(segments: &[Segment], joint: &Derivatives, values: &mut [T]) {
+    for run in segments {
+        let row = usize::from(run.row);
+        let own = &joint.column(usize::from(run.column))[row..row + usize::from(run.length)];
+        let values = &mut values[run.positions()];
+        // A node's six rows, or the three of a point: no loop.
+        if let (Ok(values), Ok(own)) = (<&mut [T; 6]>::try_from(&mut *values), <&[f64; 6]>::try_from(own)) {
+            add(values, own);
+        } else if let (Ok(values), Ok(own)) =
+            (<&mut [T; 3]>::try_from(&mut *values), <&[f64; 3]>::try_from(own))
+        {
+            add(values, own);
+        } else {
+            for (value, own) in values.iter_mut().zip(own) {
+                *value += T::from_real(*own);
+            }
+        }
+    }
+}
+
+fn add<T: Scalar, const COUNT: usize>(values: &mut [T; COUNT], own: &[f64; COUNT]) {
+    for (value, own) in values.iter_mut().zip(own) {
+        *value += T::from_real(*own);
+    }
+}

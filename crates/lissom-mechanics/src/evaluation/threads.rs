@@ -1,0 +1,59 @@
+//! Evaluation on several threads: elements and joints compute their local forces side by side, then these are added
+//! up in the order in which one thread would. So results do not depend on the number of threads, not by a bit.
+
+use std::ops::Range;
+
+use lissom_motion::WIDTH;
+
+/// With fewer elements or joints than this another thread takes about as long to wake as it helps.
+pub const WORTH_WHILE: usize = 4000;
+
+/// Room for local forces, and how many threads share the work. Waking them allocates a little.
+#[derive(Clone, Debug)]
+pub struct Threads {
+    count: usize,
+    locals: Vec<f64>,
+}
+
+impl Threads {
+    /// For batches of parts whose numbers begin at `starts`; none where one thread is all there is, or enough.
+    pub fn new<'a>(starts: impl Iterator<Item = &'a [usize]>, threads: usize) -> Option<Self> {
+        let (mut parts, mut longest) = (0, 0);
+        for own in starts {
+            parts = parts.max(own.len().saturating_sub(1));
+            longest = longest.max(own.last().copied().unwrap_or(0));
+        }
+        (threads >= 2 && parts >= WORTH_WHILE).then(|| Self { count: threads, locals: vec![0.0; longest] })
+    }
+
+    /// Calls `work` with portions of the parts, whole blocks of eight, and the numbers that belong to them, all zero, side by side; gives
+    /// all numbers. Those of part `k` begin at `starts[k]`.
+    pub fn side_by_side(
+        &mut self,
+        starts: &[usize],
+        work: &(impl Fn(Range<usize>, &mut [f64]) + Sync),
+    ) -> &[f64] {
+        let parts = starts.len() - 1;
+        let threads = if parts < WORTH_WHILE { 1 } else { self.count };
+        let numbers = &mut self.locals[..starts[parts]];
+        let run = |range: Range<usize>, own: &mut [f64]| {
+            own.fill(0.0);
+            work(range, own);
+        };
+        rayon::in_place_scope(|scope| {
+            let (mut rest, mut from) = (&mut *numbers, 0);
+            for thread in 1..=threads {
+                let to = if thread == threads { parts } else { parts * thread / threads / WIDTH * WIDTH };
+                let (own, further) = rest.split_at_mut(starts[to] - starts[from]);
+                let range = from..to;
+                (rest, from) = (further, to);
+                if thread == threads {
+                    run(range, own);
+                } else {
+                    scope.spawn(move |_| run(range, own));
+                }
+            }
+        });
+        numbers
+    }
+}

@@ -1,0 +1,47 @@
+//! When two instants are the same: those of samples, breakpoints, records and ends of steps are computed in different ways and
+//! differ by round-off. A step between two of them would be so short that its accelerations are round-off.
+
+/// Instants closer than this part of a step, or of a sample period, are the same [-].
+pub const SAME: f64 = 1e-9;
+/// Round-off of a time that is the result of a few operations, relative to its size.
+const ROUND_OFF: f64 = 16.0 * f64::EPSILON;
+/// Round-off that accumulates in a clock may reach this part of its step before it is taken for an intended difference.
+const MAX_ACCUMULATED: f64 = 1e-3;
+
+/// Distance below which two instants near `time` [s] are the same where steps, or sample periods, are `duration` [s] long.
+pub fn tolerance(time: f64, duration: f64) -> f64 {
+    SAME * duration + ROUND_OFF * time.abs()
+}
+
+/// The same for an instant at a distance of `elapsed` [s] from the start which a clock outside of the program has reached in
+/// steps of `duration` [s], each added to the sum before: the rounding errors of all additions may have one sign.
+///
+/// ```text
+/// n = elapsed/duration additions, each with an error of at most ε |t|/2
+/// ```
+pub fn accumulated_tolerance(time: f64, elapsed: f64, duration: f64) -> f64 {
+    let additions = (elapsed / duration).abs();
+    let accumulated = 0.5 * f64::EPSILON * time.abs() * additions;
+    tolerance(time, duration).max(accumulated.min(MAX_ACCUMULATED * duration))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_million_additions_stay_within_the_tolerance() {
+        for duration in [0.1, 0.01, 1e-3, 1.0 / 3.0] {
+            let mut clock = 0.0;
+            for k in 1..=1_000_000_u32 {
+                clock += duration;
+                let exact = f64::from(k) * duration;
+                assert!(
+                    (clock - exact).abs() <= accumulated_tolerance(clock, clock, duration),
+                    "{k} {duration}"
+                );
+            }
+            assert!(accumulated_tolerance(clock, clock, duration) <= 1e-3 * duration);
+        }
+    }
+}

@@ -1,0 +1,295 @@
+//! A smooth line through the nodes of a beam: what slides on it sees neither kinks nor jumps of curvature where elements
+//! meet.
+//!
+//! Legend: s arc length of the undeformed beam, s_k that of node k, x_k its place, Q_k the parabola through the nodes k - 1,
+//! k and k + 1, u = (s - s_k)/(s_{k+1} - s_k).
+//!
+//! ```text
+//! x(s) = (1 - b) Q_k + b Q_{k+1} = Σ_k w_k(s) x_k,      b = 3u² - 2u³,      Σ w_k = 1,      Σ w_k s_k = s
+//! ```
+//!
+//! Both parabolas meet at both nodes and b' vanishes there: place, tangent and curvature are continuous [cf. Overhauser 1968,
+//! who blends with b = u, and Bauchau 2000 on sliding joints]. In the first and the last interval one parabola is there alone.
+
+use lissom_motion::Vector3;
+
+/// Most nodes that a place between two of them depends on.
+pub const SUPPORT: usize = 4;
+
+/// Arc lengths of the nodes along a beam or a chain of beams.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Centerline {
+    knots: Vec<f64>,
+}
+
+/// Weights of nodes at a place, and their first three derivatives by the arc length.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Support {
+    /// The first of the nodes.
+    pub first: usize,
+    /// How many there are.
+    pub count: usize,
+    /// By derivative, then by node.
+    pub weights: [[f64; SUPPORT]; 4],
+}
+
+impl Support {
+    /// Σ w_k x_k of a derivative, from places by the number of the node.
+    pub fn sum(&self, derivative: usize, place: impl Fn(usize) -> Vector3) -> Vector3 {
+        (0..self.count).map(|k| self.weights[derivative][k] * place(self.first + k)).sum()
+    }
+}
+
+impl Centerline {
+    /// Through nodes at these arc lengths, ascending; none for fewer than two.
+    pub fn new(knots: Vec<f64>) -> Option<Self> {
+        let ascends = knots.windows(2).all(|pair| pair[1] > pair[0]);
+        (knots.len() > 1 && ascends).then_some(Self { knots })
+    }
+
+    /// Arc length of the whole [m].
+    pub fn length(&self) -> f64 {
+        self.knots[self.knots.len() - 1]
+    }
+
+    /// Number of intervals between nodes.
+    pub fn intervals(&self) -> usize {
+        self.knots.len() - 1
+    }
+
+    /// The interval that holds `s`; beyond the ends the first or the last.
+    pub fn interval(&self, s: f64) -> usize {
+        let inner = &self.knots[1..self.knots.len() - 1];
+        inner.partition_point(|&knot| knot <= s)
+    }
+
+    /// The first node that places in an interval depend on, and how many there are.
+    pub fn nodes_of(&self, interval: usize) -> (usize, usize) {
+        let first = interval.saturating_sub(1);
+        let last = (interval + 2).min(self.knots.len() - 1);
+        (first, last - first + 1)
+    }
+
+    /// Weights at `s`; beyond the ends the parabolas go on.
+    pub fn at(&self, s: f64) -> Support {
+        self.within(self.interval(s), s)
+    }
+
+    /// Weights at `s` by the formula of an interval.
+    fn within(&self, interval: usize, s: f64) -> Support {
+        let (first, count) = self.nodes_of(interval);
+        let mut support = Support { first, count, ..Support::default() };
+        let last = self.knots.len() - 1;
+        if last == 1 {
+            let length = self.knots[1] - self.knots[0];
+            let u = (s - self.knots[0]) / length;
+            support.weights[0][..2].copy_from_slice(&[1.0 - u, u]);
+            support.weights[1][..2].copy_from_slice(&[-1.0 / length, 1.0 / length]);
+            return support;
+        }
+        // Parabolas about the nodes at both ends of the interval, where these have neighbours on both sides.
+        let (left, right) = (interval > 0, interval + 1 < last);
+        let length = self.knots[interval + 1] - self.knots[interval];
+        let u = (s - self.knots[interval]) / length;
+        let blend = match (left, right) {
+            (true, true) => {
+                let slope = 6.0 * u * (1.0 - u) / length;
+                let bend = (6.0 - 12.0 * u) / (length * length);
+                [u * u * (3.0 - 2.0 * u), slope, bend, -12.0 / length.powi(3)]
+            }
+            (true, false) => [0.0; 4],
+            _ => [1.0, 0.0, 0.0, 0.0],
+        };
+        let rest = [1.0 - blend[0], -blend[1], -blend[2], -blend[3]];
+        for (middle, share) in [(interval, rest), (interval + 1, blend)] {
+            if share == [0.0; 4] || middle == 0 || middle == last {
+                continue;
+            }
+            for (k, [w, d, dd]) in self.parabola(middle, s).into_iter().enumerate() {
+                let own = middle - 1 + k - first;
+                support.weights[0][own] += share[0] * w;
+                support.weights[1][own] += share[1] * w + share[0] * d;
+                support.weights[2][own] += share[2] * w + 2.0 * share[1] * d + share[0] * dd;
+                support.weights[3][own] += share[3] * w + 3.0 * (share[2] * d + share[1] * dd);
+            }
+        }
+        support
+    }
+
+    /// Lagrange's weights of the three nodes about `middle`, with both derivatives.
+    fn parabola(&self, middle: usize, s: f64) -> [[f64; 3]; 3] {
+        let knots = [self.knots[middle - 1], self.knots[middle], self.knots[middle + 1]];
+        std::array::from_fn(|k| {
+            let [a, b] = [knots[(k + 1) % 3], knots[(k + 2) % 3]];
+            let inverse = 1.0 / ((knots[k] - a) * (knots[k] - b));
+            [(s - a) * (s - b) * inverse, (2.0 * s - a - b) * inverse, 2.0 * inverse]
+        })
+    }
+
+    /// x(from + change) - x(from) of unchanged places, or the same of a `derivative` of x, without cancellation: the integral of the
+    /// next one over each interval, which is of the fourth degree at most.
+    pub fn change(
+        &self,
+        derivative: usize,
+        (from, change): (f64, f64),
+        place: impl Fn(usize) -> Vector3,
+    ) -> Vector3 {
+        const OFFSET: f64 = 0.774_596_669_241_483_4;
+        let over = |interval: usize, begin: f64, width: f64| {
+            let mean = [-OFFSET, 0.0, OFFSET].into_iter().zip([5.0, 8.0, 5.0]).map(|(x, weight)| {
+                let support = self.within(interval, begin + 0.5 * (1.0 + x) * width);
+                let origin = place(support.first);
+                weight / 18.0 * support.sum(derivative + 1, |node| place(node) - origin)
+            });
+            width * mean.sum::<Vector3>()
+        };
+        let to = from + change;
+        let (first, last) = (self.interval(from), self.interval(to));
+        if first == last {
+            return over(first, from, change);
+        }
+        let (mut sum, mut begin) = (Vector3::zeros(), from);
+        if first < last {
+            for interval in first..=last {
+                let end = if interval == last { to } else { self.knots[interval + 1] };
+                sum += over(interval, begin, end - begin);
+                begin = end;
+            }
+        } else {
+            for interval in (last..=first).rev() {
+                let end = if interval == last { to } else { self.knots[interval] };
+                sum += over(interval, begin, end - begin);
+                begin = end;
+            }
+        }
+        sum
+    }
+
+    /// Where the line through these places is nearest to a point: among many places, then by Newton's method.
+    pub fn nearest(&self, point: &Vector3, place: impl Fn(usize) -> Vector3) -> f64 {
+        const PER_INTERVAL: usize = 16;
+        let steps = PER_INTERVAL * self.intervals();
+        let at = |s: f64| self.at(s).sum(0, &place) - point;
+        let trials = (0..=steps).map(|k| {
+            let (interval, part) =
+                ((k / PER_INTERVAL).min(self.intervals() - 1), k as f64 / PER_INTERVAL as f64);
+            let [a, b] = [self.knots[interval], self.knots[interval + 1]];
+            a + (part - interval as f64) * (b - a)
+        });
+        let mut best =
+            trials.min_by(|a, b| at(*a).norm_squared().total_cmp(&at(*b).norm_squared())).unwrap_or(0.0);
+        for _ in 0..20 {
+            let support = self.at(best);
+            let [away, tangent, curvature] = [0, 1, 2].map(|derivative| support.sum(derivative, &place));
+            let away = away - point;
+            let slope = tangent.norm_squared() + away.dot(&curvature);
+            let size = if slope > 0.0 { slope } else { tangent.norm_squared() };
+            if size <= 0.0 {
+                break;
+            }
+            best = (best - away.dot(&tangent) / size).clamp(0.0, self.length());
+        }
+        best
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line() -> Centerline {
+        Centerline::new(vec![0.0, 0.3, 0.7, 1.2, 1.5]).expect("ascending")
+    }
+
+    fn place(node: usize) -> Vector3 {
+        let s = line().knots[node];
+        Vector3::new(s, (2.0 * s).sin(), (1.0 + s).ln())
+    }
+
+    #[test]
+    fn parabolas_are_met_exactly() {
+        let line = line();
+        let parabola = |s: f64| [1.0 + 2.0 * s - 0.7 * s * s, 2.0 - 1.4 * s, -1.4];
+        for k in 0..=30 {
+            let s = -0.05 + 1.6 * f64::from(k) / 30.0;
+            let support = line.at(s);
+            for derivative in 0..3 {
+                let weights = &support.weights[derivative][..support.count];
+                let values = weights.iter().enumerate();
+                let sum: f64 = values.map(|(k, w)| w * parabola(line.knots[support.first + k])[0]).sum();
+                assert!((sum - parabola(s)[derivative]).abs() < 1e-12, "{s} {derivative}: {sum}");
+            }
+        }
+    }
+
+    /// A straight line is met by two nodes as by more, at its arc length and with its tangent.
+    #[test]
+    fn straight_lines_of_two_and_more_nodes_are_met_exactly() {
+        for knots in [vec![0.4, 1.7], vec![0.4, 1.0, 1.7], vec![0.4, 0.7, 1.1, 1.7]] {
+            let line = Centerline::new(knots.clone()).expect("ascending");
+            for s in [0.3, 0.4, 0.6, 1.05, 1.7, 1.9] {
+                let support = line.at(s);
+                let expected = [3.0 - 2.0 * s, -2.0, 0.0, 0.0];
+                for (weights, expected) in support.weights.iter().zip(expected) {
+                    let weights = weights[..support.count].iter().enumerate();
+                    let sum: f64 = weights.map(|(k, w)| w * (3.0 - 2.0 * knots[support.first + k])).sum();
+                    assert!((sum - expected).abs() < 1e-12, "{knots:?} {s}: {sum}, {expected}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn place_tangent_and_curvature_go_on_across_nodes() {
+        let line = line();
+        for node in 1..line.knots.len() - 1 {
+            let s = line.knots[node];
+            let [before, after] = [line.within(node - 1, s), line.within(node, s)];
+            for derivative in 0..3 {
+                let jump = before.sum(derivative, place) - after.sum(derivative, place);
+                assert!(jump.norm() < 1e-12, "{node} {derivative}: {jump}");
+            }
+        }
+        for s in [-0.1, 0.1, 0.31, 0.69, 1.0, 1.3, 1.6] {
+            let step = 1e-4;
+            for derivative in 0..3 {
+                let [a, b] = [s - step, s + step].map(|at| line.at(at).sum(derivative, place));
+                let exact = line.at(s).sum(derivative + 1, place);
+                assert!(((b - a) / (2.0 * step) - exact).norm() < 1e-5, "{s} {derivative}");
+            }
+        }
+    }
+
+    #[test]
+    fn changes_are_differences_and_keep_their_digits() {
+        let line = line();
+        for (from, change) in [(0.1, 0.05), (0.1, 1.3), (1.45, -1.4), (0.3, 0.4), (-0.1, 1.8)] {
+            let wanted = line.at(from + change).sum(0, place) - line.at(from).sum(0, place);
+            assert!((line.change(0, (from, change), place) - wanted).norm() < 1e-14, "{from} {change}");
+            let wanted = line.at(from + change).sum(1, place) - line.at(from).sum(1, place);
+            assert!((line.change(1, (from, change), place) - wanted).norm() < 1e-13, "{from} {change}");
+        }
+        let tiny = line.change(0, (0.5, 1e-9), place);
+        let tangent = line.at(0.5).sum(1, place);
+        assert!((tiny / 1e-9 - tangent).norm() < 1e-8);
+    }
+
+    #[test]
+    fn the_nearest_place_is_found() {
+        let line = line();
+        for s in [0.0, 0.2, 0.7, 1.1, 1.5] {
+            let found = line.nearest(&line.at(s).sum(0, place), place);
+            assert!((found - s).abs() < 1e-12, "{s}: {found}");
+        }
+        // Beside an arc, as far as four fifths of its radius on the inner side.
+        let on_arc = |node: usize| Vector3::new(line.knots[node].cos(), line.knots[node].sin(), 0.0);
+        for (s, share) in [(0.2, 0.5), (0.5, 0.8), (0.9, 0.8), (1.1, -2.0)] {
+            let [on_line, tangent, curvature] = [0, 1, 2].map(|order| line.at(s).sum(order, on_arc));
+            let across = curvature - tangent * (curvature.dot(&tangent) / tangent.norm_squared());
+            let found = line.nearest(&(on_line + share * across.normalize()), on_arc);
+            assert!((found - s).abs() < 1e-10, "{s} {share}: {found}");
+        }
+        assert_eq!(Centerline::new(vec![0.0]), None);
+        assert_eq!(Centerline::new(vec![0.0, 1.0, 1.0]), None);
+    }
+}

@@ -1,0 +1,181 @@
+//! One interface for equations between positions, whatever they relate: joints between two nodes, drives and relations of
+//! coordinates, sliders along beams.
+//!
+//! Legend: q positions of the local unknowns, v their rates, c violations, μ multipliers.
+//!
+//! ```text
+//! c(q, t) = 0,      ċ = B v + ∂c/∂t,      c̈ = B v̇ + (what `acceleration` gives),      forces Bᵀ μ
+//! ```
+//!
+//! Local unknowns are those of the constraint's ports, one port after the other: six body variations of a node, or one
+//! coordinate. Matrices are row-major with [`Constraint::size`] columns.
+
+use super::evaluation_point::Increments;
+use crate::kinematics::step_stages::{STAGES, StepStages};
+use crate::kinematics::{CoordinateId, Kinematics, NodeId, Quantity};
+
+/// What a constraint acts on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Port {
+    /// A node: six local unknowns.
+    Node(NodeId),
+    /// No node in this arrangement: six local unknowns that have no part in the equations.
+    NoNode,
+    /// An algebraic coordinate: one local unknown.
+    Coordinate(CoordinateId),
+}
+
+impl Port {
+    /// Number of local unknowns.
+    pub fn width(self) -> usize {
+        match self {
+            Self::Node(_) | Self::NoNode => 6,
+            Self::Coordinate(_) => 1,
+        }
+    }
+
+    /// Rates of the local unknowns; the first [`width`](Self::width) count [m/s, rad/s].
+    fn rates(self, at: &Kinematics) -> [f64; 6] {
+        match self {
+            Self::Node(node) => at.nodes[node].twist.into(),
+            Self::NoNode => [0.0; 6],
+            Self::Coordinate(coordinate) => [at.coordinates[coordinate].rate, 0.0, 0.0, 0.0, 0.0, 0.0],
+        }
+    }
+}
+
+/// What a constraint is at both stages of a step whose violations are integrated, see `step_stages`.
+#[derive(Debug)]
+pub struct Visit<'a> {
+    /// B̃ by stage, all zero at first.
+    pub rows: [&'a mut [f64]; STAGES],
+    /// Integrated violations by stage, all zero at first.
+    pub violations: [&'a mut [f64]; STAGES],
+    /// Scratch, one number by equation.
+    pub changes: &'a mut [f64],
+}
+
+/// Equations between the positions of nodes and coordinates, with their position among all multipliers.
+pub trait Constraint: Send + Sync + std::fmt::Debug {
+    /// Name in the model.
+    fn name(&self) -> &str;
+
+    /// Position of its first multiplier among all.
+    fn first_multiplier(&self) -> usize;
+
+    /// Number of equations.
+    fn equations(&self) -> usize;
+
+    /// What the violation of an equation measures.
+    fn quantity(&self, equation: usize) -> Quantity;
+
+    /// Number of arrangements: a slider acts on other nodes in each interval between two of them.
+    fn arrangements(&self) -> usize {
+        1
+    }
+
+    /// The arrangement in which it acts at a configuration.
+    fn arrangement(&self, _at: &Kinematics) -> usize {
+        0
+    }
+
+    /// Number of ports, in every arrangement.
+    fn ports(&self) -> usize;
+
+    /// A port in an arrangement.
+    fn port(&self, arrangement: usize, index: usize) -> Port;
+
+    /// Number of local unknowns, in every arrangement.
+    fn size(&self) -> usize {
+        (0..self.ports()).map(|index| self.port(0, index).width()).sum()
+    }
+
+    /// Groups of nodes each of which could satisfy the equations alone, were it free. Default: each node by itself.
+    fn sides(&self) -> Vec<Vec<NodeId>> {
+        let ports = (0..self.ports()).map(|index| self.port(0, index));
+        let node = |port| if let Port::Node(node) = port { Some(vec![node]) } else { None };
+        ports.filter_map(node).collect()
+    }
+
+    /// Violations, evaluated outright from absolute positions [m, rad].
+    fn violation(&self, at: &Kinematics, out: &mut [f64]);
+
+    /// Changes of the violations since the start of a step, without cancellation [m, rad]; the time `elapsed` [s] ends
+    /// at `time`.
+    fn violation_change(&self, increments: &Increments<'_>, time_elapsed: (f64, f64), out: &mut [f64]);
+
+    /// B, by equation and local unknown; `out` is zero.
+    fn gradient(&self, at: &Kinematics, out: &mut [f64]);
+
+    /// Derivatives of Bᵀ μ at constant multipliers, by local unknown and local unknown; `out` is zero.
+    fn curvature(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]);
+
+    /// ∂c/∂t by equation; `out` is zero. Default: nothing depends on the time itself.
+    fn time_derivative(&self, _at: &Kinematics, _out: &mut [f64]) {}
+
+    /// What c̈ holds besides B v̇, by equation [m/s², rad/s²].
+    fn acceleration(&self, at: &Kinematics, out: &mut [f64]);
+
+    /// Whether it may depend on the time itself, at one instant or another.
+    fn may_depend_on_time(&self) -> bool {
+        false
+    }
+
+    /// Whether it depends on the time itself at a configuration.
+    fn depends_on_time(&self, _at: &Kinematics) -> bool {
+        false
+    }
+
+    /// Work that it does, as it depends on the time, between two configurations with all multipliers [J].
+    fn work(&self, _from: (&Kinematics, &[f64]), _to: (&Kinematics, &[f64])) -> f64 {
+        0.0
+    }
+
+    /// Times at which its functions of time are known not to be smooth [s].
+    fn kinks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
+    /// Gradients and integrated violations at the stages of a step that ends with the increments `end`; `before` are the
+    /// violations at its start. Default: the rates at the stages are such that no violation is left at the end; forces are those
+    /// of the gradients there, so that the work is of the order of the scheme, and not zero as that of joints.
+    fn visit(&self, step: &StepStages<'_>, end: &Increments<'_>, before: &[f64], out: &mut Visit<'_>) {
+        let size = self.size();
+        for (j, at) in step.stages.iter().enumerate() {
+            let (rows, rates) = (&mut *out.rows[j], &mut *out.violations[j]);
+            self.gradient(at, rows);
+            self.time_derivative(at, rates);
+            let arrangement = self.arrangement(at);
+            let mut first = 0;
+            for port in (0..self.ports()).map(|index| self.port(arrangement, index)) {
+                let own = port.rates(at);
+                for (rate, row) in rates.iter_mut().zip(rows.chunks_exact(size)) {
+                    let row = &row[first..first + port.width()];
+                    *rate += row.iter().zip(own).map(|(by, rate)| by * rate).sum::<f64>();
+                }
+                first += port.width();
+            }
+        }
+        self.violation_change(end, (step.end.time, step.end.elapsed), out.changes);
+        let whole: f64 = step.lasting.iter().sum();
+        let [first, second] = &mut out.violations;
+        for (e, (first, second)) in first.iter_mut().zip(second.iter_mut()).enumerate() {
+            let rates = [*first, *second];
+            let behind = (out.changes[e] - step.whole(rates) + before[e]) / whole;
+            [*first, *second] = step.at_stages(0.0, rates.map(|rate| rate + behind));
+        }
+    }
+}
+
+/// Nodes and coordinates on which a constraint acts, in all arrangements.
+pub fn ports_of(constraint: &dyn Constraint) -> Vec<Port> {
+    let mut all = Vec::new();
+    for arrangement in 0..constraint.arrangements() {
+        for port in (0..constraint.ports()).map(|index| constraint.port(arrangement, index)) {
+            if port != Port::NoNode && !all.contains(&port) {
+                all.push(port);
+            }
+        }
+    }
+    all
+}

@@ -1,0 +1,359 @@
+//! A relation between coordinates of joints, c(q, t) = 0: gears, cams, equations. The forces on the coordinates are
+//! -μ ∂c/∂q; they do no work together where c does not depend on time.
+//!
+//! ```text
+//! ċ = ∂c/∂q q̇ + ∂c/∂t,      c̈ = ∂c/∂q q̈ + d²c/dε² (q + ε q̇, t + ε)
+//! ```
+//!
+//! Derivatives come from second-order jets along directions: d²c/dε² along u + v, u and v gives the mixed one of u and v.
+
+use std::sync::Arc;
+
+use super::constraint::{Constraint, Port, Visit};
+use super::evaluation_point::Increments;
+use super::step_stages::ROUND_OFF;
+use crate::kinematics::step_stages::{STAGES, StepStages, above_round_off};
+use crate::kinematics::{CoordinateId, Kinematics, Quantity};
+pub use crate::relation::{Coupled, MOST_COUPLED, Relation, RelationPoint};
+
+/// A relation with its place in the system.
+#[derive(Debug)]
+pub struct Coupling {
+    /// Name in the model.
+    pub name: String,
+    /// Its coordinates.
+    pub coordinates: Vec<CoordinateId>,
+    /// What each of them measures.
+    pub quantities: Vec<Quantity>,
+    /// What its equation measures.
+    pub quantity: Quantity,
+    /// Its multiplier among all.
+    pub multiplier: usize,
+    /// Its equation.
+    pub relation: Arc<dyn Relation>,
+    /// The equation is multiplied by this, so that its largest derivative at the start is 1.
+    pub scale: f64,
+}
+
+impl Coupling {
+    /// Number of coordinates.
+    pub fn count(&self) -> usize {
+        self.coordinates.len()
+    }
+
+    fn values(&self, at: &Kinematics) -> Coupled {
+        self.each(|coordinate| at.coordinates[coordinate].value)
+    }
+
+    /// Rates of its coordinates.
+    pub fn rates(&self, at: &Kinematics) -> Coupled {
+        self.each(|coordinate| at.coordinates[coordinate].rate)
+    }
+
+    /// Numbers of its coordinates.
+    pub fn each(&self, of: impl Fn(CoordinateId) -> f64) -> Coupled {
+        let mut out = Coupled::default();
+        for (value, &coordinate) in out.iter_mut().zip(&self.coordinates) {
+            *value = of(coordinate);
+        }
+        out
+    }
+
+    fn jet(&self, at: &Kinematics, (time, direction): (f64, &Coupled)) -> [f64; 3] {
+        let count = self.count();
+        let values = self.values(at);
+        self.relation
+            .jet((at.time, &values[..count]), (time, &direction[..count]))
+            .map(|value| self.scale * value)
+    }
+
+    /// ∂c/∂q.
+    pub fn slopes(&self, at: &Kinematics) -> Coupled {
+        self.by_coordinate(|unit| self.jet(at, (0.0, unit))[1])
+    }
+
+    /// ∂c/∂t.
+    pub fn by_time(&self, at: &Kinematics) -> f64 {
+        self.jet(at, (1.0, &Coupled::default()))[1]
+    }
+
+    /// ∂²c/∂q² times `direction` and `time` times ∂²c/∂q∂t.
+    pub fn second(&self, at: &Kinematics, (time, direction): (f64, &Coupled)) -> Coupled {
+        let own = self.jet(at, (time, direction))[2];
+        self.by_coordinate(|unit| {
+            let mut both = *direction;
+            both.iter_mut().zip(unit).for_each(|(value, unit)| *value += unit);
+            0.5 * (self.jet(at, (time, &both))[2] - own - self.jet(at, (0.0, unit))[2])
+        })
+    }
+
+    /// Unit vector by unit vector.
+    fn by_coordinate(&self, of: impl Fn(&Coupled) -> f64) -> Coupled {
+        let mut out = Coupled::default();
+        for (k, value) in out.iter_mut().enumerate().take(self.count()) {
+            let mut unit = Coupled::default();
+            unit[k] = 1.0;
+            *value = of(&unit);
+        }
+        out
+    }
+
+    /// ∂²c/∂q² as columns.
+    pub fn hessian(&self, at: &Kinematics) -> [Coupled; MOST_COUPLED] {
+        let mut out = [Coupled::default(); MOST_COUPLED];
+        for (k, column) in out.iter_mut().enumerate().take(self.count()) {
+            let mut unit = Coupled::default();
+            unit[k] = 1.0;
+            *column = self.second(at, (0.0, &unit));
+        }
+        out
+    }
+
+    /// Forces on its coordinates for the multiplier `mu` [N, N m].
+    pub fn forces(&self, at: &Kinematics, mu: f64) -> impl Iterator<Item = f64> {
+        self.slopes(at).into_iter().take(self.count()).map(move |by| -mu * by)
+    }
+}
+
+impl Constraint for Coupling {
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn first_multiplier(&self) -> usize {
+        self.multiplier
+    }
+
+    fn equations(&self) -> usize {
+        1
+    }
+
+    fn quantity(&self, _equation: usize) -> Quantity {
+        self.quantity
+    }
+
+    fn ports(&self) -> usize {
+        self.count()
+    }
+
+    fn port(&self, _arrangement: usize, index: usize) -> Port {
+        Port::Coordinate(self.coordinates[index])
+    }
+
+    fn violation(&self, at: &Kinematics, out: &mut [f64]) {
+        out[0] = self.jet(at, (0.0, &Coupled::default()))[0];
+    }
+
+    fn violation_change(&self, increments: &Increments<'_>, (time, elapsed): (f64, f64), out: &mut [f64]) {
+        let count = self.count();
+        let values = self.values(increments.start);
+        let changes = self.each(|coordinate| increments.coordinates[coordinate]);
+        out[0] =
+            self.scale * self.relation.change((time - elapsed, &values[..count]), elapsed, &changes[..count]);
+    }
+
+    fn gradient(&self, at: &Kinematics, out: &mut [f64]) {
+        out.copy_from_slice(&self.slopes(at)[..self.count()]);
+    }
+
+    fn curvature(&self, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
+        let count = self.count();
+        for (j, column) in self.hessian(at).iter().enumerate().take(count) {
+            for (i, value) in column.iter().enumerate().take(count) {
+                out[i * count + j] = multipliers[0] * value;
+            }
+        }
+    }
+
+    fn time_derivative(&self, at: &Kinematics, out: &mut [f64]) {
+        out[0] = self.by_time(at);
+    }
+
+    fn acceleration(&self, at: &Kinematics, out: &mut [f64]) {
+        out[0] = self.jet(at, (1.0, &self.rates(at)))[2];
+    }
+
+    fn may_depend_on_time(&self) -> bool {
+        true
+    }
+
+    fn depends_on_time(&self, at: &Kinematics) -> bool {
+        self.by_time(at) != 0.0
+    }
+
+    /// The power is μ ∂c/∂t.
+    fn work(&self, from: (&Kinematics, &[f64]), to: (&Kinematics, &[f64])) -> f64 {
+        let elapsed = to.0.time - from.0.time;
+        let power =
+            |(at, multipliers): (&Kinematics, &[f64])| multipliers[self.multiplier] * self.by_time(at);
+        0.5 * elapsed * (power(from) + power(to))
+    }
+
+    /// As joints: forces do no work but that of ∂c/∂t.
+    fn visit(&self, step: &StepStages<'_>, end: &Increments<'_>, before: &[f64], out: &mut Visit<'_>) {
+        let mut rows = step.stages.map(|at| self.slopes(at));
+        let mut rates = [0.0; STAGES];
+        let mut weights = [Coupled::default(); STAGES];
+        let mut squares = [0.0; STAGES];
+        let mut way = 0.0_f64;
+        for (j, at) in step.stages.iter().enumerate() {
+            let speeds = self.rates(at);
+            rates[j] = self.by_time(at);
+            let mut terms = rates[j].abs();
+            for (k, quantity) in self.quantities.iter().enumerate() {
+                let unit = match quantity {
+                    Quantity::Length | Quantity::State => 1.0,
+                    Quantity::Angle => step.length,
+                };
+                rates[j] += rows[j][k] * speeds[k];
+                terms += (rows[j][k] * speeds[k]).abs();
+                weights[j][k] = unit * unit * speeds[k];
+                squares[j] += weights[j][k] * speeds[k];
+            }
+            way = way.max(step.lasting[j].abs() * terms);
+        }
+        self.violation_change(end, (step.end.time, step.end.elapsed), out.changes);
+        let missed = out.changes[0] - step.whole(rates);
+        let (inverse, mut shares) = step.shares(squares);
+        let whole: f64 = step.lasting.iter().sum();
+        if inverse == 0.0 {
+            shares = [1.0 / whole; STAGES];
+        }
+        // What is below round-off counts in the violations but would be noise in the forces.
+        let known = missed * above_round_off(missed.abs(), ROUND_OFF * way);
+        let violations =
+            step.at_stages(0.0, [0, 1].map(|j| rates[j] + shares[j] * missed + before[0] / whole));
+        for j in 0..STAGES {
+            for k in 0..self.count() {
+                rows[j][k] += inverse * known * weights[j][k];
+            }
+            out.rows[j].copy_from_slice(&rows[j][..self.count()]);
+            out.violations[j][0] = violations[j];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// sin(q₀) q₁ + t q₀.
+    #[derive(Debug)]
+    struct Bent;
+
+    impl Relation for Bent {
+        fn jet(&self, (time, q): RelationPoint<'_>, (of_time, v): RelationPoint<'_>) -> [f64; 3] {
+            let (sine, cosine) = q[0].sin_cos();
+            [
+                sine * q[1] + time * q[0],
+                cosine * v[0] * q[1] + sine * v[1] + of_time * q[0] + time * v[0],
+                -sine * v[0] * v[0] * q[1] + 2.0 * cosine * v[0] * v[1] + 2.0 * of_time * v[0],
+            ]
+        }
+    }
+
+    #[test]
+    fn short_changes_keep_their_digits_and_long_ones_are_exact() {
+        let value = |time: f64, q: [f64; 2]| Bent.jet((time, &q), (0.0, &[0.0; 2]))[0];
+        let (time, q) = (0.7, [0.4, 1.3]);
+        for exponent in 0..10 {
+            let width = 10.0_f64.powi(-exponent);
+            let change = [0.3 * width, -0.2 * width];
+            let found = Bent.change((time, &q), width, &change);
+            if exponent < 3 {
+                let wanted = value(time + width, [q[0] + change[0], q[1] + change[1]]) - value(time, q);
+                assert!((found - wanted).abs() < 1e-14, "{exponent}");
+            } else {
+                // To second order; the third is below round-off of the first for the shortest.
+                let [_, first, second] = Bent.jet((time, &q), (width, &change));
+                let wanted = first + 0.5 * second;
+                assert!((found - wanted).abs() < width.powi(3) + 4e-16 * wanted.abs(), "{exponent}");
+            }
+        }
+    }
+
+    /// q₀² - 10¹², 10⁶ sin(q₀ - 10⁶), 10⁶ + sin q₀, and sin t.
+    #[derive(Debug)]
+    enum Rounded {
+        Argument,
+        Slope,
+        Offset,
+        Late,
+    }
+
+    impl Relation for Rounded {
+        fn jet(&self, (time, q): RelationPoint<'_>, (of_time, v): RelationPoint<'_>) -> [f64; 3] {
+            let (sine, cosine) = match self {
+                Self::Argument => return [q[0] * q[0] - 1e12, 2.0 * q[0] * v[0], 2.0 * v[0] * v[0]],
+                Self::Slope => (1e6 * (q[0] - 1e6).sin(), 1e6 * (q[0] - 1e6).cos()),
+                Self::Offset => q[0].sin_cos(),
+                Self::Late => {
+                    let (sine, cosine) = time.sin_cos();
+                    return [sine, cosine * of_time, -sine * of_time * of_time];
+                }
+            };
+            let value = if matches!(self, Self::Offset) { 1e6 + sine } else { sine };
+            [value, cosine * v[0], -sine * v[0] * v[0]]
+        }
+    }
+
+    /// Values and arguments that are large round much more than the change is.
+    #[test]
+    fn changes_keep_their_digits_whatever_rounds() {
+        let width: f64 = 3e-9;
+        let late: f64 = 1e6;
+        for (relation, time, start, wanted) in [
+            (Rounded::Argument, 0.0, 1e6, width * (2e6 + width)),
+            (Rounded::Slope, 0.0, 1e6, 1e6 * width),
+            (Rounded::Offset, 0.0, 0.3, 0.3_f64.cos() * width),
+            (Rounded::Late, late, 0.3, late.cos() * width),
+        ] {
+            let found = relation.change((time, &[start]), width, &[width]);
+            assert!((found / wanted - 1.0).abs() < 1e-8, "{relation:?}: {found:e}, {wanted:e}");
+        }
+    }
+
+    #[test]
+    fn derivatives_of_jets() {
+        let coupling = Coupling {
+            name: "bent".to_owned(),
+            coordinates: vec![1, 0],
+            quantities: vec![Quantity::Length; 2],
+            quantity: Quantity::Length,
+            multiplier: 0,
+            relation: Arc::new(Bent),
+            scale: 2.0,
+        };
+        let motion = |value, rate| crate::kinematics::CoordinateMotion { value, rate, acceleration: 0.0 };
+        let at = Kinematics {
+            time: 0.7,
+            elapsed: 0.0,
+            nodes: Vec::new(),
+            coordinates: vec![motion(1.3, 0.5), motion(0.4, -0.2)],
+            held: Vec::new(),
+            multipliers: Vec::new(),
+        };
+        let (sine, cosine) = 0.4_f64.sin_cos();
+        let close =
+            |found: f64, wanted: f64| assert!((found - 2.0 * wanted).abs() < 1e-14, "{found} {wanted}");
+        let numbers = |of: &dyn Fn(&mut [f64])| {
+            let mut out = [0.0];
+            of(&mut out);
+            out[0]
+        };
+        close(numbers(&|out| coupling.violation(&at, out)), sine * 1.3 + 0.28);
+        let gradient = coupling.slopes(&at);
+        close(gradient[0], cosine * 1.3 + 0.7);
+        close(gradient[1], sine);
+        let hessian = coupling.hessian(&at);
+        close(hessian[0][0], -sine * 1.3);
+        close(hessian[0][1], cosine);
+        close(hessian[1][0], cosine);
+        close(hessian[1][1], 0.0);
+        close(coupling.by_time(&at), 0.4);
+        close(numbers(&|out| coupling.acceleration(&at, out)), -sine * 0.04 * 1.3 - 2.0 * cosine * 0.1 - 0.4);
+        let second = coupling.second(&at, (1.0, &coupling.rates(&at)));
+        close(second[0], -sine * 1.3 * -0.2 + cosine * 0.5 + 1.0);
+        close(second[1], cosine * -0.2);
+    }
+}

@@ -1,0 +1,212 @@
+//! What must hold: joints between two nodes, and prescribed relative motions.
+//!
+//! A joint sees only the relative motion of two joint frames, one carried by its base node and one by
+//! its tip node, and its own algebraic coordinates. It knows no step size, no scheme, no scaling, and
+//! not even where it is. `attached` turns its answers into rows of the system.
+
+pub mod alignment;
+mod any_joint;
+pub mod attached;
+pub(crate) mod base_axes;
+pub mod blocks;
+pub mod cam;
+pub mod centerline;
+pub mod clamp;
+pub mod constant_velocity;
+pub mod constraint;
+pub mod coupling;
+pub mod cylindrical;
+pub mod derivatives;
+pub mod distance;
+pub mod drive;
+pub mod equation;
+pub mod evaluation_point;
+pub mod gear;
+pub mod generalized_coordinates;
+pub mod generic;
+pub mod inline;
+pub mod kind;
+mod kinds;
+pub mod moved;
+pub mod parallel_axes;
+pub mod perpendicular_axes;
+pub mod planar;
+pub mod point_in_plane;
+pub mod point_on_line;
+pub mod prescribed;
+pub mod prescribed_displacement;
+pub mod prescribed_motion;
+pub mod prescribed_rotation;
+pub mod primitives;
+pub mod prismatic;
+pub mod revolute;
+pub mod rigid_link;
+pub mod rolling;
+pub mod screw;
+pub(crate) mod singly;
+pub mod slider;
+pub mod spherical;
+pub mod starts;
+pub mod step_stages;
+pub mod swing_arm;
+pub mod universal;
+pub mod wheel_on_rail;
+
+pub use any_joint::AnyJoint;
+pub use constraint::Constraint;
+pub use drive::Drive;
+pub use kind::{Build, Coupled, Frames, Geometry, JointKind, MakeFree, MakeJoint, MakeRelation};
+pub use kinds::KINDS;
+
+use lissom_motion::{Matrix3, Motion, Real, Screw, Vector3};
+use nalgebra::SMatrix;
+
+use crate::contact::wheel_on_plane::Contact;
+use moved::{Moved, OwnMoved};
+
+use crate::kinematics::Quantity;
+
+/// Most equations a joint may have.
+pub const MOST_EQUATIONS: usize = 6;
+/// Most algebraic coordinates a joint may have.
+pub const MOST_COORDINATES: usize = 2;
+
+/// Most numbers of its own that the equations of a joint hold.
+pub const MOST_NUMBERS: usize = 10;
+
+/// Motion of the tip's joint frame in the base's joint frame, and its change since the start of the
+/// step, computed from the increments without cancellation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Relative {
+    /// Relative rotation now.
+    pub rotation: Matrix3,
+    /// Relative position now [m].
+    pub position: Vector3,
+    /// Change of the rotation matrix since the start of the step.
+    pub rotation_change: Matrix3,
+    /// Change of the position since the start of the step [m].
+    pub position_change: Vector3,
+}
+
+impl Relative {
+    /// A relative motion that has not changed.
+    pub fn at_start(motion: &Motion) -> Self {
+        Self {
+            rotation: motion.rotation.matrix(),
+            position: motion.position,
+            rotation_change: Matrix3::zeros(),
+            position_change: Vector3::zeros(),
+        }
+    }
+
+    /// Relative rotation at the start of the step.
+    pub(crate) fn start_rotation(&self) -> Matrix3 {
+        self.rotation - self.rotation_change
+    }
+}
+
+/// An algebraic coordinate of a joint.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Coordinate {
+    /// Name within the joint.
+    pub name: &'static str,
+    /// What it is.
+    pub quantity: Quantity,
+}
+
+impl Coordinate {
+    /// A relative rotation.
+    pub const fn rotation(name: &'static str) -> Self {
+        Self { name, quantity: Quantity::Angle }
+    }
+
+    /// A relative displacement.
+    pub const fn displacement(name: &'static str) -> Self {
+        Self { name, quantity: Quantity::Length }
+    }
+}
+
+/// The joint's own coordinates now, and their change since the start of the step [rad, m].
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Own {
+    /// Values now.
+    pub value: [f64; MOST_COORDINATES],
+    /// Change since the start of the step.
+    pub change: [f64; MOST_COORDINATES],
+}
+
+/// One number per equation.
+pub type Equations = [f64; MOST_EQUATIONS];
+
+/// Derivatives of the equations: with respect to the body variation η of the relative motion
+/// (translation, rotation), and to the joint's own coordinates. Unused rows and columns stay zero.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Gradient {
+    /// ∂c/∂η.
+    pub relative: SMatrix<f64, MOST_EQUATIONS, 6>,
+    /// ∂c/∂φ.
+    pub own: SMatrix<f64, MOST_EQUATIONS, MOST_COORDINATES>,
+}
+
+impl Gradient {
+    /// All zero.
+    pub fn zeros() -> Self {
+        Self { relative: SMatrix::zeros(), own: SMatrix::zeros() }
+    }
+}
+
+/// Derivatives of (∂c/∂(η, φ))ᵀ μ with respect to (η, φ).
+pub type Curvature = SMatrix<f64, 8, 8>;
+
+/// The equations of a joint. What is evaluated often is written over one number or several side by side.
+pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
+    /// Its algebraic coordinates.
+    const COORDINATES: &'static [Coordinate] = &[];
+    /// Most equations that a joint of the kind has; what is said of further ones is not looked at.
+    const MOST: usize = MOST_EQUATIONS;
+    /// How many equations are lengths; they come first, angles follow.
+    const LENGTHS: usize = 3;
+
+    /// Name of each equation.
+    fn equations(&self) -> &'static [&'static str];
+
+    /// Numbers of its own that the equations hold.
+    fn numbers(&self) -> [f64; MOST_NUMBERS] {
+        [0.0; MOST_NUMBERS]
+    }
+
+    /// Coordinates at the start, and the relative motion for which they satisfy the equations.
+    fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
+        ([0.0; MOST_COORDINATES], Motion::identity())
+    }
+
+    /// The contact in which the tip does not slide on the base, for joints that roll. Default: it is none of them.
+    fn contact(&self) -> Option<Contact> {
+        None
+    }
+
+    /// Violation c of the equations, evaluated outright.
+    fn violation(&self, relative: &Relative, own: &Own) -> Equations;
+
+    /// Change of the violation since the start of the step, from the changes of `moved` and `own`, without
+    /// cancellation. Hot: inlined always.
+    fn violation_change<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        numbers: &[R; MOST_NUMBERS],
+    ) -> [R; MOST_EQUATIONS];
+
+    /// (∂c/∂(η, φ))ᵀ μ: the wrench on the tip's joint frame, and the forces on the coordinates. Hot: inlined always.
+    fn wrench<R: Real>(
+        moved: &Moved<R>,
+        own: &OwnMoved<R>,
+        numbers: &[R; MOST_NUMBERS],
+        mu: &[R; MOST_EQUATIONS],
+    ) -> (Screw<R>, [R; MOST_COORDINATES]);
+
+    /// ∂c/∂(η, φ); `out` is zero on entry.
+    fn gradient(&self, relative: &Relative, own: &Own, out: &mut Gradient);
+
+    /// Derivative of the constraint forces at constant multipliers μ; `out` is zero on entry.
+    fn curvature(&self, relative: &Relative, own: &Own, mu: &Equations, out: &mut Curvature);
+}

@@ -1,0 +1,261 @@
+//! Formulas that joints share: coincident points and matching rotations.
+//!
+//! Rotations: with the joint's rotation Q(φ) and the relative rotation R,
+//!
+//! ```text
+//! E = QᵀR,   c = axial(E),   δE = E ρ̃,   ρ = η_θ - Eᵀ S δφ,   S = axis vectors of Qᵀ ∂Q/∂φ
+//! ∂c/∂ρ = N = ½ (tr E I - Eᵀ),   m = Nᵀ μ = ½ (tr E μ - E μ),   ∂m/∂ρ = ½ E μ̃ - μ axial(E)ᵀ
+//! ```
+#![expect(clippy::inline_always, reason = "only code inlined into the dispatched caller uses its vectors")]
+
+use lissom_motion::{Matrix3, Real, Screw, Triple, Vector3, axial, skew};
+
+use super::moved::{Angle, Axes, Moved};
+use super::{Curvature, Equations, Gradient, MOST_COORDINATES, Relative};
+
+/// Names of three equations that hold two points together.
+pub(crate) const POINT_EQUATIONS: [&str; 3] = ["position 1", "position 2", "position 3"];
+
+/// Rows `row..row + 3`: the tip's point lies at the base's point, c = Rᵀ x in the tip's axes. There the
+/// gradient of a tip that turns about a point of the ground stays constant.
+pub(crate) fn coincident(relative: &Relative, row: usize, out: &mut Equations) {
+    out[row..row + 3].copy_from_slice(relative.rotation.tr_mul(&relative.position).as_slice());
+}
+
+/// Change of [`coincident`] since the start of the step.
+#[inline(always)]
+pub(crate) fn coincident_change<R: Real>(moved: &Moved<R>) -> [R; 3] {
+    let Triple { x, y, z } = moved.place_change;
+    [x, y, z]
+}
+
+/// Gradient of [`coincident`]: δ(Rᵀ x) = η_u + (Rᵀ x)~ η_θ.
+pub(crate) fn coincident_gradient(relative: &Relative, row: usize, out: &mut Gradient) {
+    let turning = skew(&relative.rotation.tr_mul(&relative.position));
+    for i in 0..3 {
+        out.relative[(row + i, i)] = 1.0;
+        for j in 0..3 {
+            out.relative[(row + i, 3 + j)] = turning[(i, j)];
+        }
+    }
+}
+
+/// (∂c/∂η)ᵀ μ of [`coincident`]: the force μ at the base's point, which lies at -Rᵀ x from the tip's.
+#[inline(always)]
+pub(crate) fn coincident_wrench<R: Real>(moved: &Moved<R>, mu: Triple<R>) -> Screw<R> {
+    Screw::new(mu, mu.cross(moved.place))
+}
+
+/// Curvature of [`coincident`]: the moment -(Rᵀ x)~ μ = μ̃ Rᵀ x.
+pub(crate) fn coincident_curvature(relative: &Relative, mu: &Vector3, out: &mut Curvature) {
+    let mu = skew(mu);
+    let turning = mu * skew(&relative.rotation.tr_mul(&relative.position));
+    let mut view = out.fixed_view_mut::<3, 3>(3, 0);
+    view += mu;
+    let mut view = out.fixed_view_mut::<3, 3>(3, 3);
+    view += turning;
+}
+
+/// Rows `row..row + 3`: the tip's point lies on the base's third axis at the displacement d, c = Rᵀ x - d e₃. Like
+/// [`coincident`] but for a constant gradient by d, so that gradient and curvature by the relative motion are the same.
+/// The axes of base and tip agree, by other rows.
+pub(crate) fn on_third_axis(relative: &Relative, displacement: f64, row: usize, out: &mut Equations) {
+    coincident(relative, row, out);
+    out[row + 2] -= displacement;
+}
+
+/// A joint's own rotation Q(φ) and its derivatives.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct JointRotation<R> {
+    /// Q(φ).
+    pub rotation: Axes<R>,
+    /// Change of Q since the start of the step, free of cancellation.
+    pub change: Axes<R>,
+    /// Axis vectors of Qᵀ ∂Q/∂φ_k, one per coordinate.
+    pub axes: [Triple<R>; MOST_COORDINATES],
+    /// ∂axes[k]/∂φ_j, at `[k][j]`.
+    pub axes_by: [[Triple<R>; MOST_COORDINATES]; MOST_COORDINATES],
+    /// Number of coordinates.
+    pub count: usize,
+}
+
+impl<R: Real> JointRotation<R> {
+    /// No rotation of its own; `kind` only gives the kind of number.
+    #[inline(always)]
+    pub(crate) fn none(kind: R) -> Self {
+        let (zero, one) = (kind.like(0.0), kind.like(1.0));
+        let nothing = Triple::new(zero, zero, zero);
+        Self {
+            rotation: Axes([
+                Triple::new(one, zero, zero),
+                Triple::new(zero, one, zero),
+                Triple::new(zero, zero, one),
+            ]),
+            change: Axes([nothing; 3]),
+            axes: [nothing; 2],
+            axes_by: [[nothing; 2]; 2],
+            count: 0,
+        }
+    }
+
+    /// Rotation about the third axis.
+    #[inline(always)]
+    pub(crate) fn about_third_axis(angle: &Angle<R>) -> Self {
+        let none = Self::none(angle.sine);
+        let (rotation, change) = elementary_of(2, angle);
+        Self { rotation, change, axes: [none.rotation.0[2], none.axes[1]], count: 1, ..none }
+    }
+
+    /// Rotation about the first axis, then about the turned second axis.
+    #[inline(always)]
+    pub(crate) fn about_first_and_second_axis([a, b]: &[Angle<R>; 2]) -> Self {
+        let none = Self::none(a.sine);
+        let [e_1, e_2, _] = none.rotation.0;
+        let (first, first_change) = elementary_of(0, a);
+        let (second, second_change) = elementary_of(1, b);
+        let seen = second.transpose_times(e_1);
+        Self {
+            rotation: first.product(second),
+            // P Q - P₀ Q₀ = ΔP Q + P₀ ΔQ
+            change: first_change.product(second).plus(first.minus(first_change).product(second_change)),
+            axes: [seen, e_2],
+            // ∂/∂b (Qᵀ e₁) = - e₂ × (Qᵀ e₁)
+            axes_by: [[none.axes[0], seen.cross(e_2)], [none.axes[0]; 2]],
+            count: 2,
+        }
+    }
+
+    /// Change of [`Self::matches`]: QᵀR - Q₀ᵀR₀ = ΔQᵀ R₀ + Qᵀ ΔR.
+    #[inline(always)]
+    pub(crate) fn matches_change(&self, moved: &Moved<R>) -> [R; 3] {
+        let change = self
+            .change
+            .transpose_product(moved.start_rotation)
+            .plus(self.rotation.transpose_product(moved.rotation_change));
+        let Triple { x, y, z } = change.axial();
+        [x, y, z]
+    }
+
+    /// (∂c/∂(η, φ))ᵀ μ of [`Self::matches`]: the moment m, and -Sᵀ E m on the coordinates.
+    #[inline(always)]
+    pub(crate) fn matches_moments(
+        &self,
+        moved: &Moved<R>,
+        mu: Triple<R>,
+    ) -> (Triple<R>, [R; MOST_COORDINATES]) {
+        let e = self.rotation.transpose_product(moved.rotation());
+        let m = (mu * e.trace() - e.times(mu)).scaled(0.5);
+        let turned = e.times(m);
+        let mut own = [mu.x.like(0.0); MOST_COORDINATES];
+        for k in 0..self.count {
+            own[k] = -self.axes[k].dot(turned);
+        }
+        (m, own)
+    }
+
+    /// Change of the violations of a joint that holds a point, then this rotation: [`coincident_change`] and
+    /// [`Self::matches_change`].
+    #[inline(always)]
+    pub(crate) fn held_change(&self, moved: &Moved<R>) -> [R; 6] {
+        let [a, b, c] = coincident_change(moved);
+        let [d, e, f] = self.matches_change(moved);
+        [a, b, c, d, e, f]
+    }
+
+    /// Wrench on the tip of a joint that holds a point, then this rotation, and forces on the coordinates:
+    /// [`coincident_wrench`] and [`Self::matches_moments`].
+    #[inline(always)]
+    pub(crate) fn held_wrench(&self, moved: &Moved<R>, mu: &[R; 6]) -> (Screw<R>, [R; MOST_COORDINATES]) {
+        let (moment, own) = self.matches_moments(moved, Triple::new(mu[3], mu[4], mu[5]));
+        let mut wrench = coincident_wrench(moved, Triple::new(mu[0], mu[1], mu[2]));
+        wrench.rotation = wrench.rotation + moment;
+        (wrench, own)
+    }
+}
+
+impl JointRotation<f64> {
+    fn error(&self, relative: &Relative) -> Matrix3 {
+        Matrix3::from(self.rotation).tr_mul(&relative.rotation)
+    }
+
+    fn axis(&self, coordinate: usize) -> Vector3 {
+        self.axes[coordinate].into()
+    }
+
+    /// Rows `row..row + 3`: the relative rotation is Q.
+    pub(crate) fn matches(&self, relative: &Relative, row: usize, out: &mut Equations) {
+        out[row..row + 3].copy_from_slice(axial(&self.error(relative)).as_slice());
+    }
+
+    /// Gradient of [`Self::matches`].
+    pub(crate) fn matches_gradient(&self, relative: &Relative, row: usize, out: &mut Gradient) {
+        let e = self.error(relative);
+        let n = 0.5 * (Matrix3::identity() * e.trace() - e.transpose());
+        out.relative.fixed_view_mut::<3, 3>(row, 3).copy_from(&n);
+        for k in 0..self.count {
+            let column = -n * e.tr_mul(&self.axis(k));
+            out.own.fixed_view_mut::<3, 1>(row, k).copy_from(&column);
+        }
+    }
+
+    /// Curvature of [`Self::matches`].
+    pub(crate) fn matches_curvature(&self, relative: &Relative, mu: &Vector3, out: &mut Curvature) {
+        let e = self.error(relative);
+        let m = 0.5 * (e.trace() * mu - e * mu);
+        let dm = 0.5 * e * skew(mu) - mu * axial(&e).transpose();
+        let mut view = out.fixed_view_mut::<3, 3>(3, 3);
+        view += dm;
+        for k in 0..self.count {
+            let axis = e.tr_mul(&self.axis(k));
+            // The moment -Sᵀ E m on φ_k changes with ρ as Sᵀ E (m̃ - ∂m/∂ρ).
+            let by_rho = axis.transpose() * (skew(&m) - dm);
+            let column = dm * axis;
+            for i in 0..3 {
+                out[(3 + i, 6 + k)] -= column[i];
+                out[(6 + k, 3 + i)] += by_rho[i];
+            }
+            for j in 0..self.count {
+                out[(6 + k, 6 + j)] -= by_rho.dot(&e.tr_mul(&self.axis(j)).transpose());
+                out[(6 + k, 6 + j)] -= Vector3::from(self.axes_by[k][j]).dot(&(e * m));
+            }
+        }
+    }
+}
+
+/// Rotation by `angle` about coordinate axis `axis`.
+pub fn elementary(axis: usize, angle: f64) -> Matrix3 {
+    let (s, c) = angle.sin_cos();
+    elementary_with(axis, s, c, 1.0).into()
+}
+
+/// Rotation about coordinate axis `axis`, and its change since the start of the step.
+#[inline(always)]
+pub(crate) fn elementary_of<R: Real>(axis: usize, angle: &Angle<R>) -> (Axes<R>, Axes<R>) {
+    let (zero, one) = (angle.sine.like(0.0), angle.sine.like(1.0));
+    (
+        elementary_with(axis, angle.sine, angle.cosine, one),
+        elementary_with(axis, angle.sine_change, angle.cosine_change, zero),
+    )
+}
+
+#[inline(always)]
+fn elementary_with<R: Real>(axis: usize, sine: R, cosine: R, one: R) -> Axes<R> {
+    let zero = sine.like(0.0);
+    match axis {
+        0 => Axes([
+            Triple::new(one, zero, zero),
+            Triple::new(zero, cosine, sine),
+            Triple::new(zero, -sine, cosine),
+        ]),
+        1 => Axes([
+            Triple::new(cosine, zero, -sine),
+            Triple::new(zero, one, zero),
+            Triple::new(sine, zero, cosine),
+        ]),
+        _ => Axes([
+            Triple::new(cosine, sine, zero),
+            Triple::new(-sine, cosine, zero),
+            Triple::new(zero, zero, one),
+        ]),
+    }
+}

@@ -1,0 +1,178 @@
+//! Which row of the equations belongs to which unknown, and what a person calls it.
+
+use std::ops::Range;
+
+use super::motion::{CoordinateId, NodeId};
+use crate::kinematics::Quantity;
+
+/// Marks a freedom that is locked: it has no row.
+pub const LOCKED: u32 = u32::MAX;
+
+/// Which freedoms of a node are free.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Freedoms {
+    /// None: the ground, or a frame fixed to it.
+    Fixed,
+    /// Three translations and three rotations.
+    Full,
+    /// Three translations: a point mass.
+    Translations,
+    /// Two translations, along the two given axes (0, 1 or 2): a planar point mass.
+    Planar(usize, usize),
+}
+
+impl Freedoms {
+    /// Whether freedom `k` (0..3 translations, 3..6 rotations) is free.
+    pub fn is_free(self, k: usize) -> bool {
+        match self {
+            Self::Fixed => false,
+            Self::Full => true,
+            Self::Translations => k < 3,
+            Self::Planar(a, b) => k == a || k == b,
+        }
+    }
+}
+
+/// Numbering of all unknowns: node freedoms, algebraic coordinates, then multipliers.
+#[derive(Clone, Debug, Default)]
+pub struct Layout {
+    /// Row of each freedom of each node, or [`LOCKED`].
+    pub node_rows: Vec<[u32; 6]>,
+    /// Row of each algebraic coordinate.
+    pub coordinate_rows: Vec<u32>,
+    /// Number of node freedoms and coordinates.
+    pub coordinate_count: usize,
+    /// Number of multipliers.
+    pub multiplier_count: usize,
+    /// Name of each node.
+    pub node_names: Vec<String>,
+    /// Name of each coordinate.
+    pub coordinate_names: Vec<String>,
+    /// Name and equation of every multiplier.
+    pub multiplier_names: Vec<(String, &'static str)>,
+    /// What every coordinate row is, then every constraint.
+    pub quantities: Vec<Quantity>,
+    /// Coordinate and magnitude of every first-order state.
+    pub states: Vec<(CoordinateId, f64)>,
+    /// Coordinates whose rates are forces of constraints between velocities.
+    pub impulses: Vec<CoordinateId>,
+}
+
+impl Layout {
+    /// Number of unknowns: coordinates and multipliers.
+    pub fn size(&self) -> usize {
+        self.coordinate_count + self.multiplier_count
+    }
+
+    /// Number of rows that belong to node freedoms and algebraic coordinates.
+    pub fn coordinate_count(&self) -> usize {
+        self.coordinate_count
+    }
+
+    /// What the unknown of every coordinate row is, then the equation of every multiplier.
+    pub fn quantities(&self) -> &[Quantity] {
+        &self.quantities
+    }
+
+    /// Rows of the multipliers.
+    pub fn multiplier_rows(&self) -> Range<usize> {
+        self.coordinate_count..self.size()
+    }
+
+    /// Number of nodes, the ground included.
+    pub fn node_count(&self) -> usize {
+        self.node_rows.len()
+    }
+
+    /// Name of a node: of a body or point mass, or the place on a beam, as `beam.start` or `beam@0.5`.
+    ///
+    /// # Panics
+    /// If there is no such node.
+    pub fn node_name(&self, node: NodeId) -> &str {
+        &self.node_names[node]
+    }
+
+    /// Rows of a node's six freedoms, [`LOCKED`] where it has none.
+    pub fn rows_of_node(&self, node: NodeId) -> &[u32; 6] {
+        &self.node_rows[node]
+    }
+
+    /// Row of an algebraic coordinate.
+    pub fn row_of_coordinate(&self, coordinate: CoordinateId) -> usize {
+        self.coordinate_rows[coordinate] as usize
+    }
+
+    /// Name of an algebraic coordinate, as `joint.angle`.
+    pub fn coordinate_name(&self, coordinate: CoordinateId) -> &str {
+        &self.coordinate_names[coordinate]
+    }
+
+    /// What an algebraic coordinate is.
+    pub fn coordinate_quantity(&self, coordinate: CoordinateId) -> Quantity {
+        self.quantities[self.row_of_coordinate(coordinate)]
+    }
+
+    /// Number of first-order states, which are among the algebraic coordinates.
+    pub fn state_count(&self) -> usize {
+        self.states.len()
+    }
+
+    /// Row, coordinate and usual magnitude of every first-order state.
+    pub fn states(&self) -> impl Iterator<Item = (usize, CoordinateId, f64)> + '_ {
+        self.states
+            .iter()
+            .map(|&(coordinate, magnitude)| (self.row_of_coordinate(coordinate), coordinate, magnitude))
+    }
+
+    /// Row and coordinate of every impulse, whose rate is the force of a constraint between velocities.
+    pub fn impulses(&self) -> impl Iterator<Item = (usize, CoordinateId)> + '_ {
+        self.impulses.iter().map(|&coordinate| (self.row_of_coordinate(coordinate), coordinate))
+    }
+
+    /// Rows of states and impulses: their equations are of rates, not of places.
+    pub fn rate_rows(&self) -> impl Iterator<Item = usize> + '_ {
+        self.states().map(|(row, ..)| row).chain(self.impulses().map(|(row, _)| row))
+    }
+
+    /// Joint and equation of a multiplier.
+    ///
+    /// # Panics
+    /// If there is no such multiplier.
+    pub fn constraint_name(&self, multiplier: usize) -> (&str, &'static str) {
+        let (joint, equation) = &self.multiplier_names[multiplier];
+        (joint, equation)
+    }
+
+    /// Name of a node, as a person would call it.
+    pub fn name_of_node(&self, node: NodeId) -> &str {
+        &self.node_names[node]
+    }
+
+    /// Name of the unknown in `row`, as a person would call it.
+    pub fn name_of(&self, row: usize) -> String {
+        const FREEDOMS: [&str; 6] =
+            ["translation 1", "translation 2", "translation 3", "rotation 1", "rotation 2", "rotation 3"];
+        if row >= self.coordinate_count {
+            return self.multiplier_names.get(row - self.coordinate_count).map_or_else(
+                || format!("unknown {row}"),
+                |(joint, equation)| format!("multiplier of joint `{joint}` ({equation})"),
+            );
+        }
+        for (node, rows) in self.node_rows.iter().enumerate() {
+            if let Some(k) = rows.iter().position(|&r| r as usize == row && r != LOCKED) {
+                return format!("{} of node `{}`", FREEDOMS[k], self.node_names[node]);
+            }
+        }
+        for (coordinate, &r) in self.coordinate_rows.iter().enumerate() {
+            if r as usize == row {
+                let what = match self.quantities[row] {
+                    Quantity::State if self.impulses.contains(&coordinate) => "force of",
+                    Quantity::State => "state",
+                    Quantity::Length | Quantity::Angle => "coordinate",
+                };
+                return format!("{what} `{}`", self.coordinate_names[coordinate]);
+            }
+        }
+        format!("unknown {row}")
+    }
+}

@@ -1,0 +1,19 @@
+//! The vocabulary of elements, joints and signals: indices, motions and their changes, frames, numbering, and the stages of a
+//! step. Knows no element, joint or system.
+
+mod carried_frame;
+pub mod lanes;
+mod layout;
+mod motion;
+mod quantity;
+pub mod step_stages;
+pub mod work;
+
+pub use carried_frame::CarriedFrame;
+pub use layout::{Freedoms, LOCKED, Layout};
+pub use motion::split;
+pub use motion::{
+    CoordinateId, CoordinateMotion, GROUND, HeldId, Kinematics, MotionChange, NodeId, NodeMotion,
+};
+pub use quantity::Quantity;
+pub use step_stages::StepStages;

@@ -1,0 +1,15 @@
+//! Mechanics of flexible multibody systems in SI: kinematics, elements, joints, contact and signals. Knows no system, no scheme
+//! and no time step.
+//!
+//! This crate opens no file, prints nothing and reads no clock.
+
+pub mod contact;
+pub mod dual;
+pub mod elements;
+pub mod evaluation;
+pub mod instants;
+pub mod joints;
+pub mod kinematics;
+pub mod registry;
+pub mod relation;
+pub mod signals;

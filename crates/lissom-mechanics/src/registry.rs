@@ -1,0 +1,551 @@
+//! What a kind of joint or force element declares about itself: its name, one sentence, a
+//! sample, and the parameters it takes. Parser, manual, schema and conformance tests read these
+//! tables; nothing here knows mechanics or files.
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::sync::Arc;
+
+use lissom_motion::{Matrix6, Vector3};
+use nalgebra::DMatrix;
+
+use crate::kinematics::HeldId;
+use crate::relation::Relation;
+
+/// A function of time with exact first and second derivatives.
+pub trait TimeFunction: Send + Sync + fmt::Debug {
+    /// Value at `time` [s].
+    fn value(&self, time: f64) -> f64;
+    /// First derivative with respect to time at `time` [s].
+    fn first_derivative(&self, time: f64) -> f64;
+    /// Second derivative with respect to time at `time` [s].
+    fn second_derivative(&self, time: f64) -> f64;
+    /// Times at which it is known not to be smooth [s], in ascending order. Default: none.
+    fn kinks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+    /// An argument at which value or slope jump, if one is known; NaN if only that there are some. Default: the first of the
+    /// [`kinks`](Self::kinks).
+    fn first_kink(&self) -> Option<f64> {
+        self.kinks().first().copied()
+    }
+    /// Bounds of the value between two times [s]. Default: none are known.
+    fn bounds(&self, _from: f64, _to: f64) -> Option<[f64; 2]> {
+        None
+    }
+    /// Whether the value is the same at all times. Default: it is not.
+    fn is_constant(&self) -> bool {
+        false
+    }
+}
+
+/// A shared function of time.
+pub type Function = Arc<dyn TimeFunction>;
+
+/// The same value at all times.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Constant(pub f64);
+
+impl TimeFunction for Constant {
+    fn value(&self, _: f64) -> f64 {
+        self.0
+    }
+    fn first_derivative(&self, _: f64) -> f64 {
+        0.0
+    }
+    fn second_derivative(&self, _: f64) -> f64 {
+        0.0
+    }
+    fn is_constant(&self) -> bool {
+        true
+    }
+}
+
+/// A force, or moment, over two quantities such as an elongation and its rate, with exact derivatives.
+pub trait ForceFunction: Send + Sync + fmt::Debug {
+    /// The force and its derivatives by the first and by the second quantity.
+    fn evaluate(&self, first: f64, second: f64) -> [f64; 3];
+    /// Whether it depends on the second quantity. Default: it does not.
+    fn depends_on_second(&self) -> bool {
+        false
+    }
+    /// Values of the first quantity at which it is known not to be smooth, in ascending order. Default: none.
+    fn kinks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+    /// Number of its switching functions, which change sign where it has a kink or a jump. Steps of chosen size end there.
+    /// Default: none.
+    fn switch_count(&self) -> usize {
+        0
+    }
+    /// Passes the values of its switching functions to `visit`, in their order.
+    fn switches(&self, _first: f64, _second: f64, _sides: &[f64], _visit: &mut dyn FnMut(f64)) {}
+    /// The same as [`evaluate`](Self::evaluate), continued smoothly from the given sides of its switching functions: 1 above
+    /// zero, -1 below, 0 where the function itself decides. `sides` is empty where no side is known.
+    fn continued(&self, first: f64, second: f64, _sides: &[f64]) -> [f64; 3] {
+        self.evaluate(first, second)
+    }
+}
+
+/// A shared force.
+pub type Force = Arc<dyn ForceFunction>;
+
+impl ForceFunction for Constant {
+    fn evaluate(&self, _: f64, _: f64) -> [f64; 3] {
+        [self.0, 0.0, 0.0]
+    }
+}
+
+/// An axis of the model: the default of a direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ModelAxis {
+    /// The first axis.
+    X,
+    /// The second axis.
+    Y,
+    /// The third axis.
+    Z,
+}
+
+impl ModelAxis {
+    /// Unit vector along the axis.
+    pub fn direction(self) -> Vector3 {
+        match self {
+            Self::X => Vector3::x(),
+            Self::Y => Vector3::y(),
+            Self::Z => Vector3::z(),
+        }
+    }
+}
+
+/// Type of a parameter. For three numbers it also declares the axes in which they are expressed: the decoder of model files
+/// transforms those in model axes to the axes of the part in which they are written, once, and kinds receive global axes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ParameterType {
+    /// A finite number.
+    Number,
+    /// A finite number that must be greater than zero.
+    Positive,
+    /// A finite number that must not be negative.
+    NotNegative,
+    /// Three finite numbers that are not expressed in model axes: no spatial vector, or one in axes of a body. They are
+    /// not transformed.
+    Vector,
+    /// Three finite numbers: a spatial vector in model axes at the start. It is transformed with the part.
+    GlobalVector,
+    /// Three finite numbers, not all zero, of which only the direction counts. In model axes, and transformed with the part.
+    Direction,
+    /// The same with a default: this axis of the part in which the entry is written. Always given to the kind.
+    DirectionOr(ModelAxis),
+    /// True or false.
+    Flag,
+    /// A number or an expression in the time `t`.
+    Function,
+    /// The size of a load, a factor of all its forces: a number or an expression in the time `t`, inputs, signals,
+    /// states and outputs. A load receives functions of time only: where there is more in the expression, the load of
+    /// size one is multiplied.
+    Size,
+    /// A force over the two named quantities: a number, an expression of them, or a table over the first.
+    Force(&'static [&'static str; 2]),
+    /// Two ascending numbers, which may be infinite.
+    Range,
+    /// A number, an expression of one variable of this name, or a table of it.
+    FunctionOf(&'static str),
+    /// An expression of coordinates of joints and of the time `t`.
+    Equation,
+    /// The name of an input.
+    Input,
+    /// Six numbers not less than zero, the diagonal of a matrix, or a symmetric 6 x 6 matrix without negative
+    /// eigenvalues.
+    Matrix,
+    /// Finite numbers, at least one.
+    Numbers,
+    /// A number, a list of numbers for a diagonal, or a square matrix by rows, of any size.
+    SquareMatrix,
+    /// One of the listed words.
+    Choice(&'static [&'static str]),
+    /// Some of the listed words, each at most once.
+    Choices(&'static [&'static str]),
+}
+
+impl ParameterType {
+    /// Whether the value is expressed in model axes, and so transformed with the part in which it is written.
+    pub fn is_in_model_axes(self) -> bool {
+        match self {
+            Self::GlobalVector | Self::Direction | Self::DirectionOr(_) => true,
+            // Matrices of kinds are expressed in the axes of their own, which directions give.
+            Self::Vector
+            | Self::Matrix
+            | Self::Number
+            | Self::Positive
+            | Self::NotNegative
+            | Self::Flag
+            | Self::Function
+            | Self::Size
+            | Self::Force(_)
+            | Self::Range
+            | Self::FunctionOf(_)
+            | Self::Equation
+            | Self::Input
+            | Self::Numbers
+            | Self::SquareMatrix
+            | Self::Choice(_)
+            | Self::Choices(_) => false,
+        }
+    }
+}
+
+/// One parameter of a kind.
+#[derive(Clone, Copy, Debug)]
+pub struct Parameter {
+    /// Key in the model file.
+    pub name: &'static str,
+    /// What it holds.
+    pub holds: ParameterType,
+    /// Whether it must be given.
+    pub required: bool,
+    /// Unit, as in `N m/rad`; empty for none.
+    pub unit: &'static str,
+    /// One sentence.
+    pub summary: &'static str,
+}
+
+impl Parameter {
+    /// A parameter that must be given.
+    pub const fn required(
+        name: &'static str,
+        holds: ParameterType,
+        unit: &'static str,
+        summary: &'static str,
+    ) -> Self {
+        Self { name, holds, required: true, unit, summary }
+    }
+
+    /// A parameter that may be left out.
+    pub const fn optional(
+        name: &'static str,
+        holds: ParameterType,
+        unit: &'static str,
+        summary: &'static str,
+    ) -> Self {
+        Self { name, holds, required: false, unit, summary }
+    }
+}
+
+/// The relative rotation of a joint when it starts.
+pub(crate) const ANGLE_AT_START: Parameter = Parameter::optional(
+    "angle",
+    ParameterType::Number,
+    "rad",
+    "Value of the relative rotation at the start; default 0.",
+);
+
+/// The relative displacement of a joint when it starts.
+pub(crate) const DISPLACEMENT_AT_START: Parameter = Parameter::optional(
+    "displacement",
+    ParameterType::Number,
+    "m",
+    "Value of the relative displacement at the start; default 0.",
+);
+
+/// Which coordinate of a joint that has several.
+pub(crate) const COORDINATE: Parameter = Parameter::optional(
+    "coordinate",
+    ParameterType::Positive,
+    "",
+    "Which of the joint's coordinates, counted from 1; default the first that fits.",
+);
+
+/// Which coordinate of the first joint, for kinds that couple two.
+pub(crate) const WHICH_COORDINATE: Parameter = Parameter::optional(
+    "coordinate",
+    ParameterType::Positive,
+    "",
+    "Which coordinate of `joint`, counted from 1; may be left out where it has one.",
+);
+
+/// Which coordinate of the other joint, for kinds that couple two.
+pub(crate) const OTHER_COORDINATE: Parameter = Parameter::optional(
+    "other_coordinate",
+    ParameterType::Positive,
+    "",
+    "Which coordinate of `other`, counted from 1; may be left out where it has one.",
+);
+
+/// A parameter's value.
+#[derive(Clone, Debug)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// Three numbers.
+    Vector(Vector3),
+    /// True or false.
+    Flag(bool),
+    /// A word.
+    Text(String),
+    /// Several words.
+    Words(Vec<String>),
+    /// A function of time.
+    Function(Function),
+    /// A force.
+    Force(Force),
+    /// Two ascending numbers.
+    Range([f64; 2]),
+    /// An equation between coordinates.
+    Relation(Arc<dyn Relation>),
+    /// A 6 x 6 matrix.
+    Matrix(Box<Matrix6>),
+    /// Several numbers.
+    Numbers(Vec<f64>),
+    /// A square matrix of any size.
+    SquareMatrix(DMatrix<f64>),
+    /// An input, by its place among the held values.
+    Input(HeldId),
+}
+
+/// The parameters given for one component, by name.
+#[derive(Clone, Debug, Default)]
+pub struct Parameters {
+    values: BTreeMap<String, Value>,
+}
+
+/// A parameter that is missing or of the wrong kind.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("`{parameter}` {problem}")]
+pub struct ParameterError {
+    /// Name of the parameter.
+    pub parameter: String,
+    /// What is wrong, to follow the name in a sentence.
+    pub problem: String,
+}
+
+impl ParameterError {
+    /// An error about `parameter`.
+    pub fn new(parameter: &str, problem: impl Into<String>) -> Self {
+        Self { parameter: parameter.to_owned(), problem: problem.into() }
+    }
+}
+
+impl Parameters {
+    /// No parameters.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// Adds or replaces a value.
+    #[must_use]
+    pub fn with(mut self, name: &str, value: Value) -> Self {
+        self.insert(name, value);
+        self
+    }
+
+    /// Adds or replaces a value.
+    pub fn insert(&mut self, name: &str, value: Value) {
+        self.values.insert(name.to_owned(), value);
+    }
+
+    /// The functions of time among them, by name.
+    pub fn functions(&self) -> impl Iterator<Item = (&str, &Function)> {
+        self.values.iter().filter_map(|(name, value)| match value {
+            Value::Function(function) => Some((name.as_str(), function)),
+            _ => None,
+        })
+    }
+
+    /// The same but for some.
+    #[must_use]
+    pub fn without<'n>(&self, names: impl IntoIterator<Item = &'n str>) -> Self {
+        let mut rest = self.clone();
+        for name in names {
+            rest.values.remove(name);
+        }
+        rest
+    }
+
+    /// Whether `name` was given.
+    pub fn has(&self, name: &str) -> bool {
+        self.values.contains_key(name)
+    }
+
+    /// A number that must be there.
+    ///
+    /// # Errors
+    /// If it is missing or no number.
+    pub fn number(&self, name: &str) -> Result<f64, ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Number(value)) => Ok(*value),
+            other => Err(wrong(name, "a number", other)),
+        }
+    }
+
+    /// A number, or `default` where it is not given.
+    ///
+    /// # Errors
+    /// If it is given and no number.
+    pub fn number_or(&self, name: &str, default: f64) -> Result<f64, ParameterError> {
+        if self.has(name) { self.number(name) } else { Ok(default) }
+    }
+
+    /// A vector that must be there.
+    ///
+    /// # Errors
+    /// If it is missing or no vector.
+    pub fn vector(&self, name: &str) -> Result<Vector3, ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Vector(value)) => Ok(*value),
+            other => Err(wrong(name, "three numbers", other)),
+        }
+    }
+
+    /// A vector, or `default` where it is not given.
+    ///
+    /// # Errors
+    /// If it is given and no vector.
+    pub(crate) fn vector_or(&self, name: &str, default: Vector3) -> Result<Vector3, ParameterError> {
+        if self.has(name) { self.vector(name) } else { Ok(default) }
+    }
+
+    /// An equation between coordinates that must be there.
+    ///
+    /// # Errors
+    /// If it is missing or something else.
+    pub fn relation(&self, name: &str) -> Result<Arc<dyn Relation>, ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Relation(value)) => Ok(Arc::clone(value)),
+            other => Err(wrong(name, "an expression of coordinates", other)),
+        }
+    }
+
+    /// A flag, or `default` where it is not given.
+    ///
+    /// # Errors
+    /// If it is given and no flag.
+    pub fn flag_or(&self, name: &str, default: bool) -> Result<bool, ParameterError> {
+        match self.values.get(name) {
+            None => Ok(default),
+            Some(Value::Flag(value)) => Ok(*value),
+            other => Err(wrong(name, "true or false", other)),
+        }
+    }
+
+    /// Several words that must be there.
+    ///
+    /// # Errors
+    /// If they are missing or something else.
+    pub fn words(&self, name: &str) -> Result<&[String], ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Words(words)) => Ok(words),
+            other => Err(wrong(name, "a list of words", other)),
+        }
+    }
+
+    /// A function of time that must be there; a number counts as a constant.
+    ///
+    /// # Errors
+    /// If it is missing or neither function nor number.
+    pub fn function(&self, name: &str) -> Result<Function, ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Function(value)) => Ok(Arc::clone(value)),
+            Some(Value::Number(value)) => Ok(Arc::new(Constant(*value))),
+            other => Err(wrong(name, "a number or an expression in t", other)),
+        }
+    }
+
+    /// A force, if it is given; a number counts as a constant force.
+    ///
+    /// # Errors
+    /// If it is given and neither force nor number.
+    pub fn force(&self, name: &str) -> Result<Option<Force>, ParameterError> {
+        match self.values.get(name) {
+            None => Ok(None),
+            Some(Value::Force(value)) => Ok(Some(Arc::clone(value))),
+            Some(Value::Number(value)) => Ok(Some(Arc::new(Constant(*value)))),
+            other => Err(wrong(name, "a force", other)),
+        }
+    }
+
+    /// Two ascending numbers, if they are given.
+    ///
+    /// # Errors
+    /// If they are given and no range, or do not ascend.
+    pub fn range(&self, name: &str) -> Result<Option<[f64; 2]>, ParameterError> {
+        match self.values.get(name) {
+            None => Ok(None),
+            Some(Value::Range([low, high])) if low < high => Ok(Some([*low, *high])),
+            other => Err(wrong(name, "two ascending numbers", other)),
+        }
+    }
+
+    /// A 6 x 6 matrix, or zeros where it is not given.
+    ///
+    /// # Errors
+    /// If it is given and no matrix.
+    pub(crate) fn matrix_or_zero(&self, name: &str) -> Result<Matrix6, ParameterError> {
+        match self.values.get(name) {
+            None => Ok(Matrix6::zeros()),
+            Some(Value::Matrix(value)) => Ok(**value),
+            other => Err(wrong(name, "six numbers or a 6 x 6 matrix", other)),
+        }
+    }
+
+    /// Several numbers that must be there.
+    ///
+    /// # Errors
+    /// If they are missing or something else.
+    pub fn numbers(&self, name: &str) -> Result<&[f64], ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Numbers(values)) => Ok(values),
+            other => Err(wrong(name, "a list of numbers", other)),
+        }
+    }
+
+    /// A square matrix that must be there.
+    ///
+    /// # Errors
+    /// If it is missing or something else.
+    pub fn square_matrix(&self, name: &str) -> Result<&DMatrix<f64>, ParameterError> {
+        match self.values.get(name) {
+            Some(Value::SquareMatrix(matrix)) => Ok(matrix),
+            other => Err(wrong(name, "a number, a diagonal or a square matrix", other)),
+        }
+    }
+
+    /// An input that must be there.
+    ///
+    /// # Errors
+    /// If it is missing or something else.
+    pub fn input(&self, name: &str) -> Result<HeldId, ParameterError> {
+        match self.values.get(name) {
+            Some(Value::Input(held)) => Ok(*held),
+            other => Err(wrong(name, "the name of an input", other)),
+        }
+    }
+
+    /// A word, if it is given.
+    ///
+    /// # Errors
+    /// If it is given and no text.
+    pub fn word(&self, name: &str) -> Result<Option<&str>, ParameterError> {
+        match self.values.get(name) {
+            None => Ok(None),
+            Some(Value::Text(word)) => Ok(Some(word)),
+            other => Err(wrong(name, "a word", other)),
+        }
+    }
+
+    /// A function of time, or the constant `default` where it is not given.
+    ///
+    /// # Errors
+    /// If it is given and neither function nor number.
+    pub fn function_or(&self, name: &str, default: f64) -> Result<Function, ParameterError> {
+        if self.has(name) { self.function(name) } else { Ok(Arc::new(Constant(default))) }
+    }
+}
+
+fn wrong(name: &str, wanted: &str, found: Option<&Value>) -> ParameterError {
+    let problem = match found {
+        None => format!("is missing: it must be {wanted}"),
+        Some(_) => format!("must be {wanted}"),
+    };
+    ParameterError::new(name, problem)
+}

@@ -1,0 +1,106 @@
+//! Events: instants at which a signal passes through zero. They may end a run, and change held values.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use super::{Graph, HeldId, SignalId};
+use crate::kinematics::Kinematics;
+
+/// Which way a signal passes through zero.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// From below.
+    Rising,
+    /// From above.
+    Falling,
+    /// From either side.
+    Both,
+}
+
+impl Direction {
+    /// Whether a signal that is then above zero, or below, has passed it this way.
+    pub fn allows(self, is_above: bool) -> bool {
+        match self {
+            Self::Rising => is_above,
+            Self::Falling => !is_above,
+            Self::Both => true,
+        }
+    }
+}
+
+/// What happens when a signal passes through zero.
+#[derive(Clone, Debug)]
+pub struct Event {
+    /// What messages and results call it.
+    pub name: String,
+    /// The signal that passes through zero.
+    pub root: SignalId,
+    /// Which way.
+    pub direction: Direction,
+    /// Whether the run ends there.
+    pub stops: bool,
+    /// Held values that change there, and the signals whose values they take.
+    pub sets: Vec<(HeldId, SignalId)>,
+}
+
+/// An event that happened.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Occurrence {
+    /// Which one, in the order of the system's events.
+    pub event: usize,
+    /// When [s].
+    pub time: f64,
+}
+
+impl fmt::Display for Direction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Rising => "rising",
+            Self::Falling => "falling",
+            Self::Both => "both",
+        })
+    }
+}
+
+impl Graph {
+    /// The events.
+    pub fn events(&self) -> &[Event] {
+        &self.events
+    }
+
+    /// Appends the values whose crossings of zero are events, in the order of the events: as they are, since one that is continued
+    /// from a side never jumps, and passes through zero where it only touches it.
+    pub fn event_values(&self, at: &Kinematics, out: &mut Vec<f64>) {
+        if !self.events.is_empty() {
+            self.evaluate_as_they_are(at, |values| {
+                out.extend(self.events.iter().map(|event| values[event.root]));
+            });
+        }
+    }
+
+    /// What each switch of a signal belongs to, in the order of the switches.
+    pub fn names_of_switches(&self) -> Vec<String> {
+        let sampled_apart = self.signals.iter().filter(|signal| signal.sampling.is_none());
+        let names = |signal: &super::Signal| {
+            let name = format!("{} = {}", signal.name, signal.text);
+            std::iter::repeat_n(name, signal.function.switch_count())
+        };
+        sampled_apart.flat_map(names).collect()
+    }
+
+    /// Appends numbers that change their sign where a signal has a kink or a jump, in the order of the sides.
+    pub fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+        if self.first_sides.last() == self.first_sides.first() {
+            return;
+        }
+        self.evaluate(at, |values| {
+            for (index, signal) in self.signals.iter().enumerate().filter(|(_, one)| one.sampling.is_none()) {
+                let mut arguments = [0.0; super::MOST_ARGUMENTS];
+                self.gather(signal, at, values, &mut arguments);
+                let arguments = &arguments[..signal.arguments.len()];
+                signal.function.switches(at.time, arguments, self.sides(index, at), out);
+            }
+        });
+    }
+}

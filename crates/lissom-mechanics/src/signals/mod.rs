@@ -1,0 +1,416 @@
+//! Signals: numbers computed from time, inputs, first-order states and measurements of the motion, each evaluated once
+//! per stage, with exact derivatives. They are the sizes of loads and the derivatives of states.
+//!
+//! Legend: s signal, m measurement, q places, v velocities.
+//!
+//! ```text
+//! s_i = f_i(t, held, s_j (j < i), m_k),      ∂s_i/∂q = Σ_j ∂f_i/∂s_j ∂s_j/∂q + Σ_k ∂f_i/∂m_k ∂m_k/∂q
+//! ```
+//!
+//! Derivatives are accumulated backwards through the graph. Held values are constant within a step: inputs, and
+//! signals with a sample period between two samples.
+
+pub mod coordinate;
+pub mod event;
+pub mod measurement;
+pub mod point;
+pub mod rotation;
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::sync::Arc;
+
+use crate::instants;
+use crate::kinematics::{CoordinateId, Kinematics, NodeId};
+use measurement::Measurement;
+
+pub use crate::kinematics::HeldId;
+/// Index of a signal.
+pub type SignalId = usize;
+/// Index of a measurement.
+pub type MeasurementId = usize;
+
+/// Most arguments of one signal.
+pub const MOST_ARGUMENTS: usize = 64;
+
+/// Numbers that fit on the stack; larger graphs allocate when they are evaluated.
+const ON_STACK: usize = 64;
+
+/// A function of time and of arguments, with exact derivatives by the arguments.
+pub trait SignalFunction: Send + Sync + fmt::Debug {
+    /// Value at `time` [s], continued from known `sides` of the function's switches; 0, or no sides, for not known.
+    fn value(&self, time: f64, arguments: &[f64], sides: &[f64]) -> f64;
+    /// Derivatives by the arguments at `time` [s], written to `out`, one for each argument.
+    fn gradient(&self, time: f64, arguments: &[f64], sides: &[f64], out: &mut [f64]);
+    /// How many kinks and jumps [`switches`](Self::switches) reports. Default: it has none.
+    fn switch_count(&self) -> usize {
+        0
+    }
+    /// Appends numbers that change their sign where the function has a kink or a jump; 0 at all times where these are among
+    /// the known [`kinks`](Self::kinks).
+    fn switches(&self, _time: f64, _arguments: &[f64], _sides: &[f64], _out: &mut Vec<f64>) {}
+    /// Times at which it is known not to be smooth [s], whatever its arguments. Default: none is known.
+    fn kinks(&self) -> &[f64] {
+        &[]
+    }
+}
+
+/// Where an argument of a signal comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Argument {
+    /// A held value.
+    Held(HeldId),
+    /// An earlier signal.
+    Signal(SignalId),
+    /// A measurement.
+    Measured(MeasurementId),
+}
+
+/// A signal that is evaluated at samples only, and held in between.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sampling {
+    /// Where its value is held.
+    pub held: HeldId,
+    /// Time from sample to sample, from the start of the simulation [s].
+    pub period: f64,
+}
+
+/// A signal of a system.
+#[derive(Clone, Debug)]
+pub struct Signal {
+    /// What messages call it.
+    pub name: String,
+    /// Its expression, for messages.
+    pub text: String,
+    /// How it is computed.
+    pub function: Arc<dyn SignalFunction>,
+    /// From what.
+    pub arguments: Vec<Argument>,
+    /// For a sampled signal.
+    pub sampling: Option<Sampling>,
+}
+
+/// A signal that is not finite.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "signal {name} = {text} is {value} at t = {time:.6e} s: an argument is outside of what its functions allow; keep it \
+     within, for instance by `max(…, 0)` under a root or `clamp`, or end the run before"
+)]
+pub struct SignalError {
+    /// Name of the signal.
+    pub name: String,
+    /// Its expression.
+    pub text: String,
+    /// What it comes to.
+    pub value: f64,
+    /// Time [s].
+    pub time: f64,
+}
+
+impl SignalError {
+    /// Name of the signal, or of the load or joint that it belongs to, without the marks around it.
+    pub fn part(&self) -> &str {
+        self.name.rsplit('`').nth(1).unwrap_or(&self.name)
+    }
+}
+
+/// All signals of a system, each after those it names.
+#[derive(Default)]
+pub struct Graph {
+    /// Signals, each after those that it depends on.
+    pub signals: Vec<Signal>,
+    /// Measurements of the motion that signals depend on.
+    pub measurements: Vec<Box<dyn Measurement>>,
+    /// Names of the held values, and what they are at the start.
+    pub held: Vec<(String, f64)>,
+    /// Events.
+    pub events: Vec<event::Event>,
+    /// Where the sides of each signal's switches begin among the held values, after inputs and samples, and where the
+    /// last ones end; those of elements follow.
+    first_sides: Vec<usize>,
+}
+
+impl Graph {
+    /// The signals.
+    pub fn signals(&self) -> &[Signal] {
+        &self.signals
+    }
+
+    /// Names of the inputs: held values that are no samples.
+    pub fn input_names(&self) -> impl Iterator<Item = &str> {
+        let is_input = |&held: &HeldId| {
+            !self.signals.iter().any(|signal| signal.sampling.is_some_and(|own| own.held == held))
+        };
+        (0..self.held.len()).filter(is_input).map(|held| self.held[held].0.as_str())
+    }
+
+    /// The input called `name`.
+    pub fn input(&self, name: &str) -> Option<HeldId> {
+        let name = self.input_names().find(|known| *known == name)?;
+        self.held.iter().position(|(known, _)| known == name)
+    }
+
+    /// The signal called `name`.
+    pub fn signal(&self, name: &str) -> Option<SignalId> {
+        self.signals.iter().position(|signal| signal.name == name)
+    }
+
+    /// Whether any signal is sampled.
+    pub fn has_samples(&self) -> bool {
+        self.signals.iter().any(|signal| signal.sampling.is_some())
+    }
+
+    /// Calls `with` with the values of all signals at a configuration, continued from the sides of their switches.
+    pub fn evaluate<T>(&self, at: &Kinematics, with: impl FnOnce(&[f64]) -> T) -> T {
+        self.evaluate_with(at, |signal| self.sides(signal, at), with)
+    }
+
+    /// The same, each switch on the side where its number is.
+    pub(crate) fn evaluate_as_they_are<T>(&self, at: &Kinematics, with: impl FnOnce(&[f64]) -> T) -> T {
+        self.evaluate_with(at, |_| &[], with)
+    }
+
+    fn evaluate_with<'k, T>(
+        &self,
+        at: &'k Kinematics,
+        sides: impl Fn(SignalId) -> &'k [f64],
+        with: impl FnOnce(&[f64]) -> T,
+    ) -> T {
+        with_room(self.signals.len(), |values| {
+            for index in 0..self.signals.len() {
+                values[index] = match self.signals[index].sampling {
+                    Some(Sampling { held, .. }) => at.held[held],
+                    None => self.compute(index, at, values, sides(index)),
+                };
+            }
+            with(values)
+        })
+    }
+
+    /// Value of one signal.
+    pub fn value(&self, signal: SignalId, at: &Kinematics) -> f64 {
+        self.evaluate(at, |values| values[signal])
+    }
+
+    /// Value of a measurement.
+    pub fn measured(&self, measurement: MeasurementId, at: &Kinematics) -> f64 {
+        self.measurements[measurement].value(at)
+    }
+
+    /// The expression of a signal, evaluated whether it is sampled or not.
+    fn compute(&self, index: SignalId, at: &Kinematics, values: &[f64], sides: &[f64]) -> f64 {
+        let signal = &self.signals[index];
+        let mut arguments = [0.0; MOST_ARGUMENTS];
+        self.gather(signal, at, values, &mut arguments);
+        signal.function.value(at.time, &arguments[..signal.arguments.len()], sides)
+    }
+
+    /// Held values at the start: inputs, samples, and the sides of the switches of signals, which are not known.
+    pub fn held_at_start(&mut self) -> Vec<f64> {
+        let mut values: Vec<f64> = self.held.iter().map(|&(_, start)| start).collect();
+        self.first_sides.clear();
+        for signal in &self.signals {
+            self.first_sides.push(values.len());
+            let count = if signal.sampling.is_some() { 0 } else { signal.function.switch_count() };
+            values.resize(values.len() + count, 0.0);
+        }
+        self.first_sides.push(values.len());
+        values
+    }
+
+    /// Where the sides of switches begin among the held values.
+    pub fn first_side(&self) -> usize {
+        self.held.len()
+    }
+
+    /// Sides of a signal's switches.
+    fn sides<'k>(&self, signal: SignalId, at: &'k Kinematics) -> &'k [f64] {
+        match self.first_sides.get(signal..signal + 2) {
+            Some(&[first, end]) => at.held.get(first..end).unwrap_or_default(),
+            _ => &[],
+        }
+    }
+
+    fn gather(&self, signal: &Signal, at: &Kinematics, values: &[f64], out: &mut [f64]) {
+        for (value, argument) in out.iter_mut().zip(&signal.arguments) {
+            *value = match *argument {
+                Argument::Held(held) => at.held[held],
+                Argument::Signal(earlier) => values[earlier],
+                Argument::Measured(measurement) => self.measurements[measurement].value(at),
+            };
+        }
+    }
+
+    /// Hands the derivative of a signal by each of its measurements, where it is not zero, to `add`; `values` are those
+    /// of all signals.
+    pub fn differentiate(
+        &self,
+        root: SignalId,
+        at: &Kinematics,
+        values: &[f64],
+        mut add: impl FnMut(MeasurementId, f64),
+    ) {
+        self.differentiate_by_all(root, at, values, |argument, derivative| {
+            if let Argument::Measured(measurement) = argument {
+                add(measurement, derivative);
+            }
+        });
+    }
+
+    /// The same by each of its held values, too.
+    pub fn differentiate_by_all(
+        &self,
+        root: SignalId,
+        at: &Kinematics,
+        values: &[f64],
+        mut add: impl FnMut(Argument, f64),
+    ) {
+        with_room(root + 1, |adjoints| {
+            adjoints[root] = 1.0;
+            for index in (0..=root).rev() {
+                let (signal, adjoint) = (&self.signals[index], adjoints[index]);
+                if adjoint == 0.0 || signal.sampling.is_some() {
+                    continue;
+                }
+                let (mut arguments, mut gradient) = ([0.0; MOST_ARGUMENTS], [0.0; MOST_ARGUMENTS]);
+                let count = signal.arguments.len();
+                self.gather(signal, at, values, &mut arguments);
+                let sides = self.sides(index, at);
+                signal.function.gradient(at.time, &arguments[..count], sides, &mut gradient[..count]);
+                for (argument, derivative) in signal.arguments.iter().zip(&gradient) {
+                    match *argument {
+                        Argument::Signal(earlier) => adjoints[earlier] += adjoint * derivative,
+                        Argument::Held(_) | Argument::Measured(_) => add(*argument, adjoint * derivative),
+                    }
+                }
+            }
+        });
+    }
+
+    /// Nodes and coordinates that an argument of a signal depends on between samples.
+    pub fn touched_by(&self, argument: Argument) -> (BTreeSet<NodeId>, BTreeSet<CoordinateId>) {
+        let measurements = match argument {
+            Argument::Held(_) => BTreeSet::new(),
+            Argument::Measured(measurement) => BTreeSet::from([measurement]),
+            Argument::Signal(signal) => self.measurements_of(signal),
+        };
+        let of = || measurements.iter().map(|&measurement| &self.measurements[measurement]);
+        let nodes = of().flat_map(|measurement| measurement.nodes().iter().copied()).collect();
+        let coordinates = of().flat_map(|measurement| measurement.coordinates().iter().copied()).collect();
+        (nodes, coordinates)
+    }
+
+    /// Measurements that a signal depends on between samples.
+    pub fn measurements_of(&self, root: SignalId) -> BTreeSet<MeasurementId> {
+        let reached = self.reached_from(std::iter::once(root));
+        let arguments = reached.iter().flat_map(|&index| &self.signals[index].arguments);
+        let measured = arguments.filter_map(|argument| match *argument {
+            Argument::Measured(measurement) => Some(measurement),
+            Argument::Held(_) | Argument::Signal(_) => None,
+        });
+        measured.collect()
+    }
+
+    /// Times at which signals are known not to be smooth between samples [s], themselves or by those they depend on.
+    pub fn kinks_of(&self, roots: impl Iterator<Item = SignalId>) -> Vec<f64> {
+        let reached = self.reached_from(roots);
+        reached.iter().flat_map(|&index| self.signals[index].function.kinks()).copied().collect()
+    }
+
+    /// Signals that some depend on between samples, themselves among them.
+    fn reached_from(&self, roots: impl Iterator<Item = SignalId>) -> BTreeSet<SignalId> {
+        let (mut open, mut seen): (Vec<_>, _) = (roots.collect(), BTreeSet::new());
+        while let Some(index) = open.pop() {
+            if self.signals[index].sampling.is_some() || !seen.insert(index) {
+                continue;
+            }
+            open.extend(self.signals[index].arguments.iter().filter_map(|argument| match *argument {
+                Argument::Signal(earlier) => Some(earlier),
+                Argument::Held(_) | Argument::Measured(_) => None,
+            }));
+        }
+        seen
+    }
+
+    /// Takes the first samples, at the start, where they are sampled from their values before the first.
+    ///
+    /// # Errors
+    /// If a signal is not finite; all held values are then as they were.
+    pub fn begin(&self, at: &mut Kinematics) -> Result<(), SignalError> {
+        let before = at.held.clone();
+        for Sampling { held, .. } in self.signals.iter().filter_map(|signal| signal.sampling) {
+            at.held[held] = self.held[held].1;
+        }
+        let begun = self.sample(at, 0.0);
+        if begun.is_err() {
+            at.held = before;
+        }
+        begun
+    }
+
+    /// Takes the samples that are due `elapsed` [s] after the start. Signals are sampled in their order, so that a
+    /// sample sees those taken before it at the same instant.
+    ///
+    /// # Errors
+    /// If a signal is not finite; all held values are then as they were.
+    pub fn sample(&self, at: &mut Kinematics, elapsed: f64) -> Result<(), SignalError> {
+        let before = at.held.clone();
+        let mut values = vec![0.0; self.signals.len()];
+        for (index, signal) in self.signals.iter().enumerate() {
+            values[index] = match signal.sampling {
+                Some(Sampling { held, period }) if !is_due(at.time, elapsed, period) => at.held[held],
+                _ => self.compute(index, at, &values, self.sides(index, at)),
+            };
+            if let Some(Sampling { held, .. }) = signal.sampling {
+                at.held[held] = values[index];
+            }
+        }
+        let checked = self.check(at);
+        if checked.is_err() {
+            at.held = before;
+        }
+        checked
+    }
+
+    /// Whether all signals are finite.
+    ///
+    /// # Errors
+    /// The first that is not.
+    pub fn check(&self, at: &Kinematics) -> Result<(), SignalError> {
+        self.evaluate(at, |values| match values.iter().position(|value| !value.is_finite()) {
+            None => Ok(()),
+            Some(index) => {
+                let Signal { name, text, .. } = &self.signals[index];
+                let (name, text) = (name.clone(), text.clone());
+                Err(SignalError { name, text, value: values[index], time: at.time })
+            }
+        })
+    }
+
+    /// For each signal that is sampled, the instant of a sample that is nearest to `time` [s].
+    pub fn nearest_samples(&self, origin: f64, time: f64) -> impl Iterator<Item = f64> + '_ {
+        let periods = self.signals.iter().filter_map(|signal| signal.sampling.map(|own| own.period));
+        periods.map(move |period| origin + ((time - origin) / period).round().max(0.0) * period)
+    }
+
+    /// The first instant after `time` [s] at which a sample is due, where the first samples are taken at `origin` [s].
+    pub fn next_sample(&self, origin: f64, time: f64) -> Option<f64> {
+        let next = |period: f64| {
+            let aside = instants::tolerance(time, period);
+            origin + (((time - origin + aside) / period).floor() + 1.0) * period
+        };
+        let periods = self.signals.iter().filter_map(|signal| signal.sampling.map(|own| own.period));
+        periods.map(next).min_by(f64::total_cmp)
+    }
+}
+
+/// Whether a sample is due at `time` [s], `elapsed` [s] after the first one.
+fn is_due(time: f64, elapsed: f64, period: f64) -> bool {
+    let nearest = (elapsed / period).round() * period;
+    (elapsed - nearest).abs() <= instants::tolerance(time, period)
+}
+
+/// Calls `with` with so many zeros.
+fn with_room<T>(count: usize, with: impl FnOnce(&mut [f64]) -> T) -> T {
+    if count <= ON_STACK { with(&mut [0.0; ON_STACK][..count]) } else { with(&mut vec![0.0; count]) }
+}

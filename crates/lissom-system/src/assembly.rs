@@ -1,0 +1,198 @@
+//! Residual and linearisation of the whole system in SI. Knows no time step, scheme or scaling.
+//!
+//! ```text
+//! coordinates:  M(q) a + f(q, v, t) + Bᵀ μ,   μ = λ + w c        multipliers:  c(q, t)
+//! ```
+//!
+//! where the weight w of the augmented Lagrangian term is somebody else's choice.
+
+use lissom_motion::WIDTH;
+
+use super::System;
+use lissom_mechanics::evaluation::batch::{scatter, scatter_lane};
+use lissom_mechanics::evaluation::linearization::{Linearization, Scratch};
+use lissom_mechanics::evaluation::tangent_assembler::{Slot, TangentAssembler};
+use lissom_mechanics::evaluation::threads::Threads;
+use lissom_mechanics::joints::blocks::{Results, Wanted};
+use lissom_mechanics::joints::derivatives::{Derivatives, LOCAL, OWN, TIP};
+use lissom_mechanics::joints::evaluation_point::{Augmentation, Chart, Increments, Point};
+use lissom_mechanics::kinematics::{Kinematics, LOCKED, MotionChange};
+
+impl System {
+    /// Zeros for the linearised equations of motion.
+    pub fn empty_linearization(&self) -> Linearization {
+        Linearization::zeros(self.structure.pattern.entries())
+    }
+
+    /// The equations of motion linearised about a state: without increments of a step, multipliers or an augmented term.
+    pub fn linearization_at(&self, at: &Kinematics) -> Linearization {
+        let still = vec![MotionChange::none(); at.nodes.len()];
+        let unchanged = vec![0.0; at.coordinates.len()];
+        let zero = vec![0.0; self.layout.multiplier_count];
+        let point = Point {
+            at,
+            stressed: at,
+            increments: Increments { start: at, nodes: &still, coordinates: &unchanged, joints: None },
+            multipliers: &zero,
+            violations: &zero,
+            augmentation: Augmentation::none(),
+        };
+        let mut linearization = self.empty_linearization();
+        self.linearize(&point, Chart::Body, &mut linearization);
+        linearization
+    }
+
+    /// Residual at `point`: left-hand sides of the equations of motion in the rows of the coordinates,
+    /// violations in the rows of the multipliers.
+    pub fn residual(&self, point: &Point<'_>, out: &mut [f64]) {
+        out.fill(0.0);
+        for batch in &self.batches {
+            batch.forces(point.at, out);
+        }
+        for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
+            let blocks = 0..batch.indices().len().div_ceil(WIDTH);
+            batch.evaluate(Wanted::All, point, starts, blocks, &mut |block, results| {
+                for (lane, item) in batch.block_items(block).enumerate() {
+                    let rows = self.rows_of_joint(batch.indices()[item] as usize);
+                    scatter_joint(rows, results, lane, out);
+                }
+            });
+        }
+        self.add_others(point, out);
+    }
+
+    /// The same on several threads, to the last bit.
+    pub fn residual_side_by_side(&self, point: &Point<'_>, threads: &mut Threads, out: &mut [f64]) {
+        out.fill(0.0);
+        for batch in &self.batches {
+            batch.forces_side_by_side(point.at, threads, out);
+        }
+        for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
+            let firsts = batch.starts();
+            let locals = threads.side_by_side(firsts, &|joints, locals| {
+                let first = firsts[joints.start];
+                let blocks = joints.start / WIDTH..joints.end.div_ceil(WIDTH);
+                batch.evaluate(Wanted::All, point, starts, blocks, &mut |block, results| {
+                    for (lane, item) in batch.block_items(block).enumerate() {
+                        let own = &mut locals[firsts[item] - first..firsts[item + 1] - first];
+                        for (local, numbers) in own.iter_mut().zip(results) {
+                            *local = numbers[lane];
+                        }
+                    }
+                });
+            });
+            for (item, &index) in batch.indices().iter().enumerate() {
+                scatter(self.rows_of_joint(index as usize), &locals[firsts[item]..firsts[item + 1]], out);
+            }
+        }
+        self.add_others(point, out);
+    }
+
+    /// Rows of a joint's local unknowns and equations.
+    pub fn rows_of_joint(&self, joint: usize) -> &[u32] {
+        &self.joint_rows[self.joint_starts[joint]..self.joint_starts[joint + 1]]
+    }
+
+    /// Violations at `point` alone, by multiplier.
+    pub fn stage_violations(&self, point: &Point<'_>, out: &mut [f64]) {
+        for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
+            let blocks = 0..batch.indices().len().div_ceil(WIDTH);
+            batch.evaluate(Wanted::Violations, point, starts, blocks, &mut |block, results| {
+                for (lane, item) in batch.block_items(block).enumerate() {
+                    let joint = &self.constraints.joints[batch.indices()[item] as usize];
+                    let own = &mut out[joint.first_multiplier..joint.first_multiplier + joint.equations()];
+                    for (violation, numbers) in own.iter_mut().zip(&results[LOCAL..]) {
+                        *violation = numbers[lane];
+                    }
+                }
+            });
+        }
+        self.violations_of_others(point, out);
+    }
+
+    /// Linearisation at `point` with respect to the unknowns of `chart`.
+    pub fn linearize(&self, point: &Point<'_>, chart: Chart<'_>, out: &mut Linearization) {
+        let mut scratch = out.scratch.take().unwrap_or_default();
+        self.assemble_tangent(point, chart, &mut scratch, &mut TangentAssembler::Separate(out));
+        out.scratch = Some(scratch);
+    }
+
+    /// The same of constraints and of those kinds of elements alone that `kinds` chooses.
+    pub fn linearize_kinds(
+        &self,
+        kinds: &[bool],
+        point: &Point<'_>,
+        chart: Chart<'_>,
+        out: &mut Linearization,
+    ) {
+        let mut scratch = out.scratch.take().unwrap_or_default();
+        let mut receiver = TangentAssembler::Separate(out);
+        receiver.clear();
+        for (batch, _) in self.batches.iter().zip(kinds).filter(|(_, is_chosen)| **is_chosen) {
+            batch.linearize((point.at, point.stressed), chart, &mut scratch.local, &mut receiver);
+        }
+        self.linearize_constraints(point, chart, &mut scratch.joint, &mut receiver);
+        out.scratch = Some(scratch);
+    }
+
+    /// Number of kinds of elements, as they are evaluated together.
+    pub fn kind_count(&self) -> usize {
+        self.batches.len()
+    }
+
+    /// Hands the derivatives at `point` with respect to the unknowns of `chart` to `out`.
+    pub fn assemble_tangent(
+        &self,
+        point: &Point<'_>,
+        chart: Chart<'_>,
+        scratch: &mut Scratch,
+        out: &mut TangentAssembler<'_>,
+    ) {
+        out.clear();
+        for batch in &self.batches {
+            batch.linearize((point.at, point.stressed), chart, &mut scratch.local, out);
+        }
+        self.linearize_constraints(point, chart, &mut scratch.joint, out);
+    }
+
+    /// Adds what constraints do.
+    pub(crate) fn linearize_constraints(
+        &self,
+        point: &Point<'_>,
+        chart: Chart<'_>,
+        scratch: &mut Derivatives,
+        out: &mut TangentAssembler<'_>,
+    ) {
+        for (batch, starts) in self.joint_batches.with_starts(point.increments.joints) {
+            batch.linearize(
+                &self.constraints.joints,
+                point,
+                starts,
+                chart,
+                scratch,
+                &mut |index, derivatives| {
+                    let place =
+                        Slot { rows: self.rows_of_joint(index), segments: self.joint_places.of(index) };
+                    out.add_joint(place, derivatives);
+                },
+            );
+        }
+        self.linearize_others(point, chart, out);
+    }
+}
+
+/// Adds one lane of a block's forces and violations.
+fn scatter_joint(rows: &[u32], results: &Results, lane: usize, out: &mut [f64]) {
+    scatter_lane(&rows[..6], &results[..6], lane, out);
+    scatter_lane(&rows[TIP..OWN], &results[TIP..OWN], lane, out);
+    for (&row, force) in rows[OWN..LOCAL].iter().zip(&results[OWN..]).filter(|&(&row, _)| row != LOCKED) {
+        out[row as usize] += force[lane];
+    }
+    // A joint's multipliers follow each other.
+    if let Some(&first) = rows.get(LOCAL) {
+        let violations = &mut out[first as usize..][..rows.len() - LOCAL];
+        for (value, violation) in violations.iter_mut().zip(&results[LOCAL..]) {
+            *value = violation[lane];
+        }
+    }
+}

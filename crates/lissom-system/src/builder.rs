@@ -1,0 +1,551 @@
+//! Puts a system together: nodes, elements, joints; then numbers the unknowns and checks what can be
+//! checked without solving.
+
+mod coupling;
+mod drawn;
+mod groups;
+mod motion;
+mod rolling;
+mod signals;
+mod slider;
+
+use std::sync::Arc;
+
+use lissom_motion::{Matrix6, Motion, Vector3, Vector6};
+use lissom_solver::{Pattern, Structure};
+
+pub use self::drawn::PlaceOnTip;
+use self::drawn::{joint_rotation, start_values};
+use super::constraints::{Constraints, Placed};
+use super::feedback::{DrivenBatch, Feedback, Target};
+use super::state::State;
+use super::{ElementId, System};
+use lissom_mechanics::elements::contribution::{Contribution, CoordinateMass, Impulse};
+use lissom_mechanics::elements::creep_force::CreepForce;
+use lissom_mechanics::elements::inertia::{Gravity, Inertia};
+use lissom_mechanics::elements::initial_model::{Coordinate, InitialModel, Node};
+use lissom_mechanics::elements::{Attached, Element, ElementKind};
+use lissom_mechanics::evaluation::batch::{AnyBatch, AnyElement};
+use lissom_mechanics::evaluation::scatter_map::{ScatterMap, free_rows};
+use lissom_mechanics::joints::attached::AttachedJoint;
+use lissom_mechanics::joints::blocks::Batches;
+use lissom_mechanics::joints::derivatives::{LOCAL, OWN, TIP};
+use lissom_mechanics::joints::{Build, Geometry, JointKind};
+use lissom_mechanics::kinematics::{
+    CarriedFrame, CoordinateId, CoordinateMotion, Freedoms, GROUND, Kinematics, LOCKED, Layout, NodeId,
+    NodeMotion, Quantity,
+};
+use lissom_mechanics::registry::{Function, ParameterError, Parameters};
+use lissom_mechanics::signals::{Graph, HeldId, SignalId};
+
+/// Why a system could not be built.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// Nothing can move.
+    #[error("the model has no unknowns: nothing in it can move")]
+    Empty,
+    /// A coordinate that no constraint or spring sees, or a structure that cannot be ordered.
+    #[error("the equations cannot be ordered: {0}")]
+    Structure(String),
+    /// A signal depends on too many parts of the model.
+    #[error("{0} depends on too many parts: more than 255 unknowns; measure less in one expression")]
+    SignalTouchesTooMuch(String),
+}
+
+/// Where a joint lies at the start, in inertial axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placement {
+    /// Base and tip node.
+    pub nodes: [NodeId; 2],
+    /// The joint's point, on the base [m].
+    pub at: Vector3,
+    /// The tip's point, for kinds that span a distance; the tip node's place where not given [m].
+    pub at_tip: Option<Vector3>,
+    /// Direction of the joint's axis, for kinds that have one.
+    pub axis: Option<Vector3>,
+    /// Direction of the second axis, for kinds that have two.
+    pub second_axis: Option<Vector3>,
+}
+
+/// Collects the parts of a system.
+pub struct Builder {
+    model: InitialModel,
+    batches: Vec<Box<dyn AnyBatch>>,
+    constraints: Constraints,
+    multipliers: Vec<(String, &'static str)>,
+    multiplier_quantities: Vec<Quantity>,
+    states: Vec<(CoordinateId, f64)>,
+    impulses: Vec<Impulse>,
+    coordinate_masses: Vec<CoordinateMass>,
+    free_coordinates: Vec<CoordinateId>,
+    /// Inputs that engage latches.
+    latches: Vec<HeldId>,
+    functions: Vec<(String, Function)>,
+    graph: Graph,
+    targets: Vec<(Target, SignalId)>,
+    /// Where parts are given approximately: the values of coordinates at the start that joints are given.
+    start_values: Option<Vec<(CoordinateId, f64)>>,
+}
+
+impl Default for Builder {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl Builder {
+    /// A system with nothing but the ground.
+    pub fn new() -> Self {
+        let ground = Node {
+            name: "ground".to_owned(),
+            motion: NodeMotion::at_rest(Motion::identity()),
+            freedoms: Freedoms::Fixed,
+            mass: None,
+        };
+        Self {
+            model: InitialModel {
+                nodes: vec![ground],
+                coordinates: Vec::new(),
+                gravity: Gravity::constant(Vector3::zeros()),
+            },
+            batches: Vec::new(),
+            constraints: Constraints::default(),
+            multipliers: Vec::new(),
+            multiplier_quantities: Vec::new(),
+            states: Vec::new(),
+            impulses: Vec::new(),
+            coordinate_masses: Vec::new(),
+            free_coordinates: Vec::new(),
+            latches: Vec::new(),
+            functions: Vec::new(),
+            graph: Graph::default(),
+            targets: Vec::new(),
+            start_values: None,
+        }
+    }
+
+    /// Sets gravity [m/s²], in inertial axes.
+    pub fn set_gravity(&mut self, gravity: Vector3) {
+        self.model.gravity.acceleration = gravity;
+    }
+
+    /// Lets gravity act by a factor that is a function of time.
+    pub fn set_gravity_factor(&mut self, factor: Function) {
+        self.model.gravity.factor = Some(factor);
+    }
+
+    /// Adds a node with its place at the start.
+    pub fn add_node(&mut self, name: &str, frame: Motion, freedoms: Freedoms) -> NodeId {
+        let motion = NodeMotion::at_rest(frame);
+        self.model.nodes.push(Node { name: name.to_owned(), motion, freedoms, mass: None });
+        self.model.nodes.len() - 1
+    }
+
+    /// Sets a node's twist at the start, in its body frame [m/s, rad/s]; locked freedoms stay at rest.
+    pub fn set_twist(&mut self, node: NodeId, twist: Vector6) {
+        let freedoms = self.model.nodes[node].freedoms;
+        self.model.nodes[node].motion.twist =
+            Vector6::from_fn(|k, _| if freedoms.is_free(k) { twist[k] } else { 0.0 });
+    }
+
+    /// Locks all freedoms of a node: it stays where it is.
+    pub fn lock(&mut self, node: NodeId) {
+        self.model.nodes[node].freedoms = Freedoms::Fixed;
+        self.model.nodes[node].motion.twist.fill(0.0);
+    }
+
+    /// Slot of a node at the start.
+    pub fn initial_frame(&self, node: NodeId) -> Motion {
+        self.model.frame(node)
+    }
+
+    /// Which freedoms of a node are free.
+    pub fn freedoms(&self, node: NodeId) -> Freedoms {
+        self.model.nodes[node].freedoms
+    }
+
+    /// Nodes, coordinates and gravity as they are so far.
+    pub fn model(&self) -> &InitialModel {
+        &self.model
+    }
+
+    /// Adds to a node's mass matrix: 6x6, in the node's frame, about the node.
+    pub fn add_inertia(&mut self, node: NodeId, mass: &Matrix6) {
+        *self.model.nodes[node].mass.get_or_insert_with(Matrix6::zeros) += mass;
+    }
+
+    /// Adds an element.
+    pub fn add_element<E: Element>(&mut self, element: E) {
+        self.add(Contribution::of(&self.model, element));
+    }
+
+    /// Adds what an entry of the model consists of; returns the element that its outputs refer to.
+    ///
+    /// # Panics
+    /// If it was made for another model, or for this one before other nodes or coordinates were added.
+    pub fn add(&mut self, contribution: Contribution) -> Option<ElementId> {
+        let batches = |builder: &mut Self, element: Box<dyn AnyElement>| element.join(&mut builder.batches);
+        self.add_each(contribution, batches)
+    }
+
+    /// Adds an entry of a kind of springs or loads; returns the element that its outputs refer to.
+    ///
+    /// # Errors
+    /// If a parameter is missing or makes no sense.
+    pub fn add_of_kind(
+        &mut self,
+        kind: &ElementKind,
+        attached: Attached,
+        parameters: &Parameters,
+    ) -> Result<Option<ElementId>, ParameterError> {
+        (kind.build)(&self.model, attached, parameters).map(|contribution| self.add(contribution))
+    }
+
+    /// Adds an entry whose elements are loads of size one, and multiplies them by a signal.
+    ///
+    /// # Panics
+    /// As [`Self::add`].
+    pub fn add_driven(&mut self, signal: SignalId, contribution: Contribution) -> Option<ElementId> {
+        self.add_each(contribution, |builder, element| {
+            builder.targets.push((Target::Load(element.into_load()), signal));
+            ElementId { batch: None, item: builder.targets.len() - 1 }
+        })
+    }
+
+    fn add_each(
+        &mut self,
+        contribution: Contribution,
+        mut add: impl FnMut(&mut Self, Box<dyn AnyElement>) -> ElementId,
+    ) -> Option<ElementId> {
+        assert!(contribution.fits(&self.model), "a contribution is added to the model that it was made for");
+        let Contribution { nodes, coordinates, inertias, states, impulses, latches, .. } = contribution;
+        self.model.nodes.extend(nodes);
+        self.model.coordinates.extend(coordinates);
+        for (node, mass) in inertias {
+            self.add_inertia(node, &mass);
+        }
+        self.states.extend(states);
+        self.impulses.extend(impulses);
+        self.latches.extend(latches);
+        self.coordinate_masses.extend(contribution.coordinate_masses);
+        let last = contribution.elements.into_iter().map(|element| add(self, element)).last();
+        last.filter(|_| contribution.has_outputs)
+    }
+
+    /// Adds a joint of a kind that stands between two nodes; gives its algebraic coordinates.
+    ///
+    /// # Errors
+    /// If a parameter or an axis is missing or makes no sense.
+    pub fn add_joint(
+        &mut self,
+        name: &str,
+        kind: &JointKind,
+        placement: &Placement,
+        parameters: &Parameters,
+    ) -> Result<Vec<CoordinateId>, ParameterError> {
+        self.add_joint_apart(name, kind, (placement, None), parameters)
+    }
+
+    /// Adds a joint whose frame on the tip lies elsewhere than its frame on the base, for parts that are given
+    /// approximately and assembled.
+    ///
+    /// # Errors
+    /// If a parameter or an axis is missing or makes no sense.
+    pub fn add_joint_apart(
+        &mut self,
+        name: &str,
+        kind: &JointKind,
+        (placement, on_tip): (&Placement, Option<&PlaceOnTip>),
+        parameters: &Parameters,
+    ) -> Result<Vec<CoordinateId>, ParameterError> {
+        let Build::Relative(frames, build) = kind.build else {
+            return Err(ParameterError::new("kind", "acts on another joint's coordinate"));
+        };
+        let base = Motion::new(joint_rotation(frames, placement)?, placement.at);
+        let tip = placement.at_tip.unwrap_or(self.model.nodes[placement.nodes[1]].motion.frame.position);
+        let span = base.inverse_transform_point(&tip);
+        let geometry = Geometry { span, planar: self.moves_in_plane(placement, &base), axes: base.rotation };
+        let mut joint = build(parameters, &geometry)?;
+        let given = start_values(joint.as_ref(), parameters)?;
+        let mut base = base;
+        if !given.is_empty() {
+            let unset = build(
+                &parameters.without(given.iter().map(|&(k, _)| joint.coordinates()[k].name)),
+                &geometry,
+            )?;
+            if self.start_values.is_some() {
+                joint = unset;
+            } else {
+                // Values at the start choose from where coordinates are counted: the tip's point stays at the joint's
+                // location, and the base's frame moves back.
+                let back = unset.initial().1.position - joint.initial().1.position;
+                base = base * Motion::translation(back);
+            }
+        }
+        let (values, relative) = joint.initial();
+        let places = [base, on_tip.map_or(Ok(base), |place| place.frame(&base, placement))? * relative];
+        let carried = [0, 1].map(|side| {
+            let node = placement.nodes[side];
+            CarriedFrame { node, offset: places[side].relative_to(&self.model.nodes[node].motion.frame) }
+        });
+        let coordinates: Vec<CoordinateId> = joint
+            .coordinates()
+            .iter()
+            .enumerate()
+            .map(|(k, coordinate)| {
+                self.model.coordinates.push(Coordinate {
+                    name: format!("{name}.{}", coordinate.name),
+                    value: values[k],
+                    rate: 0.0,
+                    quantity: coordinate.quantity,
+                });
+                self.model.coordinates.len() - 1
+            })
+            .collect();
+        if let Some(start) = &mut self.start_values {
+            start.extend(given.into_iter().map(|(k, value)| (coordinates[k], value)));
+        }
+        let first_multiplier = self.multipliers.len();
+        for (k, &equation) in joint.equations().iter().enumerate() {
+            self.multipliers.push((name.to_owned(), equation));
+            self.multiplier_quantities.push(joint.equation_quantity(k));
+        }
+        let impulses =
+            joint.contact().map_or_else(Vec::new, |contact| self.add_rolling(name, carried, contact));
+        if let (Some(contact), Some(law)) = (joint.rail_contact(), joint.creep()) {
+            self.add_element(CreepForce::new(carried, first_multiplier, contact.clone(), law.clone()));
+        }
+        self.constraints.joints.push(AttachedJoint {
+            name: name.to_owned(),
+            kind: kind.name,
+            frames: carried,
+            output_frames: carried,
+            coordinates: coordinates.clone(),
+            first_multiplier,
+            impulses,
+            joint,
+        });
+        Ok(coordinates)
+    }
+
+    /// Whether the tip can only move in the plane of the joint frame's first two axes.
+    fn moves_in_plane(&self, placement: &Placement, base: &Motion) -> bool {
+        let Freedoms::Planar(a, b) = self.model.nodes[placement.nodes[1]].freedoms else { return false };
+        let frame = self.model.nodes[placement.nodes[1]].motion.frame;
+        let mut normal = Vector3::zeros();
+        normal[3 - a - b] = 1.0;
+        base.rotation.apply_inverse(&frame.rotation.apply(&normal)).z.abs() > 1.0 - 1e-12
+    }
+
+    /// Name of a coordinate.
+    pub fn coordinate_name(&self, coordinate: CoordinateId) -> &str {
+        self.model.coordinate_name(coordinate)
+    }
+
+    /// Quantity that a coordinate measures.
+    pub fn coordinate_quantity(&self, coordinate: CoordinateId) -> Quantity {
+        self.model.coordinate_quantity(coordinate)
+    }
+
+    /// Numbers the unknowns and gives the system with its state at `time` [s]: places and twists as
+    /// given, accelerations and multipliers zero.
+    ///
+    /// # Errors
+    /// If nothing can move.
+    pub fn build(mut self, time: f64) -> Result<(System, State), BuildError> {
+        let layout = self.number();
+        if layout.coordinate_count == 0 {
+            return Err(BuildError::Empty);
+        }
+        let inertias: Vec<Inertia> = self
+            .model
+            .nodes
+            .iter()
+            .enumerate()
+            .filter_map(|(node, spec)| {
+                spec.mass.map(|mass| Inertia::new(node, mass, self.model.gravity.clone()))
+            })
+            .collect();
+        for inertia in &inertias {
+            Box::new(inertia.clone()).join(&mut self.batches);
+        }
+        for batch in &mut self.batches {
+            batch.connect(&layout);
+        }
+        let targets = std::mem::take(&mut self.targets);
+        let mut feedback = Feedback::new(std::mem::take(&mut self.graph), targets, &layout)
+            .map_err(|touches| BuildError::SignalTouchesTooMuch(touches.name))?;
+        let joint_rows: Vec<Vec<u32>> =
+            self.constraints.joints.iter().map(|joint| rows_of(joint, &layout)).collect();
+        let mut placed: Vec<Placed> =
+            self.constraints.others().map(|constraint| Placed::new(constraint, &layout)).collect();
+        let of_others = self.constraints.others().zip(&placed);
+        let cliques: Vec<Vec<usize>> = self
+            .batches
+            .iter()
+            .flat_map(|batch| batch.cliques())
+            .chain(feedback.cliques())
+            .chain(joint_rows.iter().map(|rows| free_rows(rows)))
+            .chain(of_others.flat_map(|(constraint, placed)| placed.cliques(constraint, &layout)))
+            .collect();
+        let pattern = Arc::new(Pattern::from_cliques(layout.size(), cliques.iter().map(Vec::as_slice)));
+        for batch in &mut self.batches {
+            batch.locate(&pattern);
+        }
+        feedback.locate(&pattern);
+        let mut joint_places = ScatterMap::new();
+        for rows in &joint_rows {
+            joint_places.push(&pattern, rows, LOCAL);
+        }
+        joint_places.shrink();
+        for (constraint, placed) in self.constraints.others().zip(&mut placed) {
+            placed.locate(constraint, &layout, &pattern);
+        }
+        let structure = Structure::new(pattern, self.groups(&layout))
+            .map_err(|error| BuildError::Structure(error.to_string()))?;
+        let joint_starts = starts(joint_rows.iter().map(Vec::len));
+        let mut held = feedback.graph.held_at_start();
+        for batch in &mut self.batches {
+            let count = batch.hold_sides(held.len());
+            held.resize(held.len() + count, 0.0);
+        }
+        let state = self.initial_state(&layout, time, held);
+        let feedback = DrivenBatch(Arc::new(feedback));
+        if !feedback.is_empty() {
+            self.batches.push(Box::new(feedback.clone()));
+        }
+        let system = System {
+            layout,
+            batches: self.batches,
+            joint_batches: Batches::new(&self.constraints.joints),
+            constraints: self.constraints,
+            placed,
+            coordinate_masses: self.coordinate_masses,
+            free_coordinates: self.free_coordinates,
+            latches: self.latches,
+            structure,
+            joint_places,
+            joint_starts,
+            joint_rows: joint_rows.concat(),
+            inertias,
+            gravity: self.model.gravity,
+            feedback,
+            functions: self.functions,
+        };
+        Ok((system, state))
+    }
+
+    fn number(&mut self) -> Layout {
+        let mut layout = Layout::default();
+        let mut next = 0;
+        for node in &self.model.nodes {
+            layout.node_rows.push(std::array::from_fn(|k| {
+                if node.freedoms.is_free(k) {
+                    next += 1;
+                    next - 1
+                } else {
+                    LOCKED
+                }
+            }));
+            layout.node_names.push(node.name.clone());
+        }
+        for coordinate in &self.model.coordinates {
+            layout.coordinate_rows.push(next);
+            layout.coordinate_names.push(coordinate.name.clone());
+            next += 1;
+        }
+        let of_node = |rows: &[u32; 6]| {
+            let quantity = |k| if k < 3 { Quantity::Length } else { Quantity::Angle };
+            (0..6).filter(|&k| rows[k] != LOCKED).map(quantity).collect::<Vec<_>>()
+        };
+        layout.quantities = layout.node_rows.iter().flat_map(of_node).collect();
+        layout.quantities.extend(self.model.coordinates.iter().map(|coordinate| coordinate.quantity));
+        layout.quantities.append(&mut self.multiplier_quantities);
+        layout.coordinate_count = next as usize;
+        layout.multiplier_count = self.multipliers.len();
+        layout.multiplier_names = std::mem::take(&mut self.multipliers);
+        layout.states = std::mem::take(&mut self.states);
+        layout.impulses = self.impulses.iter().map(|impulse| impulse.coordinate).collect();
+        layout
+    }
+
+    fn initial_state(&self, layout: &Layout, time: f64, held: Vec<f64>) -> State {
+        let sees_multipliers = self.batches.iter().any(|batch| batch.sees_multipliers());
+        let coordinates = self
+            .model
+            .coordinates
+            .iter()
+            .map(|coordinate| CoordinateMotion {
+                value: coordinate.value,
+                rate: coordinate.rate,
+                acceleration: 0.0,
+            })
+            .collect();
+        State {
+            kinematics: Kinematics {
+                time,
+                elapsed: 0.0,
+                nodes: self.model.nodes.iter().map(|node| node.motion).collect(),
+                coordinates,
+                held,
+                multipliers: if sees_multipliers { vec![0.0; layout.multiplier_count] } else { Vec::new() },
+            },
+            multipliers: vec![0.0; layout.multiplier_count],
+            violations: vec![0.0; layout.multiplier_count],
+            algorithmic: vec![0.0; layout.coordinate_count],
+            time_remainder: 0.0,
+            position_remainders: vec![Vector3::zeros(); self.model.nodes.len()],
+            accumulated: Vec::new(),
+        }
+    }
+
+    /// Lets a failure name a function of time, in words such as "`scale` of load `push`".
+    pub fn name_function(&mut self, words: String, function: Function) {
+        self.functions.push((words, function));
+    }
+
+    /// The ground's index, for symmetry with [`Self::add_node`].
+    pub fn ground(&self) -> NodeId {
+        GROUND
+    }
+}
+
+/// Rows of a joint's local unknowns, locked where there are none, and of its multipliers.
+fn rows_of(joint: &AttachedJoint, layout: &Layout) -> Vec<u32> {
+    let mut rows = vec![LOCKED; LOCAL];
+    for (frame, first) in joint.frames.iter().zip([0, TIP]) {
+        rows[first..first + 6].copy_from_slice(&layout.node_rows[frame.node]);
+    }
+    for (row, &coordinate) in rows[OWN..].iter_mut().zip(&joint.coordinates) {
+        *row = layout.coordinate_rows[coordinate];
+    }
+    let first = layout.coordinate_count + joint.first_multiplier;
+    rows.extend((first..first + joint.equations()).map(|row| row as u32));
+    rows
+}
+
+/// Where each of several lengths begins when they are laid in a row, and where the last one ends.
+fn starts(lengths: impl Iterator<Item = usize>) -> Vec<usize> {
+    let ends = lengths.scan(0, |end, length| {
+        *end += length;
+        Some(*end)
+    });
+    std::iter::once(0).chain(ends).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A contribution that was made before other coordinates were added would act on coordinates of others.
+    #[test]
+    #[should_panic(expected = "the model that it was made for")]
+    fn contributions_are_added_to_the_model_they_were_made_for() {
+        let mut builder = Builder::new();
+        let mut early = Contribution::to(builder.model());
+        early.add_state("early".to_owned(), 0.0, 1.0);
+        builder.add_state("late", 0.0, 1.0);
+        builder.add(early);
+    }
+}

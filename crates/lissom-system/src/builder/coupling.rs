@@ -1,0 +1,125 @@
+//! Adds drives of coordinates, and relations between coordinates.
+
+use super::Builder;
+use lissom_mechanics::elements::initial_model::Coordinate;
+use lissom_mechanics::joints::coupling::{Coupling, MOST_COUPLED, Relation, RelationPoint};
+use lissom_mechanics::joints::prescribed::Prescribed;
+use lissom_mechanics::joints::{Build, Drive, JointKind};
+use lissom_mechanics::kinematics::{CoordinateId, Quantity};
+use lissom_mechanics::registry::{ParameterError, Parameters};
+
+impl Builder {
+    /// Prescribes a coordinate, with a drive of a kind that acts on one.
+    ///
+    /// # Errors
+    /// If a parameter is missing, or the drive is for another kind of coordinate.
+    pub fn add_drive(
+        &mut self,
+        name: &str,
+        kind: &JointKind,
+        coordinate: CoordinateId,
+        parameters: &Parameters,
+    ) -> Result<(), ParameterError> {
+        let Build::Coordinate(wanted, build) = kind.build else {
+            return Err(ParameterError::new("kind", "stands between two nodes"));
+        };
+        self.model.check_quantity(coordinate, wanted)?;
+        let prescribed = Prescribed { coordinate, value: build(parameters)? };
+        self.constraints.drives.push(Drive {
+            name: name.to_owned(),
+            prescribed,
+            quantity: wanted,
+            multiplier: self.multipliers.len(),
+        });
+        self.multipliers.push((name.to_owned(), wanted.relative()));
+        self.multiplier_quantities.push(wanted);
+        Ok(())
+    }
+
+    /// Adds coordinates that are not between nodes, of a kind that has such.
+    ///
+    /// # Errors
+    /// If a parameter is missing or makes no sense.
+    pub fn add_free_coordinates(
+        &mut self,
+        name: &str,
+        kind: &JointKind,
+        parameters: &Parameters,
+    ) -> Result<Vec<CoordinateId>, ParameterError> {
+        let Build::Free(build) = kind.build else {
+            return Err(ParameterError::new("kind", "has no coordinates of its own"));
+        };
+        let free = build(parameters)?;
+        let first = self.model.coordinates.len();
+        let numbered = |k: usize| if free.len() > 1 { (k + 1).to_string() } else { String::new() };
+        self.model.coordinates.extend(free.iter().enumerate().map(|(k, own)| Coordinate {
+            name: format!("{name}.{}{}", own.coordinate.name, numbered(k)),
+            value: own.value,
+            rate: own.rate,
+            quantity: own.coordinate.quantity,
+        }));
+        let added = first..self.model.coordinates.len();
+        self.free_coordinates.extend(added.clone());
+        Ok(added.collect())
+    }
+
+    /// Relates coordinates, with a relation of a kind that does; they are those of the relation, in its order.
+    ///
+    /// # Errors
+    /// If a parameter is missing, a coordinate is named twice, or the relation does not depend on its coordinates.
+    pub fn add_coupling(
+        &mut self,
+        name: &str,
+        kind: &JointKind,
+        coordinates: &[CoordinateId],
+        parameters: &Parameters,
+    ) -> Result<(), ParameterError> {
+        let Build::Coupling(_, build) = kind.build else {
+            return Err(ParameterError::new("kind", "relates no coordinates"));
+        };
+        let count = coordinates.len();
+        if count == 0 || count > MOST_COUPLED {
+            let problem =
+                format!("relates {count} coordinates of joints, but must relate 1 to {MOST_COUPLED}");
+            return Err(ParameterError::new("kind", problem));
+        }
+        if (1..count).any(|k| coordinates[..k].contains(&coordinates[k])) {
+            return Err(ParameterError::new("other", "names the same coordinate as `joint`"));
+        }
+        let start: Vec<f64> = coordinates.iter().map(|&k| self.model.coordinates[k].value).collect();
+        let relation = build(parameters, &start)?;
+        let quantities: Vec<Quantity> =
+            coordinates.iter().map(|&k| self.model.coordinates[k].quantity).collect();
+        let quantity =
+            if quantities.contains(&Quantity::Length) { Quantity::Length } else { Quantity::Angle };
+        let largest = largest_slope(&*relation, &start, |k| quantities[k] == quantity);
+        if !(largest.is_finite() && largest > 0.0) {
+            let problem = "does not change with its coordinates as they are at the start: give their values there, or \
+                           another equation";
+            return Err(ParameterError::new(kind.parameters[0].name, problem));
+        }
+        self.constraints.couplings.push(Coupling {
+            name: name.to_owned(),
+            coordinates: coordinates.to_vec(),
+            quantities,
+            quantity,
+            multiplier: self.multipliers.len(),
+            relation,
+            scale: 1.0 / largest,
+        });
+        self.multipliers.push((name.to_owned(), "coupling"));
+        self.multiplier_quantities.push(quantity);
+        Ok(())
+    }
+}
+
+/// The largest derivative of a relation by one of the chosen coordinates at the start.
+fn largest_slope(relation: &dyn Relation, start: &[f64], is_chosen: impl Fn(usize) -> bool) -> f64 {
+    let at: RelationPoint<'_> = (0.0, start);
+    let slope = |k: usize| {
+        let mut unit = vec![0.0; start.len()];
+        unit[k] = 1.0;
+        relation.jet(at, (0.0, &unit))[1].abs()
+    };
+    (0..start.len()).filter(|&k| is_chosen(k)).map(slope).fold(0.0, f64::max)
+}

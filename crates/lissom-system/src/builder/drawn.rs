@@ -1,0 +1,114 @@
+//! Where the frames of a joint are drawn: on base and tip at one place, or apart, for parts that are assembled.
+
+use lissom_motion::{Motion, Rotation, Vector3};
+
+use super::{Builder, Placement};
+use lissom_mechanics::joints::{AnyJoint, Frames};
+use lissom_mechanics::kinematics::CoordinateId;
+use lissom_mechanics::registry::{ParameterError, Parameters};
+
+/// Where the joint frame of the tip lies, on the tip as it is drawn, in inertial axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlaceOnTip {
+    /// The joint's point on the tip [m].
+    pub at: Vector3,
+    /// Direction of the axis on the tip; that on the base where not given.
+    pub axis: Option<Vector3>,
+    /// Direction of the second axis on the tip; turned with the axis where not given.
+    pub second_axis: Option<Vector3>,
+}
+
+impl PlaceOnTip {
+    /// What the base's joint frame `base` is on the tip.
+    pub(super) fn frame(&self, base: &Motion, placement: &Placement) -> Result<Motion, ParameterError> {
+        let Some(axis) = self.axis else { return Ok(Motion::new(base.rotation, self.at)) };
+        let unusable = |why: &str| ParameterError::new("axis_at_tip", why);
+        let (Some(on_base), Some(on_tip)) =
+            (placement.axis.and_then(|axis| axis.try_normalize(0.0)), axis.try_normalize(0.0))
+        else {
+            return Err(unusable("needs `axis`, and a direction that is not zero"));
+        };
+        if on_base.dot(&on_tip) <= 0.0 {
+            return Err(unusable(
+                "stands at 90 degrees or more to `axis`: turn one of them round, or draw the parts nearer",
+            ));
+        }
+        // The shortest turn that leads from one axis to the other.
+        let across = on_base.cross(&on_tip);
+        let turn = match across.try_normalize(0.0) {
+            Some(about) => Rotation::about_axis(&about, across.norm().atan2(on_base.dot(&on_tip))),
+            None => Rotation::identity(),
+        };
+        let mut rotation = turn * base.rotation;
+        if let (Some(second), Some(second_on_base)) = (self.second_axis, placement.second_axis) {
+            let [before, after] = [turn.apply(&second_on_base), second]
+                .map(|direction| (direction - on_tip * on_tip.dot(&direction)).try_normalize(0.0));
+            let Some((before, after)) = before.zip(after) else {
+                return Err(ParameterError::new("second_axis_at_tip", "is parallel to the axis"));
+            };
+            let (cosine, sine) = (before.dot(&after), on_tip.dot(&before.cross(&after)));
+            if cosine <= 0.0 {
+                let why = "stands at 90 degrees or more to `second_axis`: turn one of them round, or draw the parts nearer";
+                return Err(ParameterError::new("second_axis_at_tip", why));
+            }
+            rotation = Rotation::about_axis(&on_tip, sine.atan2(cosine)) * rotation;
+        }
+        Ok(Motion::new(rotation, self.at))
+    }
+}
+
+impl Builder {
+    /// Says that parts are given approximately, where all coordinates of joints are zero: values at the start that joints
+    /// are given afterwards are where an assembly shall bring them, see [`start_values`](Self::start_values).
+    pub fn assemble_later(&mut self) {
+        self.start_values.get_or_insert_with(Vec::new);
+    }
+
+    /// Coordinates that an assembly shall bring to the values that their joints were given [rad, m].
+    pub fn start_values(&self) -> &[(CoordinateId, f64)] {
+        self.start_values.as_deref().unwrap_or_default()
+    }
+}
+
+/// The coordinates of a joint that are given a value at the start, by a parameter of their name.
+pub(super) fn start_values(
+    joint: &dyn AnyJoint,
+    parameters: &Parameters,
+) -> Result<Vec<(usize, f64)>, ParameterError> {
+    let names = joint.coordinates().iter().map(|coordinate| coordinate.name).enumerate();
+    names
+        .filter(|(_, name)| parameters.has(name))
+        .map(|(k, name)| Ok((k, parameters.number(name)?)))
+        .collect()
+}
+
+/// Direction of the joint frames at the start.
+pub(super) fn joint_rotation(frames: Frames, placement: &Placement) -> Result<Rotation, ParameterError> {
+    let missing = |name: &str| ParameterError::new(name, "is missing: it must be a direction");
+    let unusable = |name: &str, why: &str| ParameterError::new(name, why);
+    match frames {
+        Frames::Point | Frames::Span => Ok(Rotation::identity()),
+        Frames::Axis | Frames::SpanWithAxis => {
+            let third = placement.axis.ok_or_else(|| missing("axis"))?;
+            let third = third
+                .try_normalize(0.0)
+                .ok_or_else(|| unusable("axis", "has no direction: all its numbers are zero"))?;
+            // Any first axis across the third; the one nearest to a global axis, for readable results.
+            let smallest = third.iamin();
+            let mut across = Vector3::zeros();
+            across[smallest] = 1.0;
+            let first = (across - third * third.dot(&across)).normalize();
+            Rotation::from_columns(&first, &third.cross(&first), &third)
+                .ok_or_else(|| unusable("axis", "has no usable direction"))
+        }
+        Frames::GivenOrGlobalAxes if placement.axis.is_none() && placement.second_axis.is_none() => {
+            Ok(Rotation::identity())
+        }
+        Frames::TwoAxes | Frames::GivenOrGlobalAxes => {
+            let first = placement.axis.ok_or_else(|| missing("axis"))?;
+            let second = placement.second_axis.ok_or_else(|| missing("second_axis"))?;
+            Rotation::from_axis_and_reference(&first, &second)
+                .ok_or_else(|| unusable("second_axis", "is parallel to `axis`, or one of them is zero"))
+        }
+    }
+}

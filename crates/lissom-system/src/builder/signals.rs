@@ -1,0 +1,75 @@
+//! Adds held values, first-order states, measurements, signals and events, and loads whose size is a signal.
+
+use super::Builder;
+use crate::feedback::Target;
+use lissom_mechanics::elements::Contribution;
+use lissom_mechanics::kinematics::CoordinateId;
+use lissom_mechanics::registry::ParameterError;
+use lissom_mechanics::signals::event::Event;
+use lissom_mechanics::signals::measurement::Measurement;
+use lissom_mechanics::signals::{Argument, HeldId, MOST_ARGUMENTS, MeasurementId, Signal, SignalId};
+
+impl Builder {
+    /// Adds a held value, an input or the last sample of a signal, with its value at the start.
+    pub fn add_held(&mut self, name: &str, start: f64) -> HeldId {
+        self.graph.held.push((name.to_owned(), start));
+        self.graph.held.len() - 1
+    }
+
+    /// Adds a first-order state with its value at the start and its usual magnitude. Its derivative is given with
+    /// [`drive_state`](Self::drive_state).
+    pub fn add_state(&mut self, name: &str, value: f64, magnitude: f64) -> CoordinateId {
+        let mut contribution = Contribution::to(&self.model);
+        let state = contribution.add_state(name.to_owned(), value, magnitude);
+        self.add(contribution);
+        state
+    }
+
+    /// Adds a measurement.
+    pub fn add_measurement<M: Measurement + 'static>(&mut self, measurement: M) -> MeasurementId {
+        self.graph.measurements.push(Box::new(measurement));
+        self.graph.measurements.len() - 1
+    }
+
+    /// Adds a signal, after those that it names.
+    ///
+    /// # Errors
+    /// If it names a later signal, or has too many arguments.
+    pub fn add_signal(&mut self, signal: Signal) -> Result<SignalId, ParameterError> {
+        let next = self.graph.signals.len();
+        let is_there = |argument: &Argument| match *argument {
+            Argument::Held(held) => held < self.graph.held.len(),
+            Argument::Signal(earlier) => earlier < next,
+            Argument::Measured(measurement) => measurement < self.graph.measurements.len(),
+        };
+        if !signal.arguments.iter().all(is_there) {
+            return Err(ParameterError::new(&signal.name, "names what is not there yet"));
+        }
+        if signal.arguments.len() > MOST_ARGUMENTS {
+            let problem = format!("names more than {MOST_ARGUMENTS} quantities");
+            return Err(ParameterError::new(&signal.name, problem));
+        }
+        self.graph.signals.push(signal);
+        Ok(next)
+    }
+
+    /// Makes a signal the derivative of a first-order state.
+    pub fn drive_state(&mut self, state: CoordinateId, signal: SignalId) {
+        self.targets.push((Target::State([state]), signal));
+    }
+
+    /// Adds an event.
+    ///
+    /// # Errors
+    /// If it names signals or held values that are not there.
+    pub fn add_event(&mut self, event: Event) -> Result<(), ParameterError> {
+        let is_there = |&(held, signal): &(HeldId, SignalId)| {
+            held < self.graph.held.len() && signal < self.graph.signals.len()
+        };
+        if event.root >= self.graph.signals.len() || !event.sets.iter().all(is_there) {
+            return Err(ParameterError::new(&event.name, "names what is not there"));
+        }
+        self.graph.events.push(event);
+        Ok(())
+    }
+}

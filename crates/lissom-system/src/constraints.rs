@@ -1,0 +1,388 @@
+//! All constraints of a system behind one interface, and what those that are not evaluated in lanes add to its equations.
+
+use lissom_solver::{Group, Pattern};
+
+use super::{StepPoint, System};
+use lissom_mechanics::evaluation::scatter_map::position_of;
+use lissom_mechanics::evaluation::scratch::with_scratch;
+use lissom_mechanics::evaluation::tangent_assembler::TangentAssembler;
+use lissom_mechanics::joints::Drive;
+use lissom_mechanics::joints::attached::AttachedJoint;
+use lissom_mechanics::joints::constraint::{Constraint, Port, Visit, ports_of};
+use lissom_mechanics::joints::coupling::Coupling;
+use lissom_mechanics::joints::evaluation_point::{Augmentation, Chart, Point};
+use lissom_mechanics::joints::slider::Slider;
+use lissom_mechanics::kinematics::{Kinematics, LOCKED, Layout, NodeId};
+
+/// The constraints, family by family: outputs know what they are of.
+#[derive(Debug, Default)]
+pub struct Constraints {
+    pub joints: Vec<AttachedJoint>,
+    pub drives: Vec<Drive>,
+    pub couplings: Vec<Coupling>,
+    pub sliders: Vec<Slider>,
+}
+
+/// Constraints of one type.
+trait Family {
+    fn count(&self) -> usize;
+    fn member(&self, index: usize) -> &dyn Constraint;
+}
+
+impl<C: Constraint> Family for Vec<C> {
+    fn count(&self) -> usize {
+        self.len()
+    }
+
+    fn member(&self, index: usize) -> &dyn Constraint {
+        &self[index]
+    }
+}
+
+impl Constraints {
+    /// All families. What is not in this list is no constraint: nothing else enumerates them.
+    fn families(&self) -> [&dyn Family; 4] {
+        [&self.joints, &self.drives, &self.couplings, &self.sliders]
+    }
+
+    /// Number of constraints of each family, to compare models by.
+    pub fn counts(&self) -> [usize; 4] {
+        self.families().map(Family::count)
+    }
+
+    /// A constraint by its position among all: joints come first.
+    pub fn get(&self, index: usize) -> &dyn Constraint {
+        let mut own = index;
+        for family in self.families() {
+            if own < family.count() {
+                return family.member(own);
+            }
+            own -= family.count();
+        }
+        unreachable!("there is no constraint {index}")
+    }
+
+    /// All constraints.
+    pub fn iter(&self) -> impl Iterator<Item = &dyn Constraint> {
+        let all = self.families().into_iter();
+        all.flat_map(|family| (0..family.count()).map(move |index| family.member(index)))
+    }
+
+    /// Those that are not evaluated in lanes.
+    pub(crate) fn others(&self) -> impl Iterator<Item = &dyn Constraint> {
+        let all = self.families().into_iter().skip(1);
+        all.flat_map(|family| (0..family.count()).map(move |index| family.member(index)))
+    }
+}
+
+/// Rows of a port's unknowns, [`LOCKED`] where there are none.
+pub fn rows_of_port(port: Port, layout: &Layout) -> impl Iterator<Item = u32> {
+    let rows = match port {
+        Port::Node(node) => *layout.rows_of_node(node),
+        Port::NoNode => [LOCKED; 6],
+        Port::Coordinate(coordinate) => [layout.coordinate_rows[coordinate]; 6],
+    };
+    rows.into_iter().take(port.width())
+}
+
+/// The group of a constraint's multipliers, behind those of all that it acts on.
+pub(crate) fn group_of(
+    constraint: &dyn Constraint,
+    layout: &Layout,
+    (of_node, first_coordinate): (&[Option<usize>], usize),
+) -> Group {
+    let first = layout.coordinate_count + constraint.first_multiplier();
+    let host = |port| match port {
+        Port::Node(node) => of_node[node],
+        Port::NoNode => None,
+        Port::Coordinate(coordinate) => Some(first_coordinate + coordinate),
+    };
+    let mut hosts: Vec<usize> = ports_of(constraint).into_iter().filter_map(host).collect();
+    hosts.sort_unstable();
+    hosts.dedup();
+    Group { unknowns: (first..first + constraint.equations()).collect(), hosts }
+}
+
+/// Where a constraint acts in the system: by arrangement.
+#[derive(Debug)]
+pub struct Placed {
+    arrangements: Vec<Arrangement>,
+}
+
+#[derive(Debug, Default)]
+struct Arrangement {
+    /// Of each local unknown, [`LOCKED`] where there is none.
+    rows: Vec<u32>,
+    /// First local unknown of each node.
+    nodes: Vec<(usize, NodeId)>,
+    /// Local row, local column and position in the tangent's pattern of every entry that is there; equations follow the
+    /// local unknowns, and what two of them share stays zero.
+    entries: Vec<(u32, u32, u32)>,
+}
+
+impl Placed {
+    /// Numbers the local unknowns of a constraint.
+    pub(crate) fn new(constraint: &dyn Constraint, layout: &Layout) -> Self {
+        let of = |arrangement: usize| {
+            let mut own = Arrangement::default();
+            for port in (0..constraint.ports()).map(|index| constraint.port(arrangement, index)) {
+                if let Port::Node(node) = port {
+                    own.nodes.push((own.rows.len(), node));
+                }
+                own.rows.extend(rows_of_port(port, layout));
+            }
+            own
+        };
+        Self { arrangements: (0..constraint.arrangements()).map(of).collect() }
+    }
+
+    /// Local unknown or equation, and row, of all that are there, by arrangement.
+    fn unknowns(&self, constraint: &dyn Constraint, layout: &Layout) -> Vec<Vec<(usize, usize)>> {
+        let first = layout.coordinate_count + constraint.first_multiplier();
+        let of = |own: &Arrangement| {
+            let free = own.rows.iter().enumerate().filter(|&(_, &row)| row != LOCKED);
+            let equations = (0..constraint.equations()).map(|e| (own.rows.len() + e, first + e));
+            free.map(|(local, &row)| (local, row as usize)).chain(equations).collect()
+        };
+        self.arrangements.iter().map(of).collect()
+    }
+
+    /// What the constraint fills of the tangent, by arrangement.
+    pub(crate) fn cliques(&self, constraint: &dyn Constraint, layout: &Layout) -> Vec<Vec<usize>> {
+        let rows = |unknowns: Vec<(usize, usize)>| {
+            let mut rows: Vec<usize> = unknowns.into_iter().map(|(_, row)| row).collect();
+            rows.sort_unstable();
+            rows.dedup();
+            rows
+        };
+        self.unknowns(constraint, layout).into_iter().map(rows).collect()
+    }
+
+    /// Finds where the local matrix lies in the tangent's pattern.
+    pub(crate) fn locate(&mut self, constraint: &dyn Constraint, layout: &Layout, pattern: &Pattern) {
+        let unknowns = self.unknowns(constraint, layout);
+        for (own, unknowns) in self.arrangements.iter_mut().zip(unknowns) {
+            let size = own.rows.len();
+            let pairs = unknowns.iter().flat_map(|column| unknowns.iter().map(move |row| (*row, *column)));
+            let filled = pairs.filter(|((i, _), (j, _))| *i < size || *j < size);
+            let entry = |((i, row), (j, column)): ((usize, usize), (usize, usize))| {
+                (i as u32, j as u32, position_of(pattern, row, column) as u32)
+            };
+            own.entries = filled.map(entry).collect();
+        }
+    }
+}
+
+impl Arrangement {
+    /// Adds Bᵀ μ to the rows that are free.
+    fn add_forces(&self, gradient: &[f64], mu: &[f64], out: &mut [f64]) {
+        for (row, mu) in gradient.chunks_exact(self.rows.len()).zip(mu) {
+            for (by, &row) in row.iter().zip(&self.rows).filter(|&(_, &row)| row != LOCKED) {
+                out[row as usize] += by * mu;
+            }
+        }
+    }
+}
+
+/// μ = λ + w c by equation.
+fn multiplier(
+    constraint: &dyn Constraint,
+    augmentation: &Augmentation,
+    (equation, multiplier, violation): (usize, f64, f64),
+) -> f64 {
+    multiplier + augmentation.weight * augmentation.relative(constraint.quantity(equation)) * violation
+}
+
+/// Violations at `point`: those at the start of the step and their change.
+fn violations(constraint: &dyn Constraint, point: &Point<'_>, out: &mut [f64]) {
+    constraint.violation_change(&point.increments, (point.at.time, point.at.elapsed), out);
+    for (violation, before) in out.iter_mut().zip(&point.violations[constraint.first_multiplier()..]) {
+        *violation += before;
+    }
+}
+
+impl System {
+    /// All constraints between positions: joints first, then drives, relations and sliders.
+    pub fn constraints(&self) -> impl Iterator<Item = &dyn Constraint> {
+        self.constraints.iter()
+    }
+
+    /// A constraint by its position among all.
+    pub fn constraint(&self, index: usize) -> &dyn Constraint {
+        self.constraints.get(index)
+    }
+
+    /// Constraints that are not evaluated in lanes, each with where it acts.
+    fn others(&self) -> impl Iterator<Item = (&dyn Constraint, &Placed)> {
+        self.constraints.others().zip(&self.placed)
+    }
+
+    /// Adds their forces and violations to a residual.
+    pub(crate) fn add_others(&self, point: &Point<'_>, out: &mut [f64]) {
+        // Most models have none, and this is asked in every iteration.
+        if self.placed.is_empty() {
+            return;
+        }
+        for (constraint, placed) in self.others() {
+            let arrangement = &placed.arrangements[constraint.arrangement(point.at)];
+            let (count, first) = (constraint.equations(), constraint.first_multiplier());
+            with_scratch(count * (1 + arrangement.rows.len()), |scratch| {
+                let (mu, gradient) = scratch.split_at_mut(count);
+                violations(constraint, point, mu);
+                constraint.gradient(point.at, gradient);
+                let own = &mut out[self.layout.coordinate_count + first..][..count];
+                own.copy_from_slice(mu);
+                for (e, value) in mu.iter_mut().enumerate() {
+                    *value = multiplier(
+                        constraint,
+                        &point.augmentation,
+                        (e, point.multipliers[first + e], *value),
+                    );
+                }
+                arrangement.add_forces(gradient, mu, out);
+            });
+        }
+    }
+
+    /// Their violations at `point`, by multiplier.
+    pub(crate) fn violations_of_others(&self, point: &Point<'_>, out: &mut [f64]) {
+        if self.placed.is_empty() {
+            return;
+        }
+        for constraint in self.constraints.others() {
+            let first = constraint.first_multiplier();
+            violations(constraint, point, &mut out[first..first + constraint.equations()]);
+        }
+    }
+
+    /// Hands their derivatives to `out`.
+    pub(crate) fn linearize_others(
+        &self,
+        point: &Point<'_>,
+        chart: Chart<'_>,
+        out: &mut TangentAssembler<'_>,
+    ) {
+        if self.placed.is_empty() {
+            return;
+        }
+        for (constraint, placed) in self.others() {
+            let arrangement = &placed.arrangements[constraint.arrangement(point.at)];
+            let (count, first) = (constraint.equations(), constraint.first_multiplier());
+            let size = arrangement.rows.len();
+            with_scratch(size * (size + 2 * count), |scratch| {
+                let (stiffness, gradients) = scratch.split_at_mut(size * size);
+                let (plain, charted) = gradients.split_at_mut(count * size);
+                constraint.gradient(point.at, plain);
+                // The curvature of the augmented term, w c ∂²c/∂q², is left out, see `AttachedJoint::linearize_for`.
+                constraint.curvature(point.at, &point.multipliers[first..first + count], stiffness);
+                charted.copy_from_slice(plain);
+                if let Chart::Increments(tangents) = chart {
+                    for &(column, node) in &arrangement.nodes {
+                        for row in stiffness.chunks_exact_mut(size).chain(charted.chunks_exact_mut(size)) {
+                            tangents[node].through(&mut row[column..column + 6]);
+                        }
+                    }
+                }
+                for &(i, j, position) in &arrangement.entries {
+                    let (i, j) = (i as usize, j as usize);
+                    let parts = match (i.checked_sub(size), j.checked_sub(size)) {
+                        (None, None) => {
+                            let square = |e: usize| {
+                                let weight = point.augmentation.relative(constraint.quantity(e));
+                                weight * plain[e * size + i] * charted[e * size + j]
+                            };
+                            [stiffness[i * size + j], (0..count).map(square).sum(), 0.0]
+                        }
+                        (None, Some(e)) => [0.0, 0.0, plain[e * size + i]],
+                        (Some(e), None) => [0.0, 0.0, charted[e * size + j]],
+                        (Some(_), Some(_)) => continue,
+                    };
+                    out.add_constraint_entry(position as usize, parts);
+                }
+            });
+        }
+    }
+
+    /// Adds their forces and integrated violations to the residuals at the stages of `point`.
+    pub(crate) fn add_stages_of_others(&self, point: &StepPoint<'_>, out: &mut [Vec<f64>]) {
+        for (constraint, placed) in self.others() {
+            let (count, first, size) =
+                (constraint.equations(), constraint.first_multiplier(), constraint.size());
+            with_scratch(count * (3 + 2 * size), |scratch| {
+                let (changes, rest) = scratch.split_at_mut(count);
+                let (violations, rows) = rest.split_at_mut(2 * count);
+                let (end, before) =
+                    (&point.increments[point.increments.len() - 1], &point.violations[first..]);
+                let mut visit = Visit {
+                    rows: rows.split_at_mut(count * size).into(),
+                    violations: violations.split_at_mut(count).into(),
+                    changes,
+                };
+                constraint.visit(&point.step, end, before, &mut visit);
+                for (stage, at) in point.step.stages.iter().enumerate() {
+                    let (rows, mu) = (&*visit.rows[stage], &mut *visit.violations[stage]);
+                    let own = &mut out[stage][self.layout.coordinate_count + first..][..count];
+                    own.copy_from_slice(mu);
+                    for (e, value) in mu.iter_mut().enumerate() {
+                        let given = point.multipliers[stage][first + e];
+                        *value = multiplier(constraint, &point.augmentation, (e, given, *value));
+                    }
+                    placed.arrangements[constraint.arrangement(at)].add_forces(rows, mu, &mut out[stage]);
+                }
+            });
+        }
+    }
+
+    /// Adds the forces of a constraint for its multipliers, and sets its violations, evaluated outright.
+    pub(crate) fn add_outright(&self, index: usize, at: &Kinematics, multipliers: &[f64], out: &mut [f64]) {
+        let constraint = self.constraints.get(index);
+        let (count, first, size) = (constraint.equations(), constraint.first_multiplier(), constraint.size());
+        with_scratch(count * size, |gradient| {
+            constraint.gradient(at, gradient);
+            let arrangement = constraint.arrangement(at);
+            let ports = (0..constraint.ports()).map(|index| constraint.port(arrangement, index));
+            for (local, row) in ports.flat_map(|port| rows_of_port(port, &self.layout)).enumerate() {
+                if row != LOCKED {
+                    let of = |e: usize| gradient[e * size + local] * multipliers[first + e];
+                    out[row as usize] += (0..count).map(of).sum::<f64>();
+                }
+            }
+        });
+        constraint.violation(at, &mut out[self.layout.coordinate_count + first..][..count]);
+    }
+
+    /// Violations of all constraints, evaluated outright from absolute positions: by multiplier.
+    pub fn violations(&self, at: &Kinematics, out: &mut [f64]) {
+        self.each_equation(out, |constraint, own| constraint.violation(at, own));
+    }
+
+    /// Ḃ v + d/dt ∂c/∂t by multiplier: what the constraints' second time derivative holds besides B v̇.
+    pub fn constraint_accelerations(&self, at: &Kinematics, out: &mut [f64]) {
+        self.each_equation(out, |constraint, own| constraint.acceleration(at, own));
+    }
+
+    /// ∂c/∂t by multiplier.
+    pub fn constraint_velocities(&self, at: &Kinematics, out: &mut [f64]) {
+        out.fill(0.0);
+        self.each_equation(out, |constraint, own| constraint.time_derivative(at, own));
+    }
+
+    fn each_equation(&self, out: &mut [f64], of: impl Fn(&dyn Constraint, &mut [f64])) {
+        for family in self.constraints.families() {
+            for constraint in (0..family.count()).map(|index| family.member(index)) {
+                let first = constraint.first_multiplier();
+                of(constraint, &mut out[first..first + constraint.equations()]);
+            }
+        }
+    }
+
+    /// Whether a constraint depends on the time itself at a configuration.
+    pub fn has_driven_constraint(&self, at: &Kinematics) -> bool {
+        !self.placed.is_empty() && self.constraints.others().any(|constraint| constraint.depends_on_time(at))
+    }
+
+    /// Whether a constraint may depend on the time itself, at one instant or another.
+    pub fn may_have_driven_constraint(&self) -> bool {
+        self.constraints.others().any(Constraint::may_depend_on_time)
+    }
+}

@@ -1,0 +1,435 @@
+//! What signals act on: loads whose size is a signal, and first-order states whose derivative is one. Laid beside the
+//! batches of elements, so that a system without signals pays nothing.
+//!
+//! Legend: e forces of the load of size one, s its signal, x a state.
+//!
+//! ```text
+//! load:   f = s e,      ∂f/∂q = s ∂e/∂q + e ∂s/∂q            state:   x' - s = 0
+//! ```
+
+use std::any::Any;
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use lissom_solver::Pattern;
+
+use super::System;
+use lissom_mechanics::elements::{Element, Energy, LinearLimit, LinearRange, Tangents, USUAL_UNKNOWNS};
+use lissom_mechanics::evaluation::batch::{AnyBatch, Changed, Mass, Owner, scatter, through};
+use lissom_mechanics::evaluation::scatter_map::{ScatterMap, free_rows};
+use lissom_mechanics::evaluation::tangent_assembler::{Slot, TangentAssembler};
+use lissom_mechanics::evaluation::threads::Threads;
+use lissom_mechanics::evaluation::work::{power, work};
+use lissom_mechanics::joints::evaluation_point::Chart;
+use lissom_mechanics::kinematics::step_stages::StepStages;
+use lissom_mechanics::kinematics::{CoordinateId, Kinematics, Layout, NodeId};
+use lissom_mechanics::signals::measurement::Measurement;
+use lissom_mechanics::signals::{Argument, Graph, HeldId, SignalId};
+
+/// Most local unknowns of a load or state with all that its signal touches.
+const MOST_LOCAL: usize = 255;
+
+/// What a signal acts on.
+pub enum Target {
+    /// A load of size one.
+    Load(Box<dyn Element>),
+    /// A first-order state.
+    State([CoordinateId; 1]),
+}
+
+impl Target {
+    fn nodes(&self) -> &[NodeId] {
+        match self {
+            Self::Load(element) => element.nodes(),
+            Self::State(_) => &[],
+        }
+    }
+
+    fn coordinates(&self) -> &[CoordinateId] {
+        match self {
+            Self::Load(element) => element.coordinates(),
+            Self::State(coordinate) => coordinate,
+        }
+    }
+}
+
+/// A load or state, and the unknowns it and its signal touch: its own first, as its element counts them, then others.
+struct Driven {
+    target: Target,
+    signal: SignalId,
+    /// Number of its own unknowns.
+    own: usize,
+    /// First local unknown of each node and coordinate.
+    nodes: Vec<(NodeId, usize)>,
+    coordinates: Vec<(CoordinateId, usize)>,
+    rows: Vec<u32>,
+}
+
+impl Driven {
+    fn new(target: Target, signal: SignalId, graph: &Graph, layout: &Layout) -> Option<Self> {
+        let (mut nodes, mut coordinates, mut rows) = (Vec::new(), Vec::new(), Vec::new());
+        for &node in target.nodes() {
+            nodes.push((node, rows.len()));
+            rows.extend_from_slice(layout.rows_of_node(node));
+        }
+        for &coordinate in target.coordinates() {
+            coordinates.push((coordinate, rows.len()));
+            rows.push(layout.row_of_coordinate(coordinate) as u32);
+        }
+        let own = rows.len();
+        let measured: BTreeSet<usize> = graph.measurements_of(signal);
+        for measurement in measured.into_iter().map(|index| &graph.measurements[index]) {
+            for &node in measurement.nodes() {
+                if !nodes.iter().any(|&(known, _)| known == node) {
+                    nodes.push((node, rows.len()));
+                    rows.extend_from_slice(layout.rows_of_node(node));
+                }
+            }
+            for &coordinate in measurement.coordinates() {
+                if !coordinates.iter().any(|&(known, _)| known == coordinate) {
+                    coordinates.push((coordinate, rows.len()));
+                    rows.push(layout.row_of_coordinate(coordinate) as u32);
+                }
+            }
+        }
+        (rows.len() <= MOST_LOCAL).then_some(Self { target, signal, own, nodes, coordinates, rows })
+    }
+
+    /// Adds `factor` times a measurement's gradient to row `row` of the local matrices.
+    fn add_gradient(
+        &self,
+        measurement: &dyn Measurement,
+        at: &Kinematics,
+        factors: &[f64],
+        out: &mut Tangents,
+    ) {
+        let gradient = measurement.gradient(at);
+        let size = out.size();
+        let mut from = 0;
+        let mut add = |column: usize, count: usize| {
+            for (row, factor) in factors.iter().enumerate().filter(|&(_, &factor)| factor != 0.0) {
+                for k in 0..count {
+                    let entry = row * size + column + k;
+                    out.stiffness[entry] += factor * gradient.by_place[from + k];
+                    out.damping[entry] += factor * gradient.by_rate[from + k];
+                }
+            }
+            from += count;
+        };
+        for node in measurement.nodes() {
+            if let Some(&(_, column)) = self.nodes.iter().find(|(known, _)| known == node) {
+                add(column, 6);
+            }
+        }
+        for coordinate in measurement.coordinates() {
+            if let Some(&(_, column)) = self.coordinates.iter().find(|(known, _)| known == coordinate) {
+                add(column, 1);
+            }
+        }
+    }
+
+    /// Adds its derivatives; `values` are those of all signals.
+    fn linearize(&self, graph: &Graph, at: &Kinematics, values: &[f64], out: &mut Tangents) {
+        let mut factors = [0.0; USUAL_UNKNOWNS];
+        match &self.target {
+            Target::Load(element) => {
+                out.clear(self.own);
+                element.linearize(at, out);
+                out.multiply(values[self.signal]);
+                out.widen(self.rows.len());
+                element.forces(at, &mut factors[..self.own]);
+            }
+            Target::State(_) => {
+                out.clear(self.rows.len());
+                out.damping[0] = 1.0;
+                factors[0] = -1.0;
+            }
+        }
+        graph.differentiate(self.signal, at, values, |measurement, derivative| {
+            let scaled = factors.map(|factor| derivative * factor);
+            self.add_gradient(&*graph.measurements[measurement], at, &scaled[..self.own], out);
+        });
+    }
+}
+
+/// The graph of signals and what they act on.
+#[derive(Default)]
+pub struct Feedback {
+    /// The signals.
+    pub graph: Graph,
+    driven: Vec<Driven>,
+    places: ScatterMap,
+}
+
+/// Too many unknowns are touched by one signal, of this name.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct TouchesTooMuch {
+    pub name: String,
+}
+
+impl Feedback {
+    /// Signals with what they drive.
+    ///
+    /// # Errors
+    /// If a signal depends on more unknowns than a local matrix has.
+    pub fn new(
+        graph: Graph,
+        targets: Vec<(Target, SignalId)>,
+        layout: &Layout,
+    ) -> Result<Self, TouchesTooMuch> {
+        let driven = targets.into_iter().map(|(target, signal)| {
+            let touches = || TouchesTooMuch { name: graph.signals[signal].name.clone() };
+            Driven::new(target, signal, &graph, layout).ok_or_else(touches)
+        });
+        let driven = driven.collect::<Result<_, _>>()?;
+        Ok(Self { graph, driven, places: ScatterMap::new() })
+    }
+
+    /// Whether signals drive nothing.
+    pub fn is_empty(&self) -> bool {
+        self.driven.is_empty()
+    }
+
+    /// Whether any signal that acts on something depends on the motion or a state, between samples or at them, or
+    /// there is a state.
+    pub fn depends_on_motion(&self) -> bool {
+        !self.is_empty() && !self.graph.measurements.is_empty()
+    }
+
+    /// Own rows of each load or state with those of each node and coordinate it is touched by: what its tangent fills.
+    pub fn cliques(&self) -> Vec<Vec<usize>> {
+        let mut cliques = Vec::new();
+        for driven in &self.driven {
+            let own = free_rows(&driven.rows[..driven.own]);
+            cliques.push(own.clone());
+            let nodes = driven.nodes.iter().map(|&(_, column)| (column, 6));
+            for (column, count) in nodes.chain(driven.coordinates.iter().map(|&(_, column)| (column, 1))) {
+                let mut clique = own.clone();
+                clique.extend(free_rows(&driven.rows[column..column + count]));
+                clique.sort_unstable();
+                clique.dedup();
+                cliques.push(clique);
+            }
+        }
+        cliques
+    }
+
+    /// Looks up the positions of local matrices in the tangent's pattern.
+    pub fn locate(&mut self, pattern: &Pattern) {
+        self.places = ScatterMap::new();
+        for driven in &self.driven {
+            self.places.push_rows(pattern, &driven.rows, driven.own);
+        }
+        self.places.shrink();
+    }
+
+    fn add_forces(&self, at: &Kinematics, out: &mut [f64]) {
+        self.graph.evaluate(at, |values| {
+            for driven in &self.driven {
+                let mut local = [0.0; USUAL_UNKNOWNS];
+                match &driven.target {
+                    Target::Load(element) => {
+                        element.forces(at, &mut local[..driven.own]);
+                        local = local.map(|force| values[driven.signal] * force);
+                    }
+                    Target::State([coordinate]) => {
+                        local[0] = at.coordinates[*coordinate].rate - values[driven.signal];
+                    }
+                }
+                scatter(&driven.rows[..driven.own], &local, out);
+            }
+        });
+    }
+
+    /// Adds the derivative of the residual by a held value.
+    fn add_input(&self, held: HeldId, at: &Kinematics, out: &mut [f64]) {
+        self.graph.evaluate(at, |values| {
+            for driven in &self.driven {
+                let mut factor = 0.0;
+                self.graph.differentiate_by_all(driven.signal, at, values, |argument, derivative| {
+                    if argument == Argument::Held(held) {
+                        factor += derivative;
+                    }
+                });
+                if factor == 0.0 {
+                    continue;
+                }
+                let mut local = [0.0; USUAL_UNKNOWNS];
+                match &driven.target {
+                    Target::Load(element) => {
+                        element.forces(at, &mut local[..driven.own]);
+                        local = local.map(|force| factor * force);
+                    }
+                    Target::State(_) => local[0] = -factor,
+                }
+                scatter(&driven.rows[..driven.own], &local, out);
+            }
+        });
+    }
+
+    fn assemble_tangent(
+        &self,
+        at: &Kinematics,
+        chart: Chart<'_>,
+        scratch: &mut Tangents,
+        out: &mut TangentAssembler<'_>,
+    ) {
+        self.graph.evaluate(at, |values| {
+            for (index, driven) in self.driven.iter().enumerate() {
+                driven.linearize(&self.graph, at, values, scratch);
+                through(chart, driven.nodes.iter().copied(), scratch);
+                out.add_element(Slot { rows: &driven.rows, segments: self.places.of(index) }, scratch);
+            }
+        });
+    }
+}
+
+impl System {
+    /// Derivative of the equations of motion and of states by a held value, by row: what a unit of an input adds to the
+    /// left-hand sides.
+    pub fn input_derivative(&self, held: HeldId, at: &Kinematics) -> Vec<f64> {
+        let mut out = vec![0.0; self.layout.size()];
+        self.feedback.add_input(held, at, &mut out);
+        out
+    }
+}
+
+/// Loads and states that signals drive, as a batch among those of elements.
+#[derive(Clone)]
+pub struct DrivenBatch(pub Arc<Feedback>);
+
+impl std::ops::Deref for DrivenBatch {
+    type Target = Feedback;
+
+    fn deref(&self) -> &Feedback {
+        &self.0
+    }
+}
+
+impl AnyBatch for DrivenBatch {
+    fn count(&self) -> usize {
+        0
+    }
+
+    fn sees_multipliers(&self) -> bool {
+        false
+    }
+
+    fn connect(&mut self, _: &Layout) {}
+
+    fn locate(&mut self, _: &Pattern) {}
+
+    fn cliques(&self) -> Vec<Vec<usize>> {
+        Feedback::cliques(self)
+    }
+
+    fn starts(&self) -> &[usize] {
+        &[0]
+    }
+
+    fn forces(&self, at: &Kinematics, out: &mut [f64]) {
+        self.add_forces(at, out);
+    }
+
+    fn forces_side_by_side(&self, at: &Kinematics, _: &mut Threads, out: &mut [f64]) {
+        self.add_forces(at, out);
+    }
+
+    fn linearize(
+        &self,
+        (at, _): (&Kinematics, &Kinematics),
+        chart: Chart<'_>,
+        scratch: &mut Tangents,
+        out: &mut TangentAssembler<'_>,
+    ) {
+        self.assemble_tangent(at, chart, scratch, out);
+    }
+
+    fn stage_forces(&self, step: &StepStages<'_>, out: &mut [Vec<f64>]) {
+        for (at, out) in step.stages.iter().zip(out) {
+            self.add_forces(at, out);
+        }
+    }
+
+    fn energy(&self, _: &Kinematics) -> Energy {
+        Energy::default()
+    }
+
+    fn strain_energies(&self, _: &Kinematics, _: &mut Vec<(Owner, f64)>) {}
+
+    fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
+        (0..self.driven.len()).map(|item| AnyBatch::work(self, item, from, to)).sum()
+    }
+
+    fn work(&self, item: usize, from: &Kinematics, to: &Kinematics) -> f64 {
+        let size = |driven: &Driven, at: &Kinematics| self.graph.evaluate(at, |values| values[driven.signal]);
+        match self.driven.get(item) {
+            Some(driven @ Driven { target: Target::Load(element), .. }) => {
+                work(&**element, (from, to), [size(driven, from), size(driven, to)])
+            }
+            _ => 0.0,
+        }
+    }
+
+    fn power(&self, item: usize, at: &Kinematics) -> f64 {
+        let Some(driven) = self.driven.get(item) else { return 0.0 };
+        match &driven.target {
+            Target::Load(element) => {
+                self.graph.evaluate(at, |values| values[driven.signal]) * power(&**element, at)
+            }
+            Target::State(_) => 0.0,
+        }
+    }
+
+    fn spring_motion(&self, _: usize, _: &Kinematics) -> Option<[f64; 3]> {
+        None
+    }
+
+    fn kinks(&self) -> Vec<f64> {
+        self.graph.kinks_of(self.driven.iter().map(|driven| driven.signal))
+    }
+
+    fn hold_sides(&mut self, _: usize) -> usize {
+        0
+    }
+
+    fn switches(&self, _: &Kinematics, _: &mut Vec<f64>) {
+        // Those of signals are watched with their sides.
+    }
+
+    fn name_switches(&self, _: &Layout, _: &mut Vec<String>) {}
+
+    fn deformation_rate(&self, _: &Kinematics) -> Option<(f64, NodeId)> {
+        None
+    }
+
+    fn linear_range(&self, _: LinearLimit, _: &Kinematics) -> Option<LinearRange> {
+        None
+    }
+
+    fn without_positive_mass(&self, _: &Kinematics) -> Option<NodeId> {
+        None
+    }
+
+    fn masses(&self, _: &Kinematics, _: &mut dyn FnMut(&Mass<'_>)) {}
+
+    fn least_aligned(&self, _: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+        None
+    }
+
+    fn changed(&self, _: &[(&dyn AnyBatch, f64)], _: &Layout) -> Option<Changed> {
+        None
+    }
+
+    fn forces_of(&self, _: &[usize], at: &Kinematics, out: &mut [f64]) {
+        self.add_forces(at, out);
+    }
+
+    fn as_any(&self) -> &dyn Any {
+        self
+    }
+
+    fn as_any_mut(&mut self) -> &mut dyn Any {
+        self
+    }
+}

@@ -1,0 +1,311 @@
+//! What is simulated: an immutable system, and the state that changes.
+
+mod assembly;
+mod builder;
+mod constraints;
+mod feedback;
+mod reach;
+mod state;
+mod step_stages;
+
+use std::sync::Arc;
+
+pub use builder::{BuildError, Builder, PlaceOnTip, Placement};
+pub use lissom_mechanics::evaluation::batch::ElementId;
+pub use lissom_mechanics::evaluation::batch::{Mass, Owner};
+pub use lissom_mechanics::evaluation::threads::Threads;
+pub use lissom_mechanics::evaluation::{Blend, Linearization, Scratch, Sum, TangentAssembler, WORTH_WHILE};
+pub use lissom_mechanics::joints::Drive;
+pub use reach::Reach;
+pub use state::State;
+pub use step_stages::StepPoint;
+
+use lissom_motion::Vector3;
+use lissom_solver::Structure;
+
+pub use constraints::rows_of_port;
+use constraints::{Constraints, Placed};
+pub use feedback::{DrivenBatch, Feedback};
+use lissom_mechanics::elements::contribution::CoordinateMass;
+use lissom_mechanics::elements::inertia::{Gravity, Inertia};
+use lissom_mechanics::elements::{Energy, LinearLimit, LinearRange};
+use lissom_mechanics::evaluation::batch::AnyBatch;
+use lissom_mechanics::evaluation::scatter_map::ScatterMap;
+use lissom_mechanics::joints::Constraint;
+use lissom_mechanics::joints::attached::AttachedJoint;
+use lissom_mechanics::joints::blocks::{Batches, JointBatch};
+use lissom_mechanics::joints::coupling::Coupling;
+use lissom_mechanics::joints::slider::Slider;
+use lissom_mechanics::joints::starts::JointStarts;
+use lissom_mechanics::kinematics::{self, CoordinateId, HeldId, Kinematics, Layout, NodeId};
+use lissom_mechanics::registry::Function;
+use lissom_mechanics::signals::Graph;
+
+/// Nodes, elements and joints with their numbering. Does not change during a simulation and knows
+/// neither time nor state.
+pub struct System {
+    /// Numbering of the unknowns.
+    pub layout: Layout,
+    /// Elements by kind, then what signals drive.
+    pub batches: Vec<Box<dyn AnyBatch>>,
+    /// Joints, drives, couplings and sliders.
+    pub constraints: Constraints,
+    /// The joints by kind, in lanes.
+    pub joint_batches: Batches,
+    /// Where constraints act that are not evaluated in lanes.
+    pub placed: Vec<Placed>,
+    /// Mass matrices of coordinates that elements contain.
+    pub coordinate_masses: Vec<CoordinateMass>,
+    /// Coordinates that no joint between nodes has.
+    pub free_coordinates: Vec<CoordinateId>,
+    /// Inputs that engage latches.
+    pub latches: Vec<HeldId>,
+    /// Functions of time, in words, by which loads, springs and drives are given.
+    pub functions: Vec<(String, Function)>,
+    /// Pattern of the tangent, and groups of unknowns that are eliminated together.
+    pub structure: Structure,
+    /// Where every joint's local matrix lies in the pattern.
+    pub joint_places: ScatterMap,
+    /// Rows of every joint's local unknowns and equations, all joints in a row, and where each joint's begin.
+    pub joint_rows: Vec<u32>,
+    /// Where each joint's rows begin.
+    pub joint_starts: Vec<usize>,
+    /// Inertia of bodies and lumped masses of beams.
+    pub inertias: Vec<Inertia>,
+    /// Gravity.
+    pub gravity: Gravity,
+    /// Signals and what they act on.
+    pub feedback: DrivenBatch,
+}
+
+impl System {
+    /// Numbering of the unknowns.
+    #[inline]
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Sparsity and elimination groups of the tangent.
+    pub fn structure(&self) -> &Structure {
+        &self.structure
+    }
+
+    /// A shared handle on the tangent's pattern.
+    pub fn pattern(&self) -> Arc<lissom_solver::Pattern> {
+        Arc::clone(&self.structure.pattern)
+    }
+
+    /// All joints between nodes.
+    pub fn joints(&self) -> &[AttachedJoint] {
+        &self.constraints.joints
+    }
+
+    /// Takes note of what joints see at the start of a step.
+    #[inline]
+    pub fn begin_step(&self, start: &Kinematics, out: &mut JointStarts) {
+        self.joint_batches.begin(start, out);
+    }
+
+    /// All prescribed coordinates.
+    pub fn drives(&self) -> &[Drive] {
+        &self.constraints.drives
+    }
+
+    /// All relations between coordinates.
+    pub fn couplings(&self) -> &[Coupling] {
+        &self.constraints.couplings
+    }
+
+    /// All sliders along beams.
+    pub fn sliders(&self) -> &[Slider] {
+        &self.constraints.sliders
+    }
+
+    /// Inertia of every node that has mass.
+    pub fn inertias(&self) -> &[Inertia] {
+        &self.inertias
+    }
+
+    /// The signals, and their inputs.
+    pub fn signals(&self) -> &Graph {
+        &self.feedback.graph
+    }
+
+    /// Whether forces of elements depend on multipliers.
+    pub fn sees_multipliers(&self) -> bool {
+        self.batches.iter().any(|batch| batch.sees_multipliers())
+    }
+
+    /// Whether forces depend on the motion through signals, or there are states.
+    pub fn has_feedback(&self) -> bool {
+        self.feedback.depends_on_motion() || self.layout.state_count() > 0
+    }
+
+    /// Gravity in full [m/s²].
+    pub fn gravity(&self) -> &Vector3 {
+        &self.gravity.acceleration
+    }
+
+    /// The part of gravity that acts at `time` [s].
+    pub fn gravity_factor(&self, time: f64) -> f64 {
+        self.gravity.factor.as_ref().map_or(1.0, |factor| factor.value(time))
+    }
+
+    /// Kinetic, elastic and potential energy [J].
+    pub fn energy(&self, at: &Kinematics) -> Energy {
+        let mut sum = Energy::default();
+        for batch in &self.batches {
+            sum += batch.energy(at);
+        }
+        sum
+    }
+
+    /// Elongation, its rate and the force against it [SI] of a spring or what is like one.
+    pub fn spring_motion(&self, element: ElementId, at: &Kinematics) -> Option<[f64; 3]> {
+        self.batches.get(element.batch?)?.spring_motion(element.item, at)
+    }
+
+    /// Power that an element puts into the rest of the model [W]; of what stores or takes away energy, negative while it does.
+    pub fn power(&self, element: ElementId, at: &Kinematics) -> f64 {
+        match element.batch {
+            None => self.feedback.power(element.item, at),
+            Some(batch) => self.batches[batch].power(element.item, at),
+        }
+    }
+
+    /// Work of an element's forces on the rest of the model between two configurations [J], as if forces changed linearly
+    /// along the way.
+    pub fn work_of(&self, element: ElementId, from: &Kinematics, to: &Kinematics) -> f64 {
+        match element.batch {
+            None => self.feedback.work(element.item, from, to),
+            Some(batch) => self.batches[batch].work(element.item, from, to),
+        }
+    }
+
+    /// Where the local numbers of each item begin, for every batch of elements and of joints.
+    pub fn starts_of_batches(&self) -> impl Iterator<Item = &[usize]> {
+        let elements = self.batches.iter().map(|batch| batch.starts());
+        elements.chain(self.joint_batches.iter().map(JointBatch::starts))
+    }
+
+    /// Work of loads between two configurations [J], as if forces changed linearly in time between them and places as
+    /// cubic polynomials.
+    #[inline]
+    pub fn work_of_loads(&self, from: &Kinematics, to: &Kinematics) -> f64 {
+        self.batches.iter().map(|batch| batch.work_of_loads(from, to)).sum()
+    }
+
+    /// Work of prescribed motions between two configurations with their multipliers, likewise [J].
+    pub fn work_of_drives(&self, from: (&Kinematics, &[f64]), to: (&Kinematics, &[f64])) -> f64 {
+        if self.placed.is_empty() {
+            return 0.0;
+        }
+        self.constraints.others().map(|constraint| constraint.work(from, to)).sum()
+    }
+
+    /// The first function of time that has no finite value, or no finite derivative, at `time` [s]: its words and the
+    /// value.
+    pub fn function_without_value(&self, time: f64) -> Option<(&str, f64)> {
+        self.functions.iter().find_map(|(words, function)| {
+            let values =
+                [function.value(time), function.first_derivative(time), function.second_derivative(time)];
+            values.into_iter().find(|value| !value.is_finite()).map(|value| (words.as_str(), value))
+        })
+    }
+
+    /// Times at which loads, prescribed motions, states and the numbers whose zeros are events are known not to be smooth
+    /// [s], in ascending order.
+    pub fn kinks(&self) -> Vec<f64> {
+        let of_constraints = self.constraints.others().flat_map(Constraint::kinks);
+        let of_events = self.signals().kinks_of(self.signals().events().iter().map(|event| event.root));
+        let of_elements = self.batches.iter().flat_map(|batch| batch.kinks());
+        let mut kinks: Vec<f64> = of_elements.chain(of_constraints).chain(of_events).collect();
+        kinks.sort_by(f64::total_cmp);
+        kinks.dedup();
+        kinks
+    }
+
+    /// Appends numbers that change their sign where forces of elements have a kink or a jump: as many at every
+    /// configuration.
+    pub fn switches(&self, at: &Kinematics, out: &mut Vec<f64>) {
+        self.batches.iter().for_each(|batch| batch.switches(at, out));
+    }
+
+    /// What changes where the switch of this index has its zero, in words: those of signals come first.
+    pub fn name_of_switch(&self, which: usize) -> String {
+        let mut names = self.signals().names_of_switches();
+        self.batches.iter().for_each(|batch| batch.name_switches(self.layout(), &mut names));
+        names.get(which).cloned().unwrap_or_else(|| "a force with a kink or a jump".to_owned())
+    }
+
+    /// The largest rate at which an element deforms [1/s], with one of its nodes; none where nothing can be bent.
+    pub fn deformation_rate(&self, at: &Kinematics) -> Option<(f64, NodeId)> {
+        let rates = self.batches.iter().filter_map(|batch| batch.deformation_rate(at));
+        rates.reduce(|most, rate| if rate.0 > most.0 { rate } else { most })
+    }
+
+    /// What goes furthest beyond the range of an element's linear law; none where no element is linear in a frame of its own.
+    #[inline]
+    pub fn linear_range(&self, limit: LinearLimit, at: &Kinematics) -> Option<LinearRange> {
+        let parts = self.batches.iter().filter_map(|batch| batch.linear_range(limit, at));
+        parts.reduce(|most, own| if own.part > most.part { own } else { most })
+    }
+
+    /// The first node of an element whose kinetic energy is not positive in every motion.
+    #[inline]
+    pub fn without_positive_mass(&self, at: &Kinematics) -> Option<NodeId> {
+        self.batches.iter().find_map(|batch| batch.without_positive_mass(at))
+    }
+
+    /// Hands on the mass matrix of every element that has one, besides [`inertias`](Self::inertias).
+    pub fn masses(&self, at: &Kinematics, each: &mut dyn FnMut(&Mass<'_>)) {
+        self.batches.iter().for_each(|batch| batch.masses(at, each));
+    }
+
+    /// The two nodes of an element that are turned most against each other, and the cosine of half the angle between
+    /// them; none where no element turns with two nodes.
+    pub fn least_aligned(&self, at: &Kinematics) -> Option<(f64, [NodeId; 2])> {
+        let pairs = self.batches.iter().filter_map(|batch| batch.least_aligned(at));
+        pairs.reduce(|least, pair| if pair.0 < least.0 { pair } else { least })
+    }
+
+    /// Momentum [N s] and angular momentum about the origin [N m s], in inertial axes.
+    pub fn momentum(&self, at: &Kinematics) -> (Vector3, Vector3) {
+        let mut linear = Vector3::zeros();
+        let mut angular = Vector3::zeros();
+        for inertia in &self.inertias {
+            let node = &at.nodes[inertia.node()];
+            let (p, l) = kinematics::split(&(inertia.mass() * node.twist));
+            let p = node.frame.rotation.apply(&p);
+            linear += p;
+            angular += node.frame.rotation.apply(&l) + node.frame.position.cross(&p);
+        }
+        self.masses(at, &mut |mass| {
+            let rates = self.local_rates(mass, at);
+            let mut momenta = vec![0.0; rates.len()];
+            mass.times(&rates, |row, value| momenta[row] = value);
+            for (&node, momentum) in mass.nodes.iter().zip(momenta.chunks_exact(6)) {
+                let frame = &at.nodes[node].frame;
+                let p = frame.rotation.apply(&Vector3::from_column_slice(&momentum[..3]));
+                let l = frame.rotation.apply(&Vector3::from_column_slice(&momentum[3..]));
+                linear += p;
+                angular += l + frame.position.cross(&p);
+            }
+        });
+        for batch in &self.batches {
+            angular += batch.angular_momentum(at);
+        }
+        (linear, angular)
+    }
+
+    /// Twists of an element's nodes and rates of its coordinates.
+    fn local_rates(&self, mass: &Mass<'_>, at: &Kinematics) -> Vec<f64> {
+        let twists = mass.nodes.iter().flat_map(|&node| at.nodes[node].twist.iter().copied());
+        let coordinates = mass.rows[6 * mass.nodes.len()..].iter();
+        let rates = coordinates.map(|&row| {
+            let found = self.layout.coordinate_rows.iter().position(|own| *own == row);
+            found.map_or(0.0, |coordinate| at.coordinates[coordinate].rate)
+        });
+        twists.chain(rates).collect()
+    }
+}

@@ -1,0 +1,86 @@
+//! What a number of the model changes in its equations where nothing moves otherwise: the derivative of residuals by the
+//! number at given motion and multipliers. Knows no scheme and no scaling.
+//!
+//! Legend: θ the number, f forces of elements and joints, c violations.
+//!
+//! ```text
+//! ∂f/∂θ = Σ w_i f(θ_i),      ∂c/∂θ likewise
+//! ```
+//!
+//! with the weights w_i of a difference over neighbouring models, of those parts alone that differ between them. Where forces are proportional to what differs, as to a stiffness
+//! or a mass, the difference is taken of that once, and not of the forces at every instant.
+
+use std::sync::Arc;
+
+use super::System;
+use lissom_mechanics::elements::is_same;
+use lissom_mechanics::evaluation::batch::{AnyBatch, Changed};
+use lissom_mechanics::kinematics::Kinematics;
+
+/// What differs between models of the same unknowns.
+pub struct Reach {
+    /// The models, each with its weight.
+    systems: Vec<(Arc<System>, f64)>,
+    /// Elements whose forces are the derivative.
+    derivatives: Vec<Box<dyn AnyBatch>>,
+    /// Elements to be compared, by batch.
+    elements: Vec<(usize, Vec<usize>)>,
+    constraints: Vec<usize>,
+}
+
+impl Reach {
+    /// Of neighbouring models with the weights of a difference. None where it cannot be determined what differs.
+    pub fn of(systems: Vec<(Arc<System>, f64)>) -> Option<Self> {
+        let (first, _) = systems.first()?;
+        let is_alike = |other: &System| {
+            first.batches.len() == other.batches.len()
+                && first.constraints.counts() == other.constraints.counts()
+        };
+        if !systems.iter().all(|(other, _)| is_alike(other)) {
+            return None;
+        }
+        let (mut derivatives, mut elements) = (Vec::new(), Vec::new());
+        for (index, batch) in first.batches.iter().enumerate() {
+            let neighbours: Vec<(&dyn AnyBatch, f64)> =
+                systems.iter().map(|(other, weight)| (&*other.batches[index], *weight)).collect();
+            match batch.changed(&neighbours, &first.layout)? {
+                Changed::Nothing => {}
+                Changed::Derivative(batch) => derivatives.push(batch),
+                Changed::Items(items) => elements.push((index, items)),
+            }
+        }
+        let is_changed = |&index: &usize| {
+            let own = first.constraints.get(index);
+            systems.iter().any(|(other, _)| !is_same(own, other.constraints.get(index)))
+        };
+        let constraints = (0..first.constraints.counts().iter().sum()).filter(is_changed).collect();
+        Some(Self { systems, derivatives, elements, constraints })
+    }
+
+    /// Adds the derivatives of forces and violations by the number, by row.
+    pub fn add(&self, at: &Kinematics, multipliers: &[f64], scratch: &mut [f64], out: &mut [f64]) {
+        for batch in &self.derivatives {
+            batch.forces(at, out);
+        }
+        if self.elements.is_empty() && self.constraints.is_empty() {
+            return;
+        }
+        for (system, weight) in &self.systems {
+            scratch.fill(0.0);
+            for (batch, items) in &self.elements {
+                let batch = &system.batches[*batch];
+                if items.len() == batch.count() {
+                    batch.forces(at, scratch);
+                } else {
+                    batch.forces_of(items, at, scratch);
+                }
+            }
+            for &constraint in &self.constraints {
+                system.add_outright(constraint, at, multipliers, scratch);
+            }
+            for (sum, value) in out.iter_mut().zip(&*scratch) {
+                *sum += weight * value;
+            }
+        }
+    }
+}
