@@ -259,6 +259,7 @@ impl StepError {
                 | Self::FunctionNotFinite { .. }
                 | Self::TurnsTooFar { .. }
                 | Self::ElementTurns { .. }
+                | Self::JointLosesHold { .. }
                 | Self::NegativeKineticEnergy { .. }
                 | Self::EnergyFromNowhere { in_this_step: true, .. }
                 | Self::ZeroPivot { after_pivoting: true, .. }

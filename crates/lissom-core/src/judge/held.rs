@@ -6,8 +6,8 @@
 
 use nalgebra::DMatrix;
 
-use crate::joints::MOST_COORDINATES;
 use crate::joints::attached::AttachedJoint;
+use crate::joints::{MOST_COORDINATES, Relative};
 use crate::kinematics::{Kinematics, Quantity};
 use crate::system::System;
 
@@ -50,6 +50,25 @@ pub(crate) fn lost(system: &System, start: &Kinematics, at: &Kinematics, length:
     least.map(|(_, found)| found)
 }
 
+/// The joint that a step has led to a branch of solutions that it cannot reach: across a pose in which one of its equations vanishes.
+pub(crate) fn on_another_branch(system: &System, end: &Kinematics) -> Option<LostHold> {
+    system.joints().iter().find_map(|joint| {
+        let branch = joint.joint().branch()?;
+        let relative = Relative::at_start(&joint.relative_motion(end));
+        if branch(&relative) >= 0.0 {
+            return None;
+        }
+        let equations = joint.joint().equations();
+        let equation = hold(joint, end, 1.0).map_or(equations.len() - 1, |(_, equation)| equation);
+        Some(LostHold {
+            joint: joint.name.clone(),
+            kind: joint.kind,
+            equation: equations[equation],
+            angle: joint.relative_motion(end).rotation.logarithm().norm(),
+        })
+    })
+}
+
 /// Smallest singular value of a joint's gradient, with the equation that takes most part in it; angles count as arcs at
 /// `length`. None where numbers are not finite.
 fn hold(joint: &AttachedJoint, at: &Kinematics, length: f64) -> Option<(f64, usize)> {
@@ -78,4 +97,38 @@ fn hold(joint: &AttachedJoint, at: &Kinematics, length: f64) -> Option<(f64, usi
     let (index, smallest) = values.singular_values.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1))?;
     let share = values.u.as_ref()?.column(index).into_owned();
     Some((*smallest, share.iamax())).filter(|(smallest, _)| *smallest >= 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use lissom_motion::{Motion, Rotation, Vector3};
+
+    use super::*;
+    use crate::joints::KINDS;
+    use crate::kinematics::Freedoms;
+    use crate::registry::Parameters;
+    use crate::system::{Builder, Placement};
+
+    /// Shafts bent by 160 degrees, with the output at the angle of the input and half a turn beside it: both satisfy the equation.
+    #[test]
+    fn a_step_across_half_a_turn_ends_on_another_branch() {
+        let mut builder = Builder::new();
+        let tip = builder.add_node("tip", Motion::identity(), Freedoms::Full);
+        let kind = KINDS.iter().find(|kind| kind.name == "constant_velocity").expect("there");
+        let (at, axis) = (Vector3::zeros(), Some(Vector3::z()));
+        let placement =
+            Placement { nodes: [builder.ground(), tip], at, at_tip: None, axis, second_axis: None };
+        builder.add_joint("j", kind, &placement, &Parameters::new()).expect("valid");
+        let (system, state) = builder.build(0.0).expect("valid");
+        for (beside, is_other) in [(0.0, false), (0.3, false), (PI, true), (PI - 0.3, true)] {
+            let mut at = state.kinematics.clone();
+            let axes = state.kinematics.nodes[tip].frame.rotation;
+            let bent = Rotation::exponential(&Vector3::new(160.0_f64.to_radians(), 0.0, 0.0));
+            at.nodes[tip].frame.rotation =
+                axes * bent * Rotation::exponential(&Vector3::new(0.0, 0.0, beside));
+            assert_eq!(on_another_branch(&system, &at).is_some(), is_other, "{beside}");
+        }
+    }
 }

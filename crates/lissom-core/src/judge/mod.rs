@@ -69,6 +69,12 @@ impl Judge<'_> {
         if self.is_motion {
             positive_mass(self.system, &end.kinematics)?;
         }
+        if let Some(held::LostHold { joint, kind, equation, angle }) =
+            held::on_another_branch(self.system, &end.kinematics)
+        {
+            let (time, angle) = (end.kinematics.time, angle.to_degrees());
+            return Err(StepError::JointLosesHold { time, joint, kind, equation, angle });
+        }
         let is_smooth = self.is_motion && self.turns(start, end)?;
         let weighs = !is_smooth || ledger.is_due();
         if weighs {

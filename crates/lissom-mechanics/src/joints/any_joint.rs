@@ -5,7 +5,7 @@ use nalgebra::SVector;
 
 use super::attached::AttachedJoint;
 use super::blocks::Batches;
-use super::{Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, Own, Relative};
+use super::{Branch, Coordinate, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, Own, Relative};
 use crate::contact::CreepLaw;
 use crate::contact::wheel_on_plane::Contact;
 use crate::contact::wheel_on_rail::RailContact;
@@ -21,6 +21,10 @@ pub trait AnyJoint: Send + Sync + std::fmt::Debug {
     fn coordinates(&self) -> &'static [Coordinate];
     /// See [`Joint::initial`].
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion);
+    /// See [`Joint::branch`].
+    fn branch(&self) -> Option<Branch> {
+        None
+    }
     /// See [`Joint::contact`].
     fn contact(&self) -> Option<Contact>;
     /// The contact of a wheel with a rail, for joints that are one. Default: it is none.
@@ -65,6 +69,10 @@ impl<J: Joint> AnyJoint for J {
 
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
         Joint::initial(self)
+    }
+
+    fn branch(&self) -> Option<Branch> {
+        Joint::branch(self)
     }
 
     fn contact(&self) -> Option<Contact> {

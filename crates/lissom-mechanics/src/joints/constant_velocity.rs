@@ -14,7 +14,8 @@ use super::primitives::{
     coincident_wrench,
 };
 use super::{
-    Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own, Relative,
+    Branch, Curvature, Equations, Gradient, Joint, MOST_COORDINATES, MOST_EQUATIONS, MOST_NUMBERS, Own,
+    Relative,
 };
 use crate::registry::{Parameter, ParameterError, ParameterType};
 
@@ -57,6 +58,11 @@ impl Joint for ConstantVelocity {
 
     fn equations(&self) -> &'static [&'static str] {
         &["position 1", "position 2", "position 3", "rotation 3"]
+    }
+
+    /// R_11 + R_22 = (1 + cos θ) cos(β - α): the equation also holds with β = α + π.
+    fn branch(&self) -> Option<Branch> {
+        Some(|relative| relative.rotation[(0, 0)] + relative.rotation[(1, 1)])
     }
 
     /// The tip's third axis is its shaft: turned there from the base's about an axis across both.

@@ -105,6 +105,9 @@ impl Relative {
     }
 }
 
+/// Positive on the branch of solutions that a joint can reach, negative on another.
+pub type Branch = fn(&Relative) -> f64;
+
 /// An algebraic coordinate of a joint.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Coordinate {
@@ -178,6 +181,12 @@ pub trait Joint: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// Coordinates at the start, and the relative motion for which they satisfy the equations.
     fn initial(&self) -> ([f64; MOST_COORDINATES], Motion) {
         ([0.0; MOST_COORDINATES], Motion::identity())
+    }
+
+    /// For joints with an equation that vanishes in a pose they can reach, and beyond which it has a second branch of solutions: a
+    /// number that is positive on the branch of the joint and negative on the other. Default: there is no such pose.
+    fn branch(&self) -> Option<Branch> {
+        None
     }
 
     /// The contact in which the tip does not slide on the base, for joints that roll. Default: it is none of them.
