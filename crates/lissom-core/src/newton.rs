@@ -31,6 +31,11 @@ pub trait Equations {
     fn is_wanted_exactly(&self) -> bool {
         false
     }
+
+    /// Size of corrections that rounding of the equations causes [-]: a new tangent does not make them smaller.
+    fn round_off(&self) -> f64 {
+        0.0
+    }
 }
 
 /// Size of a correction.
@@ -192,7 +197,13 @@ pub fn solve<E: Equations>(
         outcome.iterations += 1;
         outcome.correction = correction.size;
         age += 1;
-        match judge(&correction, previous, fresh, limits, memory) {
+        let verdict = match judge(&correction, previous, fresh, limits, memory) {
+            Verdict::Renew | Verdict::BackOff if fresh && correction.size <= equations.round_off() => {
+                Verdict::Converged
+            }
+            verdict => verdict,
+        };
+        match verdict {
             Verdict::Converged => {
                 memory.keep_account(&outcome, limits);
                 return Ok(outcome);
