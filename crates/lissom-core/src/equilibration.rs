@@ -41,6 +41,12 @@ impl Equilibration {
 
     /// Finds the factors of the tangent with `values` on `pattern` and applies them to it.
     pub(crate) fn apply<S: Scalar>(&mut self, pattern: &Pattern, values: &mut [S]) {
+        self.find(pattern, values);
+        self.scale_matrix(pattern, values);
+    }
+
+    /// Finds the factors of the tangent with `values` on `pattern`.
+    pub(crate) fn find<S: Scalar>(&mut self, pattern: &Pattern, values: &[S]) {
         let (starts, rows) = (pattern.column_starts(), pattern.row_indices());
         let count = self.coordinate_count;
         for column in 0..pattern.size() {
@@ -61,6 +67,11 @@ impl Equilibration {
             };
             self.factors[column] = power_of_two(square);
         }
+    }
+
+    /// Multiplies rows and columns of a tangent by the factors.
+    pub(crate) fn scale_matrix<S: Scalar>(&self, pattern: &Pattern, values: &mut [S]) {
+        let (starts, rows) = (pattern.column_starts(), pattern.row_indices());
         for column in 0..pattern.size() {
             let own = self.factors[column];
             for k in starts[column]..starts[column + 1] {

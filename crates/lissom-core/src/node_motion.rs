@@ -21,7 +21,7 @@ use crate::kinematics::lanes::{
     Frames, Part, Screws, gather, gather_frames, gather_twists, parts, processor_for,
 };
 use crate::kinematics::{Kinematics, LOCKED, Layout, MotionChange, NodeId};
-use crate::schemes::MOST_STAGES;
+use crate::schemes::MAX_STAGES;
 
 /// What increments mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,9 +43,9 @@ pub(crate) struct StageTable {
     /// Time since the start of the step that nodes go straight on [s].
     pub(crate) ahead: f64,
     /// Weights of all stages' increments in the rate [1/s].
-    pub(crate) rate: [f64; MOST_STAGES],
+    pub(crate) rate: [f64; MAX_STAGES],
     /// The same in the curvature [1/s²].
-    pub(crate) curvature: [f64; MOST_STAGES],
+    pub(crate) curvature: [f64; MAX_STAGES],
     /// See [`Meaning::Gain`] [1/s].
     pub(crate) gain: f64,
 }
@@ -237,7 +237,7 @@ impl WithSimd for Travel<'_> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let mut increments = [[[0.0; WIDTH]; 6]; MOST_STAGES];
+        let mut increments = [[[0.0; WIDTH]; 6]; MAX_STAGES];
         for (block, start) in self.blocks.iter().zip(self.starts) {
             let (parts, lanes) = parts::<S>(block.count);
             for stage in 0..self.increments.len() {
@@ -452,9 +452,15 @@ mod tests {
             multipliers: Vec::new(),
         };
         let mut list = || (0..layout.coordinate_count).map(|_| vector()[0] * size).collect::<Vec<f64>>();
-        let (rates, curvatures, increments) = (list(), list(), [list(), list()]);
-        let table = StageTable { meaning, ahead: 0.1, rate: [0.7, -1.5], curvature: [-3.0, 0.2], gain: 4.0 };
-        let mut moving = Nodes::new(&layout, 2);
+        let (rates, curvatures, increments) = (list(), list(), [list(), list(), list()]);
+        let table = StageTable {
+            meaning,
+            ahead: 0.1,
+            rate: [0.7, -1.5, 0.3],
+            curvature: [-3.0, 0.2, 1.1],
+            gain: 4.0,
+        };
+        let mut moving = Nodes::new(&layout, MAX_STAGES);
         moving.processor = processor;
         moving.enter(1, &table, &start, Known { rate: &rates, curvature: &curvatures });
         let mut at = start.clone();
@@ -464,11 +470,12 @@ mod tests {
         for (node, rows) in layout.node_rows.iter().enumerate().skip(1) {
             let pick =
                 |values: &[f64]| Vector6::from_fn(|k, _| values.get(rows[k] as usize).map_or(0.0, |v| *v));
-            let [first, second] = [pick(&increments[0]), pick(&increments[1])];
-            let combine =
-                |known: &[f64], weights: [f64; 2]| pick(known) + first * weights[0] + second * weights[1];
+            let stages = increments.each_ref().map(|values| pick(values));
+            let combine = |known: &[f64], weights: [f64; MAX_STAGES]| {
+                stages.iter().zip(weights).fold(pick(known), |sum, (stage, weight)| sum + stage * weight)
+            };
             let linear = [combine(&rates, table.rate), combine(&curvatures, table.curvature)];
-            let (to, change) = reference(&table, &start.nodes[node], &second, linear);
+            let (to, change) = reference(&table, &start.nodes[node], &stages[1], linear);
             let (reached, change) = (&at.nodes[node], MotionChange::of(&change));
             let error = reached.frame.relative_to(&to.frame).logarithm();
             assert!(error.amax() < 1e-14, "{processor:?}, {meaning:?}, node {node}: {error}");

@@ -15,6 +15,7 @@ use lissom_motion::{Motion, Vector6};
 use serde::{Deserialize, Serialize};
 
 use crate::joints::evaluation_point::Augmentation;
+use crate::kinematics::step_stages::STAGES;
 use crate::kinematics::{CoordinateMotion, Kinematics, Layout, MotionChange, Quantity};
 use crate::node_motion::{Known, Meaning, Nodes, StageTable};
 use crate::schemes::{Combination, Increments, Scheme, Stage, Tableau, Weights};
@@ -412,7 +413,7 @@ impl Scaled {
     }
 
     /// How long the rates at the stages last on the way to each stage, and to the end [s].
-    pub(crate) fn durations(&self, tableau: &Tableau) -> ([[f64; 2]; 2], [f64; 2]) {
+    pub(crate) fn durations(&self, tableau: &Tableau) -> ([[f64; STAGES]; STAGES], [f64; STAGES]) {
         (
             tableau.stages.map(|row| row.map(|weight| self.h * weight)),
             tableau.end.map(|weight| self.h * weight),

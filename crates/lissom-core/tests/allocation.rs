@@ -10,7 +10,7 @@ use lissom_core::joints;
 use lissom_core::newton::Limits;
 use lissom_core::registry::Parameters;
 use lissom_core::scaling::ScalingChoice;
-use lissom_core::schemes::{energy_decaying, generalized_alpha, radau_iia};
+use lissom_core::schemes::{energy_decaying, generalized_alpha, radau_iia, radau_iia_5};
 use lissom_core::system::{Builder, Placement};
 use lissom_motion::{Matrix6, Motion, Vector3};
 
@@ -39,7 +39,12 @@ static ALLOCATOR: Counting = Counting;
 #[test]
 fn a_step_allocates_nothing() {
     let decaying = energy_decaying::with_spectral_radius(0.0).expect("valid");
-    for scheme in [generalized_alpha::hht(-0.1).expect("valid"), radau_iia::two_stages(), decaying] {
+    for scheme in [
+        generalized_alpha::hht(-0.1).expect("valid"),
+        radau_iia::two_stages(),
+        radau_iia_5::three_stages(),
+        decaying,
+    ] {
         let mut builder = Builder::new();
         builder.set_gravity(Vector3::new(0.0, -9.81, 0.0));
         let (contribution, line) = beam_line(

@@ -10,7 +10,7 @@ use lissom_core::kinematics::Freedoms;
 use lissom_core::newton::Limits;
 use lissom_core::registry::{Parameters, Value};
 use lissom_core::scaling::ScalingChoice;
-use lissom_core::schemes::{Scheme, energy_decaying, generalized_alpha, radau_iia, statics};
+use lissom_core::schemes::{Scheme, energy_decaying, generalized_alpha, radau_iia, radau_iia_5, statics};
 use lissom_core::system::{Builder, Placement, State, System};
 use lissom_motion::{Matrix3, Matrix6, Motion, Vector3, Vector6};
 
@@ -85,11 +85,12 @@ fn top_at(scheme: Scheme, steps: usize) -> [Vector3; 3] {
 
 #[test]
 fn schemes_have_their_orders_for_position_velocity_and_multiplier() {
-    let reference = top_at(radau_iia::two_stages(), 4096);
-    let schemes: [(&str, Scheme, [f64; 3], usize); 6] = [
+    let reference = top_at(radau_iia_5::three_stages(), 1024);
+    let schemes: [(&str, Scheme, [f64; 3], usize); 7] = [
         ("generalized-alpha", generalized_alpha::with_spectral_radius(0.8).expect("valid"), [2.0; 3], 512),
         ("hht", generalized_alpha::hht(-0.3).expect("valid"), [2.0; 3], 512),
         ("radau", radau_iia::two_stages(), [3.0, 2.0, 1.0], 64),
+        ("radau with three stages", radau_iia_5::three_stages(), [5.0, 3.0, 2.0], 16),
         ("decaying", energy_decaying::with_spectral_radius(0.0).expect("valid"), [3.0, 3.0, 2.0], 256),
         ("mixed", energy_decaying::with_spectral_radius(0.5).expect("valid"), [2.0, 2.0, 1.0], 128),
         ("preserving", energy_decaying::with_spectral_radius(1.0).expect("valid"), [2.0, 2.0, 1.0], 256),
@@ -255,7 +256,9 @@ fn free_flexible_pendulum_keeps_its_energy_as_the_scheme_promises() {
 #[test]
 fn turned_models_give_turned_results() {
     let turn = Motion::exponential(&Vector6::new(3.0, -2.0, 1.0, 0.7, -1.1, 2.0));
-    for scheme in [generalized_alpha::hht(-0.1).expect("valid"), radau_iia::two_stages()] {
+    for scheme in
+        [generalized_alpha::hht(-0.1).expect("valid"), radau_iia::two_stages(), radau_iia_5::three_stages()]
+    {
         let [straight, turned] = [Motion::identity(), turn].map(|turn| {
             let mut simulation = simulation(rope(&turn, 3), scheme.clone(), 2e-3);
             run(&mut simulation, 100);

@@ -107,7 +107,7 @@ fn a_planetary_gear_has_its_ratios_and_torques() {
         let record = run(PLANETARY, &[set("analysis.scheme", scheme)]);
         let [s, c, p, r] = planetary(false).map(|by_unit| 0.01 * by_unit);
         // The planet goes round in a circle, which steps approximate.
-        let allowed = if scheme == "radau-iia" { 1e-9 } else { 1e-5 } * s;
+        let allowed = if scheme.starts_with("radau-iia") { 1e-9 } else { 1e-5 } * s;
         for (name, wanted) in [("s", s), ("c", c), ("p", p), ("r", r)] {
             let (angle, rate) = (last(&record, name, "angle"), last(&record, name, "rate"));
             assert!((angle - 0.5 * wanted).abs() < allowed, "{scheme} {name}: {angle} {wanted}");

@@ -9,7 +9,7 @@ use rail::force;
 use refused::refused;
 use sessions::{finished, session};
 
-const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
+const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
 
 /// A mass of 1 kg on a rail along x, thrown with 0.5 m/s; `tables` and keys of the analysis are added.
 fn rail(tables: &str, analysis: &str) -> String {

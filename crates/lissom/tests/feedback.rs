@@ -70,6 +70,7 @@ fn a_controlled_arm_moves_as_its_linear_equation_says() {
     let end = 0.4;
     for (scheme, step, most) in [
         ("radau-iia", 2.5e-4, 1e-8),
+        ("radau-iia-5", 2.5e-4, 1e-8),
         ("energy-decaying", 2.5e-4, 1e-8),
         ("generalized-alpha", 2e-5, 1e-8),
         ("hht", 2e-5, 1e-8),
@@ -133,6 +134,7 @@ of = "filtered"
         ("hht", 2.0),
         ("hht\"\nalpha = -0.3\n#\"", 2.0),
         ("radau-iia", 3.0),
+        ("radau-iia-5", 5.0),
         ("energy-decaying", 3.0),
     ] {
         let error = |step: f64| {
@@ -156,9 +158,13 @@ kind = "joint_torque"
 joint = "arm"
 torque = "-60*(arm.rotation - 0.3) - 8*arm.rate - 90*integral - 2*integral^3"
 "#;
-    for (scheme, order) in
-        [("generalized-alpha", 2.0), ("hht", 2.0), ("radau-iia", 3.0), ("energy-decaying", 3.0)]
-    {
+    for (scheme, order) in [
+        ("generalized-alpha", 2.0),
+        ("hht", 2.0),
+        ("radau-iia", 3.0),
+        ("radau-iia-5", 5.0),
+        ("energy-decaying", 3.0),
+    ] {
         let value = |step: f64| {
             let analysis = format!("scheme = \"{scheme}\"\nend = 0.5\nstep = {step}\ntolerance = 1e-12");
             let session = finished(&arm(tables, &analysis));
@@ -213,7 +219,7 @@ fn sampled(samples: usize) -> [f64; 3] {
 fn samples_are_held_and_steps_land_on_them() {
     // Steps that divide the period, do not fit it, and are longer; and chosen ones.
     for step in ["step = 2.5e-3", "step = 7e-3", "step = 0.035", "relative_tolerance = 1e-6"] {
-        for scheme in ["radau-iia", "energy-decaying", "generalized-alpha", "hht"] {
+        for scheme in ["radau-iia", "radau-iia-5", "energy-decaying", "generalized-alpha", "hht"] {
             let analysis = format!("scheme = \"{scheme}\"\nend = 0.6\n{step}\ntolerance = 1e-11");
             let session = finished(&arm(SAMPLED, &analysis));
             let [angle, rate, _] = sampled(60);
@@ -404,9 +410,13 @@ deflection = 1e-6
 damping = 20
 "#;
     // The first two of them oscillate while the bristle bends at the start.
-    for (scheme, most) in
-        [("generalized-alpha", 1e-4), ("hht", 1e-4), ("radau-iia", 2e-5), ("energy-decaying", 2e-5)]
-    {
+    for (scheme, most) in [
+        ("generalized-alpha", 1e-4),
+        ("hht", 1e-4),
+        ("radau-iia", 2e-5),
+        ("radau-iia-5", 2e-5),
+        ("energy-decaying", 2e-5),
+    ] {
         let text = slider(tables, &format!("scheme = \"{scheme}\"\nend = 4\nstep = 2e-4"));
         let mut session = session(&text);
         let (record, report) = session.record();

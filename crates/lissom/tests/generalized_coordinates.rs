@@ -10,7 +10,7 @@ const MASS: [[f64; 3]; 3] = [[2.0, 0.5, 0.0], [0.5, 1.0, 0.0], [0.0, 0.0, 1.5]];
 /// With gyroscopic and circulatory parts.
 const DAMPING: [[f64; 3]; 3] = [[0.3, 0.2, 0.0], [-0.2, 0.1, 0.0], [0.0, 0.0, 0.2]];
 const STIFFNESS: [[f64; 3]; 3] = [[30.0, -10.0, 0.0], [-14.0, 40.0, -20.0], [0.0, -20.0, 25.0]];
-const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
+const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
 const FORCE: f64 = 3.0;
 const FREQUENCY: f64 = 4.0;
 
@@ -109,6 +109,7 @@ fn an_oscillator_of_three_coordinates_follows_the_exponential_with_the_order_of_
     let text = oscillator(&format!("{DAMPING:?}"));
     for (scheme, order, allowed) in [
         ("radau-iia", 3, 2e-5),
+        ("radau-iia-5", 5, 1e-8),
         ("generalized-alpha", 2, 3e-3),
         ("hht", 2, 3e-3),
         ("energy-decaying", 3, 2e-5),

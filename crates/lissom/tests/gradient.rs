@@ -121,7 +121,7 @@ const NUMBERS: [(&str, f64); 4] = [
 
 #[test]
 fn a_mechanism_is_differentiated_with_every_scheme() {
-    for scheme in ["generalized-alpha", "hht", "radau-iia", "energy-decaying"] {
+    for scheme in ["generalized-alpha", "hht", "radau-iia", "radau-iia-5", "energy-decaying"] {
         let set = set(&[("analysis.scheme", scheme)]);
         agrees(SWING, "lower.z", ("lower", "z"), &NUMBERS, &set, 1e-6);
     }
@@ -202,7 +202,7 @@ fn agrees_closely(
 }
 
 /// Schemes along whose steps derivatives are carried.
-const CARRIED: [&str; 4] = ["generalized-alpha", "hht", "radau-iia", "energy-decaying"];
+const CARRIED: [&str; 5] = ["generalized-alpha", "hht", "radau-iia", "radau-iia-5", "energy-decaying"];
 
 #[test]
 fn derivatives_that_are_carried_have_seven_digits() {
@@ -231,7 +231,9 @@ fn a_tip_crank_is_differentiated_with_every_scheme() {
     let numbers = [("materials.aluminium.E", 73e9, 4e-3), ("sections.strip.width", 0.0025, 4e-3)];
     for scheme in CARRIED {
         let set = set(&[("analysis.end", "0.02"), ("analysis.scheme", scheme)]);
-        agrees_closely(&model, "root.f3", ("root", "f3"), &numbers, &set, 1e-7);
+        // Three stages multiply rounding of the whole runs' reactions by larger weights.
+        let tolerance = if scheme == "radau-iia-5" { 3e-7 } else { 1e-7 };
+        agrees_closely(&model, "root.f3", ("root", "f3"), &numbers, &set, tolerance);
     }
 }
 

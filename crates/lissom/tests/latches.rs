@@ -79,7 +79,7 @@ fn column<'r>(record: &'r Record, output: &str, component: &str) -> &'r [f64] {
 /// Latched at 0.5 s with ω = J₂/(J₁ + J₂), driven from 0.6 s on with 4/(J₁ + J₂), released at 1.2 s.
 #[test]
 fn discs_go_on_together_with_their_momentum_and_part_again() {
-    let schemes = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
+    let schemes = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
     let controlled = ("analysis.relative_tolerance", "1e-6");
     let runs = schemes.map(|scheme| vec![("analysis.scheme", scheme)]);
     for set in runs.into_iter().chain([vec![controlled], vec![controlled, ("analysis.scheme", "hht")]]) {
@@ -230,7 +230,7 @@ fn a_latch_engaged_before_the_first_step_holds() {
         "",
     );
     assert!(!text.contains("snap"));
-    for scheme in ["radau-iia", "generalized-alpha", "hht", "energy-decaying"] {
+    for scheme in ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"] {
         let set = [("analysis.scheme".to_owned(), scheme.to_owned())];
         let mut session = Model::from_text("discs.toml", &text).session(&set).unwrap();
         session.set_input("latched", 1.0).unwrap();

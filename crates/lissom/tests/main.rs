@@ -38,6 +38,7 @@ mod response;
 mod resume;
 mod rolling_contact;
 mod ropes;
+mod schemes;
 mod session;
 mod shaft;
 mod shared_system;

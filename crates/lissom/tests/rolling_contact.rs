@@ -2,7 +2,7 @@
 
 use lissom::{Model, Record, SessionError};
 
-const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
+const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
 const GRAVITY: f64 = 9.81;
 const RADIUS: f64 = 0.3;
 

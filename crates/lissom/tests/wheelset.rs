@@ -7,7 +7,7 @@ use lissom_core::linear::ModeKind;
 
 const MODEL: &str = include_str!("../../../verification/wheelset/model.toml");
 
-const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
+const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
 
 fn given(set: &[(&str, &str)]) -> Vec<(String, String)> {
     set.iter().map(|(path, value)| ((*path).to_owned(), (*value).to_owned())).collect()

@@ -9,7 +9,7 @@ use super::simulation::Simulation;
 use super::tangent_values::TangentValues;
 use crate::equilibration::Equilibration;
 use crate::scaling::{Scaled, ScalingChoice};
-use crate::schemes::Coupling;
+use crate::schemes::StageSystem;
 use crate::system::{Sum, TangentAssembler};
 
 /// Tangents with at most so many real unknowns are measured truly; a complex unknown counts twice.
@@ -58,15 +58,15 @@ impl TangentValues {
     pub(crate) fn receiver<'a>(
         &'a mut self,
         scaled: &Scaled,
-        coupling: &Coupling,
+        system: &StageSystem,
         stiffness: &'a mut [f64],
     ) -> TangentAssembler<'a> {
-        match (self, coupling) {
-            (Self::Real(values), Coupling::Single(weights)) => {
-                TangentAssembler::Real(Sum { blend: scaled.blend(*weights), values, stiffness })
+        match (self, system) {
+            (Self::Real(values), StageSystem::Real(own)) => {
+                TangentAssembler::Real(Sum { blend: scaled.blend(own.weights), values, stiffness })
             }
-            (Self::Complex(values), Coupling::Pair { weights, .. }) => {
-                TangentAssembler::Complex(Sum { blend: scaled.blend(*weights), values, stiffness })
+            (Self::Complex(values), StageSystem::Complex(own)) => {
+                TangentAssembler::Complex(Sum { blend: scaled.blend(own.weights), values, stiffness })
             }
             _ => unreachable!("a tangent is made for its scheme's coupling"),
         }
@@ -122,16 +122,16 @@ fn factored_estimate<S: Scalar>(solver: &mut dyn LinearSolver<S>, pattern: &Patt
 }
 
 impl Simulation {
-    /// The tangent at the solution of the last step under each of the given scalings; none before the first
-    /// step. The solution itself does not depend on the scaling.
+    /// The tangent at the solution of the last step under each of the given scalings, of the first decoupled system of a scheme
+    /// of several stages; none before the first step. The solution itself does not depend on the scaling.
     pub fn converged_tangents(&mut self, scalings: &[ScalingChoice]) -> Option<Vec<TangentValues>> {
         let (representative, step_size) = (*self.representative(), self.settings().step_size);
-        let coupling = self.settings().scheme.coupling;
+        let system = self.settings().scheme.coupling.systems[0];
         let pattern = self.system().pattern();
         let count = self.system().layout().coordinate_count();
         let tangent = |choice: &ScalingChoice| {
             let scaled = Scaled::new(choice, &representative, step_size);
-            let mut values = self.last_tangent(scaled, &coupling)?;
+            let mut values = self.last_tangent(scaled, &system)?;
             if choice.equilibrates() {
                 values.equilibrate(&pattern, count);
             }

@@ -15,7 +15,6 @@
 use super::dynamics::pivoting_unless;
 use super::initial::Initial;
 use super::simulation::Simulation;
-use crate::schemes::Coupling;
 use crate::system::{State, System};
 
 /// Makes states of driven motions consistent, for what is recorded. The motion itself does not change.
@@ -32,8 +31,7 @@ impl ConsistentRates {
         let is_rigid = system.least_aligned(&simulation.state().kinematics).is_none();
         let may_be_driven = system.may_have_driven_constraint();
         // With steps of a size that was given, all schemes but Radau IIA have forces of constraints of second order.
-        let is_radau =
-            settings.scheme.tableau.is_none() && matches!(settings.scheme.coupling, Coupling::Pair { .. });
+        let is_radau = settings.scheme.tableau.is_none() && settings.scheme.stages.len() > 1;
         let is_coarse = settings.control.is_some() || is_radau;
         let new = || {
             let solver = pivoting_unless(settings);

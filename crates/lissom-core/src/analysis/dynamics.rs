@@ -24,7 +24,7 @@ use crate::judge::{self, Judge, Ledger, Warning};
 use crate::kinematics::{Kinematics, MotionChange};
 use crate::newton::{self, Equations, Failure, Memory, Outcome};
 use crate::scaling::{Representative, Scaled};
-use crate::schemes::Coupling;
+use crate::schemes::StageSystem;
 use crate::stepping::kinks;
 use crate::stepping::{
     Controller, Impacts, LoadControl, MethodMemory, Parts, Resolution, TimeFunctions, Watch,
@@ -101,7 +101,7 @@ impl Simulation {
             .tableau
             .filter(|tableau| !tableau.is_stiffly_accurate() && layout_has_constraints(&system))
             .map(|tableau| Projection::new(&system, &state, &representative, settings.solver, tableau));
-        let remembers = settings.scheme.dynamic && matches!(settings.scheme.coupling, Coupling::Single(_));
+        let remembers = settings.scheme.dynamic && settings.scheme.stages.len() == 1;
         let method_memory = remembers.then(|| {
             let solver = pivoting_unless(&settings);
             MethodMemory::new(&system, &state, &representative, solver, settings.step_size)
@@ -160,7 +160,7 @@ impl Simulation {
     }
 
     /// The tangent at the solution of the last step; none before the first step and after one that failed.
-    pub(super) fn last_tangent(&mut self, scaled: Scaled, coupling: &Coupling) -> Option<TangentValues> {
+    pub(super) fn last_tangent(&mut self, scaled: Scaled, of: &StageSystem) -> Option<TangentValues> {
         if !self.is_last_step_known {
             return None;
         }
@@ -174,8 +174,8 @@ impl Simulation {
             work: &mut self.work,
             watch: &mut Unwatched,
         };
-        let mut values = TangentValues::zeros(coupling, self.system.structure().pattern.entries());
-        equations.assemble_tangent(&mut values.receiver(&scaled, coupling, &mut []));
+        let mut values = TangentValues::zeros(of, self.system.structure().pattern.entries());
+        equations.assemble_tangent(&mut values.receiver(&scaled, of, &mut []));
         Some(values)
     }
 

@@ -16,7 +16,7 @@ use crate::mechanisms::Mechanism;
 use crate::newton::{Correction, Equations, Failure};
 use crate::numbers::Number;
 use crate::scaling::{Representative, Scaled, ScalingChoice, StageIncrements, StageMotion};
-use crate::schemes::{Increments, Scheme, Tableau};
+use crate::schemes::{Increments, Scheme, Stage, Tableau};
 use crate::system::{State, StepPoint, System, TangentAssembler};
 
 /// Roundings that add up in a force.
@@ -168,12 +168,14 @@ impl StepEquations<'_> {
         ROUNDINGS * f64::EPSILON * far * stiffness
     }
 
-    /// Linearises at the last stage: the tangent's values before equilibration.
+    /// Linearises at the last stage: the values of the tangents of all decoupled systems before equilibration.
     pub(crate) fn linearize(&mut self) {
-        let mut values = self.work.factorization.take_values();
         let mut stiffness = std::mem::take(&mut self.work.stiffness);
-        self.assemble_tangent(&mut values.receiver(&self.scaled, &self.scheme.coupling, &mut stiffness));
-        self.work.factorization.set_values(values);
+        for (index, system) in self.scheme.coupling.systems.iter().enumerate() {
+            let mut values = self.work.factorization.take_values(index);
+            self.assemble_tangent(&mut values.receiver(&self.scaled, system, &mut stiffness));
+            self.work.factorization.set_values(index, values);
+        }
         self.work.stiffness = stiffness;
     }
 
@@ -253,7 +255,7 @@ impl StepEquations<'_> {
         // Where nothing bears a load yet, as before the first wave arrives, or bears it no longer, as in free flight,
         // multipliers are nothing but round-off: of strains, and of the forces that accelerate the masses.
         let inertial = self.scaled.multiplier_factor() * reference * self.scaling.1.length;
-        let round_off = work.force_round_off.max(ROUNDINGS * f64::EPSILON * inertial);
+        let round_off = work.force_round_off.max(self.roundings() * f64::EPSILON * inertial);
         let is_known = largest > 0.0 && change > round_off;
         let multipliers = if is_known { change / largest * reference } else { 0.0 };
         // What a joint sees change is rounded as the whole way that parts go in the step, of which accelerations are a part.
@@ -264,13 +266,25 @@ impl StepEquations<'_> {
 
     /// Round-off of multipliers from how far parts go straight on in the step.
     fn travel_round_off(&self) -> f64 {
+        self.round_off_of_travel() * self.scaled.multiplier_factor() * self.scaling.1.length
+    }
+
+    /// Round-off of displacements from how far parts go straight on in the step, scaled.
+    fn round_off_of_travel(&self) -> f64 {
         let work = &*self.work;
         let travel = work
             .sizes
             .iter()
             .zip(&work.unit.rate)
             .fold(0.0_f64, |most, (size, rate)| most.max((size * rate).abs()));
-        ROUNDINGS * f64::EPSILON * self.scaled.multiplier_factor() * travel * self.scaling.1.length
+        self.roundings() * f64::EPSILON * travel
+    }
+
+    /// Roundings that add up in an acceleration: those of the increments, times their weights.
+    fn roundings(&self) -> f64 {
+        let weights =
+            |stage: &Stage| stage.curvature.increments.iter().map(|weight| weight.abs()).sum::<f64>();
+        self.scheme.stages.iter().map(weights).fold(ROUNDINGS, f64::max)
     }
 
     /// The largest correction of a force of a constraint between velocities, and the largest such force [N].
@@ -484,6 +498,10 @@ impl Equations for StepEquations<'_> {
 
     fn is_wanted_exactly(&self) -> bool {
         self.scheme.tableau.is_some()
+    }
+
+    fn round_off(&self) -> f64 {
+        self.round_off_of_travel()
     }
 
     fn back_off(&mut self) {

@@ -1,8 +1,10 @@
-//! The factored tangent: real for schemes of one stage, complex for coupled pairs.
+//! The factored tangents of the decoupled systems of a scheme's stages: one real system for one stage, a complex one for a
+//! pair of conjugate eigenvalues.
 
 use lissom_motion::Block;
 use lissom_solver::{
-    FactorError, FactorReport, LinearSolver, Pattern, SEVERAL, SolverKind, Structure, condition_estimate,
+    FactorError, FactorReport, LinearSolver, Pattern, SEVERAL, Scalar, SolverKind, Structure,
+    condition_estimate,
 };
 use num_complex::Complex64;
 
@@ -10,186 +12,311 @@ use super::compliance::Compliance;
 use super::tangent_numbers::TangentNumbers;
 use super::tangent_values::TangentValues;
 use crate::equilibration::Equilibration;
-use crate::schemes::Coupling;
+use crate::schemes::{Coupling, StageSystem};
 
 /// A solver with the values it factors.
-pub(crate) enum Factorization {
-    Single { solver: Box<dyn LinearSolver<f64>>, values: Vec<f64> },
-    Pair { solver: Box<dyn LinearSolver<Complex64>>, values: Vec<Complex64>, right_hand_side: Vec<Complex64> },
+pub(super) struct Factored<S> {
+    pub(super) solver: Box<dyn LinearSolver<S>>,
+    pub(super) values: Vec<S>,
+    right_hand_side: Vec<S>,
+}
+
+impl<S: Scalar> Factored<S> {
+    fn new(solver: Box<dyn LinearSolver<S>>, structure: &Structure) -> Self {
+        let (entries, size) = (structure.pattern.entries(), structure.pattern.size());
+        Self { solver, values: vec![S::zero(); entries], right_hand_side: vec![S::zero(); size] }
+    }
+
+    /// Solves for the combination Σ left_i r_i of residuals.
+    fn solve(&mut self, left: &[S], stages: &[Vec<f64>]) {
+        for (row, value) in self.right_hand_side.iter_mut().enumerate() {
+            let mut sum = left[0] * S::from_real(stages[0][row]);
+            for (factor, residual) in left.iter().zip(stages).skip(1) {
+                sum += *factor * S::from_real(residual[row]);
+            }
+            *value = sum;
+        }
+        self.solver.solve(&mut self.right_hand_side);
+    }
+
+    /// Adds Re(right_i w) to the corrections, or begins them with it.
+    fn add(&self, right: &[S], is_first: bool, real: impl Fn(S) -> f64, stages: &mut [Vec<f64>]) {
+        for (factor, corrections) in right.iter().zip(stages) {
+            for (correction, value) in corrections.iter_mut().zip(&self.right_hand_side) {
+                let own = real(*factor * *value);
+                *correction = if is_first { own } else { *correction + own };
+            }
+        }
+    }
+
+    /// The same for several right-hand sides at once, one in each lane: their solutions.
+    fn solve_several(&mut self, left: &[S], stages: &[Vec<Block>]) -> Vec<[S; SEVERAL]> {
+        let mixed = |row: usize| {
+            std::array::from_fn(|lane| {
+                let mut sum = left[0] * S::from_real(stages[0][row][lane]);
+                for (factor, residual) in left.iter().zip(stages).skip(1) {
+                    sum += *factor * S::from_real(residual[row][lane]);
+                }
+                sum
+            })
+        };
+        let mut right_hand_sides: Vec<[S; SEVERAL]> = (0..self.right_hand_side.len()).map(mixed).collect();
+        self.solver.solve_several(&mut right_hand_sides);
+        right_hand_sides
+    }
+
+    /// Solves for `weight` times these values.
+    fn solve_weighted(&mut self, weight: S, values: &[f64]) {
+        for (value, real) in self.right_hand_side.iter_mut().zip(values) {
+            *value = weight * S::from_real(*real);
+        }
+        self.solver.solve(&mut self.right_hand_side);
+    }
+}
+
+/// Adds the parts of the corrections that belong to these solutions, or begins with them.
+fn add_several<S: Scalar>(
+    solutions: &[[S; SEVERAL]],
+    right: &[S],
+    is_first: bool,
+    real: impl Fn(S) -> f64,
+    stages: &mut [Vec<Block>],
+) {
+    for (factor, corrections) in right.iter().zip(stages) {
+        for (correction, value) in corrections.iter_mut().zip(solutions) {
+            for lane in 0..SEVERAL {
+                let own = real(*factor * value[lane]);
+                correction[lane] = if is_first { own } else { correction[lane] + own };
+            }
+        }
+    }
+}
+
+/// The factored tangent of one decoupled system.
+pub(super) enum FactoredSystem {
+    Real(Factored<f64>),
+    Complex(Factored<Complex64>),
+}
+
+/// The factored tangents of a scheme, in the order of its decoupled systems.
+pub(crate) struct Factorization {
+    pub(super) systems: Vec<FactoredSystem>,
 }
 
 impl Factorization {
     pub(crate) fn new(kind: &SolverKind, structure: &Structure, coupling: &Coupling) -> Self {
-        let entries = structure.pattern.entries();
-        let size = structure.pattern.size();
-        match coupling {
-            Coupling::Single(_) => {
-                Self::Single { solver: (kind.real)(structure), values: vec![0.0; entries] }
+        let systems = coupling.systems.iter().map(|system| match system {
+            StageSystem::Real(_) => FactoredSystem::Real(Factored::new((kind.real)(structure), structure)),
+            StageSystem::Complex(_) => {
+                FactoredSystem::Complex(Factored::new((kind.complex)(structure), structure))
             }
-            Coupling::Pair { .. } => Self::Pair {
-                solver: (kind.complex)(structure),
-                values: vec![Complex64::default(); entries],
-                right_hand_side: vec![Complex64::default(); size],
-            },
-        }
+        });
+        Self { systems: systems.collect() }
     }
 
-    /// Lets so many threads share factorisations and solves that are large enough.
+    /// Sets the number of threads that share factorisations and solves that are large enough.
     pub(crate) fn set_threads(&mut self, threads: usize) {
-        match self {
-            Self::Single { solver, .. } => solver.set_threads(threads),
-            Self::Pair { solver, .. } => solver.set_threads(threads),
+        for system in &mut self.systems {
+            match system {
+                FactoredSystem::Real(own) => own.solver.set_threads(threads),
+                FactoredSystem::Complex(own) => own.solver.set_threads(threads),
+            }
         }
     }
 
     /// Stored numbers of the factors.
     pub(crate) fn entries(&self) -> usize {
-        match self {
-            Self::Single { solver, .. } => solver.factor_entries(),
-            Self::Pair { solver, .. } => solver.factor_entries(),
-        }
+        let entries = |system: &FactoredSystem| match system {
+            FactoredSystem::Real(own) => own.solver.factor_entries(),
+            FactoredSystem::Complex(own) => own.solver.factor_entries(),
+        };
+        self.systems.iter().map(entries).sum()
     }
 
-    /// Goes on with another solver and the same tangent.
+    /// Goes on with another solver and the same tangents.
     pub(crate) fn replace_solver(&mut self, kind: &SolverKind, structure: &Structure) {
-        match self {
-            Self::Single { solver, .. } => *solver = (kind.real)(structure),
-            Self::Pair { solver, .. } => *solver = (kind.complex)(structure),
-        }
-    }
-
-    /// The tangent's values, to be given back.
-    pub(crate) fn take_values(&mut self) -> TangentValues {
-        match self {
-            Self::Single { values, .. } => TangentValues::Real(std::mem::take(values)),
-            Self::Pair { values, .. } => TangentValues::Complex(std::mem::take(values)),
-        }
-    }
-
-    /// The tangent's values as plain numbers.
-    pub(crate) fn numbers(&self) -> TangentNumbers {
-        match self {
-            Self::Single { values, .. } => TangentNumbers::Real(values.clone()),
-            Self::Pair { values, .. } => TangentNumbers::of_complex(values),
-        }
-    }
-
-    /// Takes the values of a tangent as plain numbers.
-    pub(crate) fn set_numbers(&mut self, numbers: &TangentNumbers) {
-        match (self, numbers) {
-            (Self::Single { values, .. }, TangentNumbers::Real(numbers)) => values.copy_from_slice(numbers),
-            (Self::Pair { values, .. }, TangentNumbers::Complex(numbers)) => {
-                for (value, [re, im]) in values.iter_mut().zip(numbers) {
-                    *value = Complex64::new(*re, *im);
-                }
+        for system in &mut self.systems {
+            match system {
+                FactoredSystem::Real(own) => own.solver = (kind.real)(structure),
+                FactoredSystem::Complex(own) => own.solver = (kind.complex)(structure),
             }
-            _ => unreachable!("a snapshot belongs to the scheme it was taken with"),
         }
     }
 
-    /// Takes the values of a new tangent.
-    pub(crate) fn set_values(&mut self, tangent: TangentValues) {
-        match (self, tangent) {
-            (Self::Single { values, .. }, TangentValues::Real(tangent)) => *values = tangent,
-            (Self::Pair { values, .. }, TangentValues::Complex(tangent)) => *values = tangent,
+    /// The values of a system's tangent, to be given back.
+    pub(crate) fn take_values(&mut self, system: usize) -> TangentValues {
+        match &mut self.systems[system] {
+            FactoredSystem::Real(own) => TangentValues::Real(std::mem::take(&mut own.values)),
+            FactoredSystem::Complex(own) => TangentValues::Complex(std::mem::take(&mut own.values)),
+        }
+    }
+
+    /// The tangents' values as plain numbers.
+    pub(crate) fn numbers(&self) -> Vec<TangentNumbers> {
+        let numbers = |system: &FactoredSystem| match system {
+            FactoredSystem::Real(own) => TangentNumbers::Real(own.values.clone()),
+            FactoredSystem::Complex(own) => TangentNumbers::of_complex(&own.values),
+        };
+        self.systems.iter().map(numbers).collect()
+    }
+
+    /// Sets the values of the tangents from plain numbers.
+    pub(crate) fn set_numbers(&mut self, numbers: &[TangentNumbers]) {
+        for (system, numbers) in self.systems.iter_mut().zip(numbers) {
+            match (system, numbers) {
+                (FactoredSystem::Real(own), TangentNumbers::Real(numbers)) => {
+                    own.values.copy_from_slice(numbers);
+                }
+                (FactoredSystem::Complex(own), TangentNumbers::Complex(numbers)) => {
+                    for (value, [re, im]) in own.values.iter_mut().zip(numbers) {
+                        *value = Complex64::new(*re, *im);
+                    }
+                }
+                _ => unreachable!("a snapshot belongs to the scheme it was taken with"),
+            }
+        }
+    }
+
+    /// Sets the values of a system's new tangent.
+    pub(crate) fn set_values(&mut self, system: usize, tangent: TangentValues) {
+        match (&mut self.systems[system], tangent) {
+            (FactoredSystem::Real(own), TangentValues::Real(tangent)) => own.values = tangent,
+            (FactoredSystem::Complex(own), TangentValues::Complex(tangent)) => own.values = tangent,
             _ => unreachable!("a factorisation is made for its scheme's coupling"),
         }
     }
 
-    /// Brings rows and columns of a new tangent to one size.
+    /// Brings rows and columns of new tangents to one size, with the factors of the first for all of them.
     pub(crate) fn equilibrate(&mut self, pattern: &Pattern, equilibration: &mut Equilibration) {
-        match self {
-            Self::Single { values, .. } => equilibration.apply(pattern, values),
-            Self::Pair { values, .. } => equilibration.apply(pattern, values),
+        for (index, system) in self.systems.iter_mut().enumerate() {
+            match system {
+                FactoredSystem::Real(own) => {
+                    if index == 0 {
+                        equilibration.find(pattern, &own.values);
+                    }
+                    equilibration.scale_matrix(pattern, &mut own.values);
+                }
+                FactoredSystem::Complex(own) => {
+                    if index == 0 {
+                        equilibration.find(pattern, &own.values);
+                    }
+                    equilibration.scale_matrix(pattern, &mut own.values);
+                }
+            }
         }
     }
 
-    /// Lets constraints yield, after equilibration.
+    /// Adds the compliance of redundant constraints, after equilibration.
     pub(crate) fn relax(
         &mut self,
         compliance: &mut Compliance,
         scale: f64,
         equilibration: Option<&Equilibration>,
     ) {
-        match self {
-            Self::Single { values, .. } => compliance.enter(scale, equilibration, values),
-            Self::Pair { values, .. } => compliance.enter(scale, equilibration, values),
+        for system in &mut self.systems {
+            match system {
+                FactoredSystem::Real(own) => compliance.enter(scale, equilibration, &mut own.values),
+                FactoredSystem::Complex(own) => compliance.enter(scale, equilibration, &mut own.values),
+            }
         }
     }
 
-    /// Factors the tangent.
+    /// Factors the tangents; the report is that of the one with the smallest relative pivot.
     pub(crate) fn factor(&mut self) -> Result<FactorReport, FactorError> {
-        match self {
-            Self::Single { solver, values } => solver.factor(values),
-            Self::Pair { solver, values, .. } => solver.factor(values),
+        let mut worst: Option<FactorReport> = None;
+        for system in &mut self.systems {
+            let own = match system {
+                FactoredSystem::Real(own) => own.solver.factor(&own.values)?,
+                FactoredSystem::Complex(own) => own.solver.factor(&own.values)?,
+            };
+            worst = match worst {
+                Some(worst) if worst.relative_pivot() <= own.relative_pivot() => Some(worst),
+                _ => Some(own),
+            };
         }
+        let Some(report) = worst else { unreachable!("every scheme has a stage") };
+        Ok(report)
     }
 
-    /// Estimates the condition number of the tangent factored last, in the 1-norm.
+    /// Estimates the condition number of the tangent factored last, in the 1-norm: the largest of all systems.
     pub(crate) fn condition_estimate(&mut self, pattern: &Pattern) -> f64 {
-        match self {
-            Self::Single { solver, values } => condition_estimate(&mut **solver, pattern, values),
-            Self::Pair { solver, values, .. } => condition_estimate(&mut **solver, pattern, values),
-        }
+        let estimate = |system: &mut FactoredSystem| match system {
+            FactoredSystem::Real(own) => condition_estimate(&mut *own.solver, pattern, &own.values),
+            FactoredSystem::Complex(own) => condition_estimate(&mut *own.solver, pattern, &own.values),
+        };
+        let estimates = self.systems.iter_mut().map(estimate);
+        estimates.reduce(|most, own| if own <= most { most } else { own }).unwrap_or(1.0)
     }
 
     /// Solves for the corrections of all stages: residuals in, corrections out.
     pub(crate) fn solve(&mut self, coupling: &Coupling, stages: &mut [Vec<f64>]) {
-        match (self, coupling) {
-            (Self::Single { solver, .. }, Coupling::Single(_)) => solver.solve(&mut stages[0]),
-            (Self::Pair { solver, right_hand_side, .. }, Coupling::Pair { left, right, .. }) => {
-                let (first, second) = stages.split_at_mut(1);
-                let (first, second) = (&mut first[0], &mut second[0]);
-                for (value, (a, b)) in right_hand_side.iter_mut().zip(first.iter().zip(second.iter())) {
-                    *value = left[0] * a + left[1] * b;
-                }
-                solver.solve(right_hand_side);
-                for (value, (a, b)) in right_hand_side.iter().zip(first.iter_mut().zip(second.iter_mut())) {
-                    *a = (right[0] * value).re;
-                    *b = (right[1] * value).re;
-                }
+        if let ([FactoredSystem::Real(alone)], [stage]) = (&mut self.systems[..], &mut *stages) {
+            alone.solver.solve(stage);
+            return;
+        }
+        for pair in self.systems.iter_mut().zip(&coupling.systems) {
+            match pair {
+                (FactoredSystem::Real(own), StageSystem::Real(of)) => own.solve(&of.left, stages),
+                (FactoredSystem::Complex(own), StageSystem::Complex(of)) => own.solve(&of.left, stages),
+                _ => unreachable!("a factorisation is made for its scheme's coupling"),
             }
-            _ => unreachable!("a factorisation is made for its scheme's coupling"),
+        }
+        for (index, pair) in self.systems.iter().zip(&coupling.systems).enumerate() {
+            match pair {
+                (FactoredSystem::Real(own), StageSystem::Real(of)) => {
+                    own.add(&of.right, index == 0, |value| value, stages);
+                }
+                (FactoredSystem::Complex(own), StageSystem::Complex(of)) => {
+                    own.add(&of.right, index == 0, |value| value.re, stages);
+                }
+                _ => unreachable!("a factorisation is made for its scheme's coupling"),
+            }
         }
     }
 
     /// The same for several right-hand sides at once: one in each lane.
     pub(crate) fn solve_several(&mut self, coupling: &Coupling, stages: &mut [Vec<Block>]) {
-        match (self, coupling) {
-            (Self::Single { solver, .. }, Coupling::Single(_)) => solver.solve_several(&mut stages[0]),
-            (Self::Pair { solver, .. }, Coupling::Pair { left, right, .. }) => {
-                let (first, second) = stages.split_at_mut(1);
-                let (first, second) = (&mut first[0], &mut second[0]);
-                let mixed = |(a, b): (&Block, &Block)| {
-                    std::array::from_fn(|lane| left[0] * a[lane] + left[1] * b[lane])
-                };
-                let mut right_hand_sides: Vec<[Complex64; SEVERAL]> =
-                    first.iter().zip(second.iter()).map(mixed).collect();
-                solver.solve_several(&mut right_hand_sides);
-                for (value, (a, b)) in right_hand_sides.iter().zip(first.iter_mut().zip(second.iter_mut())) {
-                    *a = value.map(|value| (right[0] * value).re);
-                    *b = value.map(|value| (right[1] * value).re);
-                }
+        enum Solutions {
+            Real(Vec<[f64; SEVERAL]>),
+            Complex(Vec<[Complex64; SEVERAL]>),
+        }
+        if let ([FactoredSystem::Real(alone)], [stage]) = (&mut self.systems[..], &mut *stages) {
+            alone.solver.solve_several(stage);
+            return;
+        }
+        let solve = |pair: (&mut FactoredSystem, &StageSystem)| match pair {
+            (FactoredSystem::Real(own), StageSystem::Real(of)) => {
+                Solutions::Real(own.solve_several(&of.left, stages))
+            }
+            (FactoredSystem::Complex(own), StageSystem::Complex(of)) => {
+                Solutions::Complex(own.solve_several(&of.left, stages))
             }
             _ => unreachable!("a factorisation is made for its scheme's coupling"),
+        };
+        let solutions: Vec<Solutions> = self.systems.iter_mut().zip(&coupling.systems).map(solve).collect();
+        for (index, pair) in solutions.iter().zip(&coupling.systems).enumerate() {
+            match pair {
+                (Solutions::Real(own), StageSystem::Real(of)) => {
+                    add_several(own, &of.right, index == 0, |value| value, stages);
+                }
+                (Solutions::Complex(own), StageSystem::Complex(of)) => {
+                    add_several(own, &of.right, index == 0, |value| value.re, stages);
+                }
+                _ => unreachable!("solutions are in the order of the systems"),
+            }
         }
     }
 
-    /// Solves the tangent's equations for inertia times real values: of a pair, the real part of the solution.
+    /// Solves the first system's equations for inertia times real values: of a complex one, the real part of the solution.
     pub(crate) fn solve_inertial(&mut self, coupling: &Coupling, values: &mut [f64]) {
-        match (self, coupling) {
-            (Self::Single { solver, .. }, Coupling::Single(weights)) => {
-                for value in values.iter_mut() {
-                    *value *= weights.curvature;
-                }
-                solver.solve(values);
+        match (self.systems.first_mut(), coupling.systems.first()) {
+            (Some(FactoredSystem::Real(own)), Some(StageSystem::Real(of))) => {
+                own.solve_weighted(of.weights.curvature, values);
+                values.copy_from_slice(&own.right_hand_side);
             }
-            (Self::Pair { solver, right_hand_side, .. }, Coupling::Pair { weights, .. }) => {
-                for (value, real) in right_hand_side.iter_mut().zip(values.iter()) {
-                    *value = weights.curvature * real;
-                }
-                solver.solve(right_hand_side);
-                for (value, real) in right_hand_side.iter().zip(values) {
+            (Some(FactoredSystem::Complex(own)), Some(StageSystem::Complex(of))) => {
+                own.solve_weighted(of.weights.curvature, values);
+                for (value, real) in own.right_hand_side.iter().zip(values) {
                     *real = value.re;
                 }
             }

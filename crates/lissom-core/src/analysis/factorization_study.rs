@@ -4,7 +4,7 @@
 use lissom_solver::{FactorError, FactorReport, LinearSolver, Pattern, Scalar, SolverKind, refined_solution};
 
 use super::equations::StepEquations;
-use super::factorization::Factorization;
+use super::factorization::{FactoredSystem, Factorization};
 use super::phase::Unwatched;
 use super::simulation::Simulation;
 use super::workspace::Workspace;
@@ -194,14 +194,16 @@ fn forward_errors(
     layout: &Layout,
     sizes: &[f64],
 ) -> [f64; 3] {
-    match factorization {
-        Factorization::Single { solver, values } => {
-            forward_errors_of(&mut **solver, pattern, values, layout, sizes)
+    let of = |system: &mut FactoredSystem| match system {
+        FactoredSystem::Real(own) => forward_errors_of(&mut *own.solver, pattern, &own.values, layout, sizes),
+        FactoredSystem::Complex(own) => {
+            forward_errors_of(&mut *own.solver, pattern, &own.values, layout, sizes)
         }
-        Factorization::Pair { solver, values, .. } => {
-            forward_errors_of(&mut **solver, pattern, values, layout, sizes)
-        }
-    }
+    };
+    let worst = |[a, b, certain]: [f64; 3], own: [f64; 3]| {
+        [largest(a, [own[0]].into_iter()), largest(b, [own[1]].into_iter()), certain.min(own[2])]
+    };
+    factorization.systems.iter_mut().map(of).fold([0.0, 0.0, 1.0], worst)
 }
 
 fn forward_errors_of<S: Scalar>(

@@ -19,7 +19,7 @@ pub(crate) struct Learned {
     effort: Effort,
     backed_off: bool,
     /// The tangent factored last, if any was, and what belongs to it.
-    tangent: Option<TangentNumbers>,
+    tangent: Option<Vec<TangentNumbers>>,
     equilibration: Option<Vec<f64>>,
     force_round_off: f64,
     yielding: Option<(Compliance, usize)>,

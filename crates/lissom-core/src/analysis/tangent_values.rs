@@ -2,23 +2,23 @@
 
 use num_complex::Complex64;
 
-use crate::schemes::Coupling;
+use crate::schemes::StageSystem;
 
 /// Values of a tangent on its pattern.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TangentValues {
-    /// Of a scheme of one stage.
+    /// Of one stage, or of a real eigenvalue of several.
     Real(Vec<f64>),
-    /// Of the complex form of a scheme of two stages.
+    /// Of a pair of complex conjugate eigenvalues.
     Complex(Vec<Complex64>),
 }
 
 impl TangentValues {
-    /// Room for the tangent of a scheme.
-    pub(crate) fn zeros(coupling: &Coupling, entries: usize) -> Self {
-        match coupling {
-            Coupling::Single(_) => Self::Real(vec![0.0; entries]),
-            Coupling::Pair { .. } => Self::Complex(vec![Complex64::default(); entries]),
+    /// Zeros for the tangent of a decoupled system of the stages.
+    pub(crate) fn zeros(system: &StageSystem, entries: usize) -> Self {
+        match system {
+            StageSystem::Real(_) => Self::Real(vec![0.0; entries]),
+            StageSystem::Complex(_) => Self::Complex(vec![Complex64::default(); entries]),
         }
     }
 }

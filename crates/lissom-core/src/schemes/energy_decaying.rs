@@ -12,7 +12,7 @@
 //! time-discontinuous schemes [Bauchau and Theron 1996; Bauchau, Bottasso and Trainelli 2003]. The proof that the
 //! energy never grows stands in `docs/theory/energy-decaying.md`.
 
-use super::radau_iia::collocation;
+use super::radau_iia::two_stage_collocation;
 use super::{Scheme, SchemeError, SchemeKind, Tableau, within};
 
 /// The energy is bounded by the exact solution of the equations: with 1e-9 a free beam gains 9e-12 of its energy in a step of
@@ -34,7 +34,8 @@ pub const KIND: SchemeKind = SchemeKind {
 pub fn with_spectral_radius(rho: f64) -> Result<Scheme, SchemeError> {
     let rho = within("spectral_radius", rho, (0.0, 1.0))?;
     let tableau = tableau((1.0 - rho) / (1.0 + rho));
-    let mut scheme = collocation(format!("energy-decaying (spectral radius {rho})"), tableau.inverse);
+    let mut scheme =
+        two_stage_collocation(format!("energy-decaying (spectral radius {rho})"), tableau.inverse);
     scheme.tableau = Some(tableau);
     Ok(scheme)
 }

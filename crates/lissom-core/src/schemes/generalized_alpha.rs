@@ -59,7 +59,7 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
     let beta = 0.25 * (gamma + 0.5).powi(2);
     // a_{n+1} = (z - (½ - β) a_n) / β with the departure z = ψ - v_n
     let memory = Combination {
-        increments: [1.0 / beta, 0.0],
+        increments: [1.0 / beta, 0.0, 0.0],
         algorithmic: -(0.5 - beta) / beta,
         ..Combination::default()
     };
@@ -72,7 +72,7 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
     let prediction = Combination { algorithmic: 0.5, ..Combination::default() };
     Scheme {
         name,
-        coupling: Coupling::Single(Weights { rate: rate.increments[0], curvature: curvature.increments[0] }),
+        coupling: Coupling::single(Weights { rate: rate.increments[0], curvature: curvature.increments[0] }),
         tableau: None,
         stages: vec![Stage { abscissa: 1.0, rate, curvature, prediction }],
         algorithmic: memory,
@@ -81,6 +81,7 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
         // Legend: j third derivative, a_n acceleration at t_n + α_m - α_f. The prediction misses β j, the scheme errs
         // by (β - 1/6 + (α_m - α_f)/2) j.
         error_constant: (beta - 1.0 / 6.0 + 0.5 * (alpha_m - alpha_f)) / beta,
+        controlled_order: 2,
         planned_share: 0.8,
         dynamic: true,
     }
@@ -89,16 +90,21 @@ fn new(name: String, alpha_m: f64, alpha_f: f64) -> Scheme {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::schemes::{Decoupled, StageSystem};
 
     #[test]
     fn constants_are_those_of_the_papers() {
         let scheme = hht(-0.3).expect("in range");
-        let Coupling::Single(weights) = scheme.coupling else { panic!("one stage") };
+        let [StageSystem::Real(Decoupled { weights, .. })] = scheme.coupling.systems[..] else {
+            panic!("one stage")
+        };
         assert!((weights.rate - 0.8 / 0.4225).abs() < 1e-14);
         assert!((weights.curvature - 1.0 / (0.4225 * 0.7)).abs() < 1e-14);
         // A spectral radius of 1 is the trapezoidal rule.
         let scheme = with_spectral_radius(1.0).expect("in range");
-        let Coupling::Single(weights) = scheme.coupling else { panic!("one stage") };
+        let [StageSystem::Real(Decoupled { weights, .. })] = scheme.coupling.systems[..] else {
+            panic!("one stage")
+        };
         assert!((weights.rate - 2.0).abs() < 1e-14 && (weights.curvature - 4.0).abs() < 1e-14);
     }
 

@@ -3,22 +3,26 @@
 //! A scheme is a table of numbers: at each stage, rate and curvature are linear combinations of the
 //! increments since the start of the step (the unknowns) and of what is known at the start.
 
+pub(crate) mod collocation;
 pub mod energy_decaying;
 pub mod generalized_alpha;
 pub mod radau_iia;
+pub mod radau_iia_5;
 pub(crate) mod relaxation;
 pub mod statics;
 
 use num_complex::Complex64;
 
+use crate::kinematics::step_stages::STAGES;
+
 /// Most stages a scheme may have.
-pub const MOST_STAGES: usize = 2;
+pub const MAX_STAGES: usize = 3;
 
 /// Coefficients of a linear combination.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Combination {
     /// Of each stage's increment.
-    pub increments: [f64; MOST_STAGES],
+    pub increments: [f64; MAX_STAGES],
     /// Of the rate q' at the start.
     pub rate: f64,
     /// Of the scheme's memory at the start, which is like q''.
@@ -85,21 +89,41 @@ pub struct Weights<T> {
     pub curvature: T,
 }
 
-/// How the coupled linear systems of all stages come apart.
+/// A linear system of the size of one stage. With the residuals r of the stages, solve J w = Σ left_i r_i; the corrections of
+/// stage i have the part Re(right_i w).
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Coupling {
-    /// One stage, one real system.
-    Single(Weights<f64>),
-    /// Two stages: one complex system of the size of one stage. With the residuals r of the stages, solve
-    /// J w = Σ left_i r_i, then the corrections are Re(right_i w).
-    Pair {
-        /// Weights of the complex system.
-        weights: Weights<Complex64>,
-        /// Row of T⁻¹.
-        left: [Complex64; 2],
-        /// Twice the column of T.
-        right: [Complex64; 2],
-    },
+pub struct Decoupled<T> {
+    /// Weights of its matrix J.
+    pub weights: Weights<T>,
+    /// Row of T⁻¹, by stage.
+    pub left: [T; MAX_STAGES],
+    /// Column of T, by stage; twice that for a pair of complex conjugates.
+    pub right: [T; MAX_STAGES],
+}
+
+/// A decoupled system of a real eigenvalue, or of a pair of complex ones.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum StageSystem {
+    /// Of a real eigenvalue.
+    Real(Decoupled<f64>),
+    /// Of a pair of complex conjugates.
+    Complex(Decoupled<Complex64>),
+}
+
+/// The decoupled systems whose solutions add up to the corrections of all stages: with one tangent for all stages, T
+/// diagonalises A⁻¹, the matrix of the rates.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coupling {
+    /// One per real eigenvalue and per pair of complex ones.
+    pub systems: Vec<StageSystem>,
+}
+
+impl Coupling {
+    /// One stage with these weights.
+    pub(crate) fn single(weights: Weights<f64>) -> Self {
+        let alone = [1.0, 0.0, 0.0];
+        Self { systems: vec![StageSystem::Real(Decoupled { weights, left: alone, right: alone })] }
+    }
 }
 
 /// Coefficients of a Runge-Kutta method that integrates velocities, strains and violations from their rates at
@@ -107,13 +131,13 @@ pub enum Coupling {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tableau {
     /// A: weights of the rates at the stages, for the values at a stage.
-    pub stages: [[f64; MOST_STAGES]; MOST_STAGES],
+    pub stages: [[f64; STAGES]; STAGES],
     /// b: the same for the end of the step.
-    pub end: [f64; MOST_STAGES],
+    pub end: [f64; STAGES],
     /// A⁻¹: from changes at the stages to rates.
-    pub inverse: [[f64; MOST_STAGES]; MOST_STAGES],
+    pub inverse: [[f64; STAGES]; STAGES],
     /// bᵀA⁻¹: from changes at the stages to the change over the step.
-    pub reached: [f64; MOST_STAGES],
+    pub reached: [f64; STAGES],
     /// Dissipation α, 0 (none) … 1 (high frequencies vanish).
     pub dissipation: f64,
 }
@@ -145,6 +169,8 @@ pub struct Scheme {
     pub memory_delay: f64,
     /// Local error at the end of a step over what the last stage's prediction misses, both of third order.
     pub error_constant: f64,
+    /// Order of the errors that step control keeps at the tolerance: those of positions, unless velocities are of lower order.
+    pub controlled_order: i32,
     /// Part of the sum of such errors that errors at the end of a run with steps of one size come to.
     pub planned_share: f64,
     /// Whether inertia takes part.
@@ -188,8 +214,13 @@ pub struct SchemeKind {
 }
 
 /// All schemes for dynamics, one line each; the first is the default.
-pub static KINDS: &[SchemeKind] =
-    &[generalized_alpha::KIND, generalized_alpha::HHT_KIND, radau_iia::KIND, energy_decaying::KIND];
+pub static KINDS: &[SchemeKind] = &[
+    generalized_alpha::KIND,
+    generalized_alpha::HHT_KIND,
+    radau_iia::KIND,
+    radau_iia_5::KIND,
+    energy_decaying::KIND,
+];
 
 /// The scheme kind of that name.
 pub fn kind(name: &str) -> Option<&'static SchemeKind> {

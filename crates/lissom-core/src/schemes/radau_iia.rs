@@ -11,9 +11,8 @@
 //! apart into one complex system of the size of a single stage. Its real form must not be eliminated first
 //! stage first without pivoting, for (A⁻²)₁₁ = 0.
 
-use num_complex::Complex64;
-
-use super::{Combination, Coupling, Increments, Scheme, SchemeKind, Stage, Weights};
+use super::collocation::collocation;
+use super::{Scheme, SchemeKind};
 
 /// The prediction misses a sixth of the third derivative; the scheme's own error is of fourth order. With this part
 /// of what is missed, errors at the end of a run are near the tolerance.
@@ -32,74 +31,23 @@ pub const KIND: SchemeKind = SchemeKind {
 
 /// The scheme.
 pub fn two_stages() -> Scheme {
-    collocation("radau-iia".to_owned(), [[1.5, 0.5], [-4.5, 2.5]])
+    two_stage_collocation("radau-iia".to_owned(), [[1.5, 0.5], [-4.5, 2.5]])
 }
 
 /// A scheme of two stages at 1/3 and 1 from A⁻¹, whose eigenvalues are complex.
-pub(super) fn collocation(name: String, rate: [[f64; 2]; 2]) -> Scheme {
-    let curvature: [[f64; 2]; 2] =
-        std::array::from_fn(|i| std::array::from_fn(|j| rate[i][0] * rate[0][j] + rate[i][1] * rate[1][j]));
-    let abscissae = [1.0 / 3.0, 1.0];
-    let stage = |i: usize| Stage {
-        abscissa: abscissae[i],
-        rate: Combination { increments: rate[i], ..Combination::default() },
-        curvature: Combination { increments: curvature[i], ..Combination::default() },
-        prediction: Combination { curvature: 0.5 * abscissae[i] * abscissae[i], ..Combination::default() },
-    };
-    let real = 0.5 * (rate[0][0] + rate[1][1]);
-    let determinant = rate[0][0] * rate[1][1] - rate[0][1] * rate[1][0];
-    let mu = Complex64::new(real, (determinant - real * real).sqrt());
-    // Columns of T are (1, t): the first row of (A⁻¹ - μ) T = 0.
-    let second = (mu - rate[0][0]) / rate[0][1];
-    // T⁻¹ for T = [1 1; t t̄]: first row (t̄, -1) / (t̄ - t).
-    let width = second.conj() - second;
+pub(super) fn two_stage_collocation(name: String, rate: [[f64; 2]; 2]) -> Scheme {
     Scheme {
-        name,
-        stages: vec![stage(0), stage(1)],
-        algorithmic: Combination::default(),
-        increments: Increments::Departure,
-        coupling: Coupling::Pair {
-            weights: Weights { rate: mu, curvature: mu * mu },
-            left: [second.conj() / width, -1.0 / width],
-            right: [Complex64::new(2.0, 0.0), 2.0 * second],
-        },
-        tableau: None,
-        memory_delay: 0.0,
         error_constant: ERROR_CONSTANT,
         planned_share: PLANNED_SHARE,
-        dynamic: true,
+        controlled_order: 3,
+        ..collocation(name, [1.0 / 3.0, 1.0], rate)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    /// The complex form solves the coupled real system A⁻² ⊗ m + A⁻¹ ⊗ d + I ⊗ k.
-    #[test]
-    fn complex_form_solves_the_coupled_stages() {
-        let scheme = two_stages();
-        let Coupling::Pair { weights, left, right } = scheme.coupling else { panic!("two stages") };
-        let (m, d, k) = (1.3, 0.2, 5.0);
-        let solution = [0.7, -0.4];
-        let residual: Vec<f64> = (0..2)
-            .map(|i| {
-                let stage = &scheme.stages[i];
-                (0..2)
-                    .map(|j| {
-                        let identity = if i == j { k } else { 0.0 };
-                        (m * stage.curvature.increments[j] + d * stage.rate.increments[j] + identity)
-                            * solution[j]
-                    })
-                    .sum()
-            })
-            .collect();
-        let jacobian = weights.curvature * m + weights.rate * d + k;
-        let w = (left[0] * residual[0] + left[1] * residual[1]) / jacobian;
-        for i in 0..2 {
-            assert!(((right[i] * w).re - solution[i]).abs() < 1e-14);
-        }
-    }
+    use crate::schemes::Combination;
 
     /// Rates and curvatures of quadratics are exact.
     #[test]

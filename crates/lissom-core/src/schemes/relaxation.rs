@@ -13,15 +13,16 @@ pub(crate) fn relaxation() -> Scheme {
         stages: vec![Stage {
             abscissa: 1.0,
             rate: Combination::default(),
-            curvature: Combination { increments: [1.0, 0.0], ..Combination::default() },
+            curvature: Combination { increments: [1.0, 0.0, 0.0], ..Combination::default() },
             prediction: Combination::default(),
         }],
         algorithmic: Combination::default(),
         increments: Increments::FromStart,
-        coupling: Coupling::Single(Weights { rate: 0.0, curvature: 1.0 }),
+        coupling: Coupling::single(Weights { rate: 0.0, curvature: 1.0 }),
         tableau: None,
         memory_delay: 0.0,
         error_constant: 0.0,
+        controlled_order: 2,
         planned_share: 0.0,
         dynamic: false,
     }

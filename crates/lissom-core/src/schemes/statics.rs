@@ -14,10 +14,11 @@ pub fn statics() -> Scheme {
         }],
         algorithmic: Combination::default(),
         increments: Increments::FromStart,
-        coupling: Coupling::Single(Weights { rate: 0.0, curvature: 0.0 }),
+        coupling: Coupling::single(Weights { rate: 0.0, curvature: 0.0 }),
         tableau: None,
         memory_delay: 0.0,
         error_constant: 0.0,
+        controlled_order: 2,
         planned_share: 0.0,
         dynamic: false,
     }

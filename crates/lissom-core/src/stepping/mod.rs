@@ -442,7 +442,8 @@ impl Simulation {
             let ahead = (self.origin.time, self.next.kinematics.time + max_step);
             reference = reference.max(driven(&self.system, ahead, self.representative.length));
         }
-        let is_third_order = self.settings.scheme.stages.len() == 2;
+        let scheme_order = f64::from(self.settings.scheme.controlled_order);
+        let is_third_order = scheme_order > 2.0;
         let order = if is_third_order && self.work.is_miss_known() { Order::Fourth } else { Order::Third };
         self.estimate_error(order);
         let work = &*self.work;
@@ -454,7 +455,7 @@ impl Simulation {
         let (allowed, power) = match order {
             Order::Third if is_third_order => (numbers.of(Number::ShareOfFirst) * tolerance, 1.0),
             Order::Third => (share * tolerance.powf(3.0 / 2.0), 1.0),
-            Order::Fourth => (share * tolerance.powf(4.0 / 3.0), 3.0 / 4.0),
+            Order::Fourth => (share * tolerance.powf(4.0 / scheme_order), 3.0 / 4.0),
         };
         let places = largest / (reference * allowed).max(SMALLEST_ERROR);
         let states = self.error_of_states() / allowed;

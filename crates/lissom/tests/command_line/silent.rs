@@ -169,7 +169,7 @@ fn steps_too_long_for_the_rotation_are_divided() {
 fn steps_that_are_all_divided_are_judged_too() {
     let folder = Folder::new("divided");
     let top = concat!(env!("CARGO_MANIFEST_DIR"), "/../../examples/top.toml");
-    for scheme in ["generalized-alpha", "hht", "radau-iia", "energy-decaying"] {
+    for scheme in ["generalized-alpha", "hht", "radau-iia", "radau-iia-5", "energy-decaying"] {
         for step in ["0.011", "0.02", "0.04"] {
             let [scheme, step] = [format!("analysis.scheme={scheme}"), format!("analysis.step={step}")];
             let told = lissom(&["run", top, "--no-plots", "--set", &scheme, "--set", &step], folder.path());

@@ -4,7 +4,7 @@ use crate::support::rail::{force, rail};
 use crate::support::refused::refused;
 use crate::support::sessions::finished;
 
-const SCHEMES: [&str; 4] = ["radau-iia", "energy-decaying", "generalized-alpha", "hht"];
+const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "energy-decaying", "generalized-alpha", "hht"];
 
 /// A mass of 1 kg with 1 m/s that meets a law of force after 0.05 m, at 0.05 s.
 fn impact(law: &str, analysis: &str) -> String {

@@ -12,7 +12,7 @@ use lissom::Model;
 use lissom::modes::{About, ModeRequest, modes};
 use lissom::reduce::{ReduceError, ReduceReport, ReduceRequest, reduce};
 
-const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
+const SCHEMES: [&str; 5] = ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
 
 fn set(path: &str, value: &str) -> (String, String) {
     (path.to_owned(), value.to_owned())

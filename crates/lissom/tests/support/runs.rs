@@ -3,7 +3,8 @@
 use lissom::{Model, Record, Session, SessionError};
 
 /// All schemes of motion.
-pub(crate) const SCHEMES: [&str; 4] = ["radau-iia", "generalized-alpha", "hht", "energy-decaying"];
+pub(crate) const SCHEMES: [&str; 5] =
+    ["radau-iia", "radau-iia-5", "generalized-alpha", "hht", "energy-decaying"];
 
 /// An override.
 pub(crate) fn set(path: &str, value: &str) -> (String, String) {

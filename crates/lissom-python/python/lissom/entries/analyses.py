@@ -35,7 +35,7 @@ class Dynamics(Analysis):
         doubled: the same to be doubled; default none; a list of `"tangent-cost"`, `"novelty"`, `"unseen"`, `"contraction"`, `"stalled"`, `"small"`, `"secant-independence"`, `"secant-reach"`, `"secant-credible"`, `"prediction-fading"`, `"prediction-credible"`, `"far"`, `"largest-correction"`, `"least-departure"`, `"safety"`, `"growth"`, `"kept"`, `"share-of-step"`, `"share-of-first"`, `"parts-to-grow"`, or nothing.
         output_every: steps from record to record, default 1; a whole number from 1 to 1000000000, or nothing.
         frames_per_second: of the motion that `lissom view` shows, per simulated second; default at most 600 over the run [1/s]; a number > 0, or nothing.
-        scheme: time integration scheme; `"generalized-alpha"`, `"hht"`, `"radau-iia"`, `"energy-decaying"`, or nothing.
+        scheme: time integration scheme; `"generalized-alpha"`, `"hht"`, `"radau-iia"`, `"radau-iia-5"`, `"energy-decaying"`, or nothing.
         end: last time [s]; a number.
         step: time step; with `relative_tolerance` the first one [s]; a number > 0, or nothing.
         relative_tolerance: error allowed per step, relative to the motion: steps are chosen to keep it; default 1e-5 without `step`; a number from 0.0000 to 0.1, or nothing.
@@ -61,7 +61,7 @@ class Dynamics(Analysis):
     doubled: list[Literal["tangent-cost", "novelty", "unseen", "contraction", "stalled", "small", "secant-independence", "secant-reach", "secant-credible", "prediction-fading", "prediction-credible", "far", "largest-correction", "least-departure", "safety", "growth", "kept", "share-of-step", "share-of-first", "parts-to-grow"]] | None = None
     output_every: Count | None = None
     frames_per_second: Number | None = None
-    scheme: Literal["generalized-alpha", "hht", "radau-iia", "energy-decaying"] | None = None
+    scheme: Literal["generalized-alpha", "hht", "radau-iia", "radau-iia-5", "energy-decaying"] | None = None
     end: Number
     step: Number | None = None
     relative_tolerance: Number | None = None

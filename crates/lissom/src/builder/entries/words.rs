@@ -69,11 +69,12 @@ words! {
 }
 
 words! {
-    /// One of `generalized-alpha`, `hht`, `radau-iia`, `energy-decaying`.
+    /// One of `generalized-alpha`, `hht`, `radau-iia`, `radau-iia-5`, `energy-decaying`.
     Scheme;
     GeneralizedAlpha = "generalized-alpha";
     Hht = "hht";
     RadauIia = "radau-iia";
+    RadauIia5 = "radau-iia-5";
     EnergyDecaying = "energy-decaying";
 }
 
