@@ -6,8 +6,8 @@
 
 use nalgebra::DMatrix;
 
+use crate::joints::MOST_COORDINATES;
 use crate::joints::attached::AttachedJoint;
-use crate::joints::{MOST_COORDINATES, Relative};
 use crate::kinematics::{Kinematics, Quantity};
 use crate::system::System;
 
@@ -50,21 +50,28 @@ pub(crate) fn lost(system: &System, start: &Kinematics, at: &Kinematics, length:
     least.map(|(_, found)| found)
 }
 
-/// The joint that a step has led to a branch of solutions that it cannot reach: across a pose in which one of its equations vanishes.
-pub(crate) fn on_another_branch(system: &System, end: &Kinematics) -> Option<LostHold> {
+/// The joint that a step has led across a pose in which one of its equations vanishes: the gradient of an equation turns by more
+/// than a right angle, or the step ends on a branch of solutions that the joint cannot reach.
+pub(crate) fn crossed(system: &System, start: &Kinematics, end: &Kinematics) -> Option<LostHold> {
     system.joints().iter().find_map(|joint| {
         let branch = joint.joint().branch()?;
-        let relative = Relative::at_start(&joint.relative_motion(end));
-        if branch(&relative) >= 0.0 {
+        let poses = [start, end].map(|at| joint.outright(at));
+        let [before, after] = poses.each_ref().map(|pose| joint.own_gradient(pose));
+        let turned = |&row: &usize| {
+            let relative = before.relative.row(row).dot(&after.relative.row(row));
+            relative + before.own.row(row).dot(&after.own.row(row)) < 0.0
+        };
+        let reversed = (0..joint.equations()).find(turned);
+        if branch(&poses[1].0) >= 0.0 && reversed.is_none() {
             return None;
         }
         let equations = joint.joint().equations();
-        let equation = hold(joint, end, 1.0).map_or(equations.len() - 1, |(_, equation)| equation);
+        let least = || hold(joint, end, 1.0).map_or(equations.len() - 1, |(_, equation)| equation);
         Some(LostHold {
             joint: joint.name.clone(),
             kind: joint.kind,
-            equation: equations[equation],
-            angle: joint.relative_motion(end).rotation.logarithm().norm(),
+            equation: equations[reversed.unwrap_or_else(least)],
+            angle: joint.relative_motion(start).rotation.logarithm().norm(),
         })
     })
 }
@@ -111,9 +118,8 @@ mod tests {
     use crate::registry::Parameters;
     use crate::system::{Builder, Placement};
 
-    /// Shafts bent by 160 degrees, with the output at the angle of the input and half a turn beside it: both satisfy the equation.
-    #[test]
-    fn a_step_across_half_a_turn_ends_on_another_branch() {
+    /// A joint without parts of its own, and the motion with its tip bent about an axis across the shaft, then turned about its own.
+    fn bent(angle: f64, beside: f64) -> (System, Kinematics) {
         let mut builder = Builder::new();
         let tip = builder.add_node("tip", Motion::identity(), Freedoms::Full);
         let kind = KINDS.iter().find(|kind| kind.name == "constant_velocity").expect("there");
@@ -122,13 +128,28 @@ mod tests {
             Placement { nodes: [builder.ground(), tip], at, at_tip: None, axis, second_axis: None };
         builder.add_joint("j", kind, &placement, &Parameters::new()).expect("valid");
         let (system, state) = builder.build(0.0).expect("valid");
+        let mut at = state.kinematics;
+        let bend = Rotation::exponential(&Vector3::new(angle.to_radians(), 0.0, 0.0));
+        let rotation = at.nodes[tip].frame.rotation;
+        at.nodes[tip].frame.rotation =
+            rotation * bend * Rotation::exponential(&Vector3::new(0.0, 0.0, beside));
+        (system, at)
+    }
+
+    /// Shafts bent by 160 degrees, with the output at the angle of the input and half a turn beside it: both satisfy the equation.
+    #[test]
+    fn a_step_across_half_a_turn_ends_on_another_branch() {
+        let (system, start) = bent(160.0, 0.0);
         for (beside, is_other) in [(0.0, false), (0.3, false), (PI, true), (PI - 0.3, true)] {
-            let mut at = state.kinematics.clone();
-            let axes = state.kinematics.nodes[tip].frame.rotation;
-            let bent = Rotation::exponential(&Vector3::new(160.0_f64.to_radians(), 0.0, 0.0));
-            at.nodes[tip].frame.rotation =
-                axes * bent * Rotation::exponential(&Vector3::new(0.0, 0.0, beside));
-            assert_eq!(on_another_branch(&system, &at).is_some(), is_other, "{beside}");
+            assert_eq!(crossed(&system, &start, &bent(160.0, beside).1).is_some(), is_other, "{beside}");
         }
+    }
+
+    /// Beyond half a turn the shafts are bent to the other side.
+    #[test]
+    fn a_step_through_half_a_turn_is_seen() {
+        let (system, start) = bent(178.0, 0.0);
+        assert!(crossed(&system, &start, &bent(179.5, 0.0).1).is_none());
+        assert!(crossed(&system, &start, &bent(181.0, 0.0).1).is_some());
     }
 }

@@ -70,7 +70,7 @@ impl Judge<'_> {
             positive_mass(self.system, &end.kinematics)?;
         }
         if let Some(held::LostHold { joint, kind, equation, angle }) =
-            held::on_another_branch(self.system, &end.kinematics)
+            held::crossed(self.system, &start.kinematics, &end.kinematics)
         {
             let (time, angle) = (end.kinematics.time, angle.to_degrees());
             return Err(StepError::JointLosesHold { time, joint, kind, equation, angle });
