@@ -289,10 +289,13 @@ fn constraints_do_not_drift_and_the_top_keeps_its_energy() {
     assert!(worst < 1e-13, "{worst:e}");
     let totals = simulation.totals();
     let per_step = totals.newton_iterations as f64 / totals.steps as f64;
-    // How often the tangent is renewed depends on the last digits, and so on the processor.
-    let tens = 10 * ((totals.factorizations + 5) / 10);
-    let figure =
-        format!("violation below 1e-13 m, {per_step:.1} iterations per step, about {tens} factorisations");
+    // How often the tangent is renewed depends on the last digits, and so on the processor and on
+    // the order of a sum: the page states a bound.
+    let bound = 500;
+    assert!(totals.factorizations < bound, "{}", totals.factorizations);
+    let figure = format!(
+        "violation below 1e-13 m, {per_step:.1} iterations per step, fewer than {bound} factorisations"
+    );
     let page = include_str!("../../../docs/measured.md");
     assert!(page.contains(&figure), "docs/measured.md does not say: {figure}");
     assert!(change.abs() < 1e-5 && change < 1e-9, "{change:e}");
